@@ -1,0 +1,352 @@
+//! A control with everything it inherits, ready for look-up.
+//!
+//! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
+
+use crate::schema::{
+    Access, CodeEntry, Confidence, FunctionEntry, Hint, LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules,
+    Reference, SettingEntry, SyntaxRules, VariableEntry,
+};
+use crate::{CodeNumber, Letter, LetterSet};
+
+/// Index of a code in its control; small, so that a word of a program can carry it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct CodeIx(u16);
+
+impl CodeIx {
+    /// "No such code": what a word holds whose code the control does not have.
+    pub const NONE: Self = Self(u16::MAX);
+
+    /// A number usable as an index into tables made from [`Control::codes`]; out of range for [`CodeIx::NONE`].
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+
+    /// False for [`CodeIx::NONE`].
+    pub fn is_some(self) -> bool {
+        self != Self::NONE
+    }
+}
+
+/// Index of a modal group in its control.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct GroupIx(u8);
+
+impl GroupIx {
+    /// A small number usable as an index or a bit.
+    pub fn index(self) -> usize {
+        usize::from(self.0)
+    }
+}
+
+/// One control: the resolved knowledge of a `data/` folder and its bases.
+#[derive(Debug, Clone)]
+pub struct Control {
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) machine: Machine,
+    pub(crate) syntax: SyntaxRules,
+    pub(crate) numbers: NumberRules,
+    pub(crate) limits: Limits,
+    pub(crate) phases: Vec<String>,
+    pub(crate) axes: LetterSet,
+    pub(crate) hints: Vec<Hint>,
+    pub(crate) references: Vec<Reference>,
+    pub(crate) groups: Vec<ModalGroup>,
+    pub(crate) codes: Vec<CodeFacts>,
+    pub(crate) by_number: [Vec<CodeIx>; 2],
+    pub(crate) letters: Vec<Option<LetterEntry>>,
+    pub(crate) variables: Vec<VariableEntry>,
+    pub(crate) functions: Vec<FunctionEntry>,
+    pub(crate) settings: Vec<SettingEntry>,
+}
+
+/// A code and what is derived from its entry once, at load time.
+#[derive(Debug, Clone)]
+pub(crate) struct CodeFacts {
+    pub(crate) entry: CodeEntry,
+    pub(crate) number: CodeNumber,
+    pub(crate) group: GroupIx,
+    pub(crate) reads: LetterSet,
+    pub(crate) user: bool,
+}
+
+/// A code that the user's configuration declares: a shop's M code or an alias of a macro.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UserCode {
+    /// The code.
+    pub number: CodeNumber,
+    /// Title for hover and listings.
+    pub title: String,
+    /// The program an alias calls, `O9010`.
+    pub alias: Option<String>,
+}
+
+/// A code seen through its control.
+#[derive(Debug, Clone, Copy)]
+pub struct Code<'c> {
+    control: &'c Control,
+    facts: &'c CodeFacts,
+}
+
+impl<'c> Code<'c> {
+    /// The entry as written in data.
+    pub fn entry(self) -> &'c CodeEntry {
+        &self.facts.entry
+    }
+
+    /// The code's number.
+    pub fn number(self) -> CodeNumber {
+        self.facts.number
+    }
+
+    /// The modal group.
+    pub fn group(self) -> &'c ModalGroup {
+        self.control.group(self.facts.group)
+    }
+
+    /// The modal group's index.
+    pub fn group_ix(self) -> GroupIx {
+        self.facts.group
+    }
+
+    /// Addresses that the code reads.
+    pub fn reads(self) -> LetterSet {
+        self.facts.reads
+    }
+
+    /// Declared by the user, so nothing is known about its words.
+    pub fn is_user(self) -> bool {
+        self.facts.user
+    }
+
+    /// What moves.
+    pub fn motion(self) -> Motion {
+        self.facts.entry.motion
+    }
+}
+
+/// What is known about one macro variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Variable<'c> {
+    /// The control has it.
+    Known(&'c VariableEntry),
+    /// Not among the variables listed for the control.
+    Unlisted,
+}
+
+impl Control {
+    /// Identifier: the folder's name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Name for people.
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Mill or lathe.
+    pub fn machine(&self) -> Machine {
+        self.machine
+    }
+
+    /// How text is read.
+    pub fn syntax(&self) -> &SyntaxRules {
+        &self.syntax
+    }
+
+    /// How numbers are read.
+    pub fn numbers(&self) -> &NumberRules {
+        &self.numbers
+    }
+
+    /// Limits of the control.
+    pub fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    /// Order in which the parts of a block take effect.
+    pub fn phases(&self) -> &[String] {
+        &self.phases
+    }
+
+    /// Axis addresses that machines with this control may have.
+    pub fn axes(&self) -> LetterSet {
+        self.axes
+    }
+
+    /// Hints by which a program shows that it is written for this control.
+    pub fn hints(&self) -> &[Hint] {
+        &self.hints
+    }
+
+    /// Manuals and pages that sources refer to.
+    pub fn references(&self) -> &[Reference] {
+        &self.references
+    }
+
+    /// All modal groups.
+    pub fn groups(&self) -> &[ModalGroup] {
+        &self.groups
+    }
+
+    /// A modal group.
+    #[expect(clippy::indexing_slicing, reason = "a GroupIx is only made by the loader for an existing group")]
+    pub fn group(&self, ix: GroupIx) -> &ModalGroup {
+        &self.groups[ix.index()]
+    }
+
+    /// The group with an identifier.
+    pub fn group_by_id(&self, id: &str) -> Option<GroupIx> {
+        self.groups.iter().position(|g| g.id == id).map(|ix| GroupIx(ix as u8))
+    }
+
+    /// All codes, in order of their numbers.
+    pub fn codes(&self) -> impl Iterator<Item = Code<'_>> {
+        self.codes.iter().map(|facts| Code { control: self, facts })
+    }
+
+    /// Index of a code, [`CodeIx::NONE`] if the control does not have it.
+    pub fn code_ix(&self, number: CodeNumber) -> CodeIx {
+        let [g, m] = &self.by_number;
+        let table = if number.letter() == b'G' { g } else { m };
+        table.get(usize::from(number.tenths())).copied().unwrap_or(CodeIx::NONE)
+    }
+
+    /// A code by its number.
+    pub fn code(&self, number: CodeNumber) -> Option<Code<'_>> {
+        self.code_at(self.code_ix(number))
+    }
+
+    /// A code by its index.
+    pub fn code_at(&self, ix: CodeIx) -> Option<Code<'_>> {
+        self.codes.get(usize::from(ix.0)).map(|facts| Code { control: self, facts })
+    }
+
+    /// An address as read when no code of the block says otherwise.
+    pub fn letter(&self, letter: Letter) -> Option<&LetterEntry> {
+        self.letters.get(letter.index())?.as_ref()
+    }
+
+    /// A numbered macro variable.
+    pub fn variable(&self, number: u32) -> Variable<'_> {
+        // Later entries are more special than earlier ones, and a narrower range beats a wider one.
+        self.variables
+            .iter()
+            .filter(|v| v.range.is_some_and(|[first, last]| (first..=last).contains(&number)))
+            .min_by_key(|v| v.range.map_or(u32::MAX, |[first, last]| last - first))
+            .map_or(Variable::Unlisted, Variable::Known)
+    }
+
+    /// A predefined named parameter, by its name without brackets, any case.
+    pub fn named_parameter(&self, name: &str) -> Option<&VariableEntry> {
+        self.variables.iter().find(|v| v.name.as_deref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
+    }
+
+    /// All variables listed for the control.
+    pub fn variables(&self) -> &[VariableEntry] {
+        &self.variables
+    }
+
+    /// All functions of macro expressions.
+    pub fn functions(&self) -> &[FunctionEntry] {
+        &self.functions
+    }
+
+    /// Settings or parameters that change what a program means.
+    pub fn settings(&self) -> &[SettingEntry] {
+        &self.settings
+    }
+
+    /// A setting by its number.
+    pub fn setting(&self, number: &str) -> Option<&SettingEntry> {
+        self.settings.iter().find(|s| s.number == number)
+    }
+
+    /// The same control with codes that the user's configuration declares, which replace entries of the same number.
+    #[must_use]
+    pub fn with_user_codes(&self, user: &[UserCode]) -> Self {
+        let mut control = self.clone();
+        for code in user {
+            let group = control.user_group();
+            let entry = CodeEntry {
+                code: code.number.to_string(),
+                title: code.title.clone(),
+                group: control.group(group).id.clone(),
+                phase: control.phases.last().cloned().unwrap_or_default(),
+                summary: match &code.alias {
+                    Some(program) => format!("Calls {program} (declared in the configuration)."),
+                    None => "Declared in the configuration.".to_owned(),
+                },
+                words: Vec::new(),
+                any_words: true,
+                one_of: Vec::new(),
+                not_together: Vec::new(),
+                forbidden: Vec::new(),
+                requires: Vec::new(),
+                recommends: Vec::new(),
+                forbids: Vec::new(),
+                conflicts: Vec::new(),
+                cancels: Vec::new(),
+                cancelled_by: Vec::new(),
+                motion: Motion::None,
+                takes_axes: true,
+                alone: false,
+                ends: None,
+                option: None,
+                alarms: Vec::new(),
+                hover: None,
+                setup: Vec::new(),
+                example: code.number.to_string(),
+                source: "the user's configuration".to_owned(),
+                confidence: Confidence::Manual,
+            };
+            let facts = CodeFacts { entry, number: code.number, group, reads: LetterSet::EMPTY, user: true };
+            control.put_code(facts);
+        }
+        control
+    }
+
+    /// Is the variable writable by a program, as far as is known?
+    pub fn is_writable(&self, number: u32) -> bool {
+        !matches!(self.variable(number), Variable::Known(v) if v.access == Access::Read)
+    }
+
+    pub(crate) fn put_code(&mut self, facts: CodeFacts) {
+        let at = match self.codes.iter().position(|c| c.number == facts.number) {
+            Some(at) => at,
+            None => self.codes.len(),
+        };
+        let [g, m] = &mut self.by_number;
+        let table = if facts.number.letter() == b'G' { g } else { m };
+        let tenths = usize::from(facts.number.tenths());
+        if table.len() <= tenths {
+            table.resize(tenths + 1, CodeIx::NONE);
+        }
+        if let Some(slot) = table.get_mut(tenths) {
+            *slot = CodeIx(at as u16);
+        }
+        match self.codes.get_mut(at) {
+            Some(old) => *old = facts,
+            None => self.codes.push(facts),
+        }
+    }
+
+    /// The group of declared codes: not exclusive, made on first use.
+    fn user_group(&mut self) -> GroupIx {
+        const ID: &str = "user";
+        self.group_by_id(ID).unwrap_or_else(|| {
+            self.groups.push(ModalGroup {
+                id: ID.to_owned(),
+                number: None,
+                title: "codes of the user".to_owned(),
+                modal: false,
+                exclusive: false,
+                default: None,
+                source: "the user's configuration".to_owned(),
+                confidence: Confidence::Manual,
+            });
+            GroupIx((self.groups.len() - 1) as u8)
+        })
+    }
+}

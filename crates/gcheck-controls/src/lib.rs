@@ -1,0 +1,30 @@
+//! What CNC controls know: codes, modal groups, addresses, variables, settings and limits, as data with sources.
+//!
+//! Knows: the data files under `data/<control>/`, inheritance between controls, and how to look facts up.
+//! Must not know: syntax trees, programs, or the name of any control: a control is a folder, and nothing here or above
+//! asks which one it is.
+//!
+//! ```
+//! let control = gcheck_controls::load("linuxcnc").unwrap();
+//! let g43 = control.code(gcheck_controls::CodeNumber::g(43)).unwrap();
+//! assert_eq!(g43.group().id, "tool-length");
+//! ```
+
+mod code_number;
+mod control;
+mod detect;
+mod letter_set;
+mod loader;
+mod schema;
+mod validate;
+
+pub use code_number::CodeNumber;
+pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
+pub use detect::{Evidence, Guess, guess};
+pub use letter_set::{Letter, LetterSet};
+pub use loader::{LoadError, load, names};
+pub use schema::{
+    Access, AlarmEntry, CodeEntry, Confidence, Ends, FunctionEntry, Hint, LetterEntry, Limits, Machine, ModalGroup, Motion, Need,
+    NumberRules, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, WordKind,
+};
+pub use validate::problems;

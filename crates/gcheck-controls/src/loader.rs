@@ -1,0 +1,231 @@
+//! From the embedded data files to a [`Control`]: parsing, inheritance, indexes.
+//!
+//! Knows: TOML, bases, `removed`. Must not know: what the facts mean (see [`crate::validate`] for consistency).
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+
+use crate::control::CodeFacts;
+use crate::schema::{
+    CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry, LettersFile, Machine, ModalGroup, SettingEntry,
+    SettingsFile, VariableEntry, VariablesFile,
+};
+use crate::{CodeNumber, Control, Letter, LetterSet};
+
+/// The files of one `data/` folder.
+pub(crate) struct Source {
+    name: &'static str,
+    files: &'static [(&'static str, &'static str)],
+}
+
+include!(concat!(env!("OUT_DIR"), "/sources.rs"));
+
+/// Why a control cannot be loaded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LoadError {
+    /// No control of this name; `names` lists those that can be chosen.
+    Unknown {
+        /// The name asked for.
+        name: String,
+    },
+    /// A data file is not as the schema wants it. Cannot happen in a released build: a test loads every control.
+    Data {
+        /// `folder/file.toml`.
+        file: String,
+        /// What is wrong, with its line.
+        message: String,
+    },
+}
+
+impl fmt::Display for LoadError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown { name } => write!(f, "no control is called `{name}`; choose one of {}", names().join(", ")),
+            Self::Data { file, message } => write!(f, "knowledge base: {file}: {message}"),
+        }
+    }
+}
+
+impl std::error::Error for LoadError {}
+
+static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
+    SOURCES.iter().filter(|s| control_file(s).is_ok_and(|c| !c.is_abstract)).map(|s| s.name).collect()
+});
+
+/// Names of the controls that can be chosen, in alphabetical order.
+pub fn names() -> &'static [&'static str] {
+    &NAMES
+}
+
+/// The control of a name, loaded once per process.
+///
+/// # Errors
+/// [`LoadError::Unknown`] when no control that can be chosen has the name.
+pub fn load(name: &str) -> Result<Arc<Control>, LoadError> {
+    static LOADED: LazyLock<Mutex<HashMap<&'static str, Arc<Control>>>> = LazyLock::new(Mutex::default);
+    let Some(name) = names().iter().find(|n| **n == name) else {
+        return Err(LoadError::Unknown { name: name.to_owned() });
+    };
+    // A panic while the map was locked cannot have left it half-written: entries are inserted whole.
+    let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(control) = loaded.get(name) {
+        return Ok(Arc::clone(control));
+    }
+    let control = Arc::new(resolve(name)?);
+    loaded.insert(name, Arc::clone(&control));
+    Ok(control)
+}
+
+/// Detection needs only the hints, which stand in `control.toml`: no code table is read for it.
+pub(crate) fn all_control_files() -> impl Iterator<Item = ControlFile> {
+    SOURCES.iter().filter_map(|s| control_file(s).ok()).filter(|c| !c.is_abstract)
+}
+
+fn control_file(source: &Source) -> Result<ControlFile, LoadError> {
+    parse_file(source, "control.toml").map(|f| {
+        f.unwrap_or_else(|| unreachable!("the build script lists only folders that have a control.toml"))
+    })
+}
+
+fn parse_file<T: serde::de::DeserializeOwned>(source: &Source, file: &str) -> Result<Option<T>, LoadError> {
+    let Some((_, text)) = source.files.iter().find(|(name, _)| *name == file) else { return Ok(None) };
+    toml::from_str(text)
+        .map(Some)
+        .map_err(|e| LoadError::Data { file: format!("{}/{file}", source.name), message: e.to_string() })
+}
+
+fn source(name: &str) -> Result<&'static Source, LoadError> {
+    SOURCES.iter().find(|s| s.name == name).ok_or_else(|| LoadError::Unknown { name: name.to_owned() })
+}
+
+/// Everything collected from the most basic control upward.
+#[derive(Default)]
+struct Layers {
+    head: Option<ControlFile>,
+    groups: Vec<ModalGroup>,
+    codes: Vec<CodeEntry>,
+    letters: Vec<LetterEntry>,
+    variables: Vec<VariableEntry>,
+    functions: Vec<FunctionEntry>,
+    settings: Vec<SettingEntry>,
+}
+
+fn resolve(name: &str) -> Result<Control, LoadError> {
+    let mut chain = vec![source(name)?];
+    let mut base = control_file(source(name)?)?.base;
+    while let Some(name) = base {
+        let next = source(&name)?;
+        if chain.iter().any(|s| s.name == next.name) || chain.len() > 8 {
+            return Err(data_error(name, "is its own base"));
+        }
+        base = control_file(next)?.base;
+        chain.push(next);
+    }
+    let mut layers = Layers::default();
+    for source in chain.into_iter().rev() {
+        add_layer(&mut layers, source)?;
+    }
+    finish(layers)
+}
+
+fn data_error(name: impl Into<String>, message: &str) -> LoadError {
+    LoadError::Data { file: format!("{}/control.toml", name.into()), message: message.to_owned() }
+}
+
+/// Puts one folder over what its bases gave: an entry with the same key replaces the base's entry whole.
+fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
+    let mut head = control_file(source)?;
+    if let Some(base) = layers.head.take() {
+        head.machine = head.machine.or(base.machine);
+        head.syntax = head.syntax.or(base.syntax);
+        head.numbers = head.numbers.or(base.numbers);
+        head.limits = head.limits.or(base.limits);
+        if head.phases.is_empty() {
+            head.phases = base.phases;
+        }
+        if head.axes.is_empty() {
+            head.axes = base.axes;
+        }
+        let own: Vec<_> = head.references.iter().map(|r| r.id.clone()).collect();
+        head.references.extend(base.references.into_iter().filter(|r| !own.contains(&r.id)));
+    }
+    layers.codes.retain(|c| !head.removed.contains(&c.code));
+    layers.head = Some(head);
+    if let Some(file) = parse_file::<GroupsFile>(source, "groups.toml")? {
+        put_all(&mut layers.groups, file.groups, |g| g.id.clone());
+    }
+    for name in ["codes-g.toml", "codes-m.toml"] {
+        if let Some(file) = parse_file::<CodesFile>(source, name)? {
+            put_all(&mut layers.codes, file.codes, |c| c.code.clone());
+        }
+    }
+    if let Some(file) = parse_file::<LettersFile>(source, "letters.toml")? {
+        put_all(&mut layers.letters, file.letters, |l| l.letter.clone());
+    }
+    if let Some(file) = parse_file::<VariablesFile>(source, "variables.toml")? {
+        put_all(&mut layers.variables, file.variables, |v| (v.range, v.name.clone()));
+        put_all(&mut layers.functions, file.functions, |f| f.name.clone());
+    }
+    if let Some(file) = parse_file::<SettingsFile>(source, "settings.toml")? {
+        put_all(&mut layers.settings, file.settings, |s| s.number.clone());
+    }
+    Ok(())
+}
+
+fn put_all<T, K: Eq + std::hash::Hash>(into: &mut Vec<T>, from: Vec<T>, key: impl Fn(&T) -> K) {
+    let mut places: HashMap<K, usize> = into.iter().enumerate().map(|(ix, item)| (key(item), ix)).collect();
+    for item in from {
+        match places.get(&key(&item)).and_then(|ix| into.get_mut(*ix)) {
+            Some(old) => *old = item,
+            None => {
+                places.insert(key(&item), into.len());
+                into.push(item);
+            }
+        }
+    }
+}
+
+fn finish(layers: Layers) -> Result<Control, LoadError> {
+    let Some(head) = layers.head else { return Err(data_error("?", "has no layers")) };
+    let name = head.name.clone();
+    let missing = |what: &str| data_error(&name, &format!("neither the control nor a base gives `{what}`"));
+    let mut control = Control {
+        machine: head.machine.unwrap_or(Machine::Mill),
+        syntax: head.syntax.ok_or_else(|| missing("syntax"))?,
+        numbers: head.numbers.ok_or_else(|| missing("numbers"))?,
+        limits: head.limits.unwrap_or_default(),
+        phases: head.phases,
+        axes: head.axes.iter().filter_map(|a| Letter::parse(a)).collect(),
+        hints: head.detect,
+        references: head.references,
+        name: head.name,
+        title: head.title,
+        groups: layers.groups,
+        codes: Vec::with_capacity(layers.codes.len()),
+        by_number: [Vec::new(), Vec::new()],
+        letters: vec![None; Letter::COUNT],
+        variables: layers.variables,
+        functions: layers.functions,
+        settings: layers.settings,
+    };
+    let mut codes = layers.codes;
+    codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));
+    for entry in codes {
+        let number = CodeNumber::parse(&entry.code)
+            .ok_or_else(|| data_error(&control.name, &format!("`{}` is no code", entry.code)))?;
+        let group = control.group_by_id(&entry.group).ok_or_else(|| {
+            data_error(&control.name, &format!("{} names the group `{}`, which does not exist", entry.code, entry.group))
+        })?;
+        let reads: LetterSet = entry.words.iter().filter_map(|w| Letter::parse(&w.letter)).collect();
+        control.put_code(CodeFacts { entry, number, group, reads, user: false });
+    }
+    for entry in layers.letters {
+        let letter = Letter::parse(&entry.letter)
+            .ok_or_else(|| data_error(&control.name, &format!("`{}` is no address", entry.letter)))?;
+        if let Some(slot) = control.letters.get_mut(letter.index()) {
+            *slot = Some(entry);
+        }
+    }
+    Ok(control)
+}

@@ -1,0 +1,621 @@
+//! The shape of the data files under `data/<control>/`, exactly as they are written.
+//!
+//! Knows: field names, defaults, the closed vocabularies. Must not know: inheritance, validation, look-up (see
+//! [`crate::loader`] and [`crate::control`]). `data/README.md` explains every field to the authors of data.
+
+use serde::Deserialize;
+
+/// `control.toml`: what kind of control this is, and how it reads text and numbers.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ControlFile {
+    pub(crate) name: String,
+    pub(crate) title: String,
+    /// A base control that is never chosen by a user (`haas`, `fanuc`).
+    #[serde(default, rename = "abstract")]
+    pub(crate) is_abstract: bool,
+    #[serde(default)]
+    pub(crate) base: Option<String>,
+    #[serde(default)]
+    pub(crate) machine: Option<Machine>,
+    /// Codes of the base that this control does not have.
+    #[serde(default)]
+    pub(crate) removed: Vec<String>,
+    #[serde(default)]
+    pub(crate) syntax: Option<SyntaxRules>,
+    #[serde(default)]
+    pub(crate) numbers: Option<NumberRules>,
+    #[serde(default)]
+    pub(crate) limits: Option<Limits>,
+    /// Order in which the parts of one block take effect; identifiers used by `phase` of the codes.
+    #[serde(default)]
+    pub(crate) phases: Vec<String>,
+    #[serde(default)]
+    pub(crate) axes: Vec<String>,
+    #[serde(default, rename = "detect")]
+    pub(crate) detect: Vec<Hint>,
+    #[serde(default, rename = "reference")]
+    pub(crate) references: Vec<Reference>,
+}
+
+/// Mill or lathe: decides what `X` measures and what the plane is at power-on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Machine {
+    /// Machining centre.
+    Mill,
+    /// Turning centre: `X` is a diameter.
+    Lathe,
+}
+
+/// How the control reads a line of text.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a control, named one by one in data")]
+pub struct SyntaxRules {
+    /// What `;` means.
+    pub semicolon: Semicolon,
+    /// Blanks may stand inside a number: `X 1. 5` is `X1.5`.
+    pub blanks_in_numbers: bool,
+    /// `O100 SUB`, `O<name> CALL`: flow control by O-words.
+    pub o_words: bool,
+    /// `IF … GOTO`, `WHILE … DO … END`, `DPRNT`.
+    pub macro_statements: bool,
+    /// `#<name>`.
+    pub named_parameters: bool,
+    /// An expression after `=` may stand without brackets: `#1=#2+3`.
+    pub bare_expressions: bool,
+    /// More than one assignment in a block.
+    pub several_assignments: bool,
+    /// `:1234` for a program number.
+    pub colon_program: bool,
+    /// `O1234` at the head names a program.
+    pub program_number: bool,
+    /// `/1` to `/9`.
+    pub block_delete_levels: bool,
+    /// `/` may stand after the first word.
+    pub block_delete_inside: bool,
+    /// Lower-case letters are read.
+    pub lower_case: bool,
+    /// `AND`, `OR`, `XOR` bind weaker than comparisons (LinuxCNC); else `AND` binds as `*`, the others as `+`.
+    pub logic_binds_last: bool,
+    /// `**` is an operator.
+    pub power_operator: bool,
+}
+
+/// What a semicolon does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Semicolon {
+    /// A comment to the end of the line.
+    Comment,
+    /// The end-of-block character: what follows is a block of its own.
+    EndOfBlock,
+}
+
+/// How the control reads numbers.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct NumberRules {
+    /// What a length without a decimal point counts.
+    pub unpointed: Unpointed,
+    /// The setting or parameter that changes this, as the control calls it.
+    #[serde(default)]
+    pub unpointed_setting: Option<String>,
+    /// Least input increment of a length under G20, in inches.
+    pub least_inch: f64,
+    /// Least input increment of a length under G21, in millimetres.
+    pub least_mm: f64,
+    /// Least input increment of an angle, in degrees.
+    pub least_angle: f64,
+    /// Whole numbers may carry a decimal point (`T1.`, `M3.0`).
+    #[serde(default)]
+    pub integers_take_point: bool,
+    /// Digits that a number may have, both sides of the point together.
+    #[serde(default)]
+    pub max_digits: Option<u8>,
+    /// Source and confidence of `max_digits`.
+    #[serde(default)]
+    pub max_digits_confidence: Option<Confidence>,
+    /// Where these rules stand.
+    pub source: String,
+    /// How sure they are.
+    pub confidence: Confidence,
+}
+
+/// What `X1` means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Unpointed {
+    /// One least increment: `X1` is 0.001 mm or 0.0001 inch.
+    LeastIncrement,
+    /// The number as it stands: `X1` is 1 mm or 1 inch.
+    AsWritten,
+    /// Either, by a parameter we do not know.
+    ByParameter,
+}
+
+/// Limits of the control, `None` where unknown.
+#[derive(Debug, Clone, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Limits {
+    /// Characters in one line.
+    #[serde(default)]
+    pub line_length: Option<u32>,
+    /// M codes in one block.
+    #[serde(default)]
+    pub m_codes_per_block: Option<u8>,
+    /// Confidence of `m-codes-per-block`.
+    #[serde(default)]
+    pub m_codes_confidence: Option<Confidence>,
+    /// Nesting of `[`.
+    #[serde(default)]
+    pub bracket_depth: Option<u8>,
+    /// Nesting of subprogram calls.
+    #[serde(default)]
+    pub call_depth: Option<u8>,
+    /// Highest `N`.
+    #[serde(default)]
+    pub max_sequence_number: Option<u32>,
+    /// Lowest and highest program number.
+    #[serde(default)]
+    pub program_numbers: Option<[u32; 2]>,
+    /// Numbers allowed after `DO` and `END`.
+    #[serde(default)]
+    pub do_numbers: Option<[u8; 2]>,
+    /// Where the limits stand.
+    #[serde(default)]
+    pub source: Option<String>,
+}
+
+/// One hint that a program is written for this control.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Hint {
+    /// A text in a comment (case does not matter, whole words), e.g. `VF-2`.
+    #[serde(default)]
+    pub comment: Option<String>,
+    /// A code that only this control (of those known) uses in this way, e.g. `G154`.
+    #[serde(default)]
+    pub code: Option<String>,
+    /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
+    /// `packed-tool` (`T0101`), `incremental-words` (`U`, `W`).
+    #[serde(default)]
+    pub form: Option<String>,
+    /// Points for this control.
+    pub weight: i32,
+}
+
+/// A manual or page that `source` of an entry refers to by `id`.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Reference {
+    /// Short name used in `source`.
+    pub id: String,
+    /// Title for people.
+    pub title: String,
+}
+
+/// How well a fact is founded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Confidence {
+    /// General knowledge, not checked against a page: never the ground of an error.
+    Assumed,
+    /// Seen on real programs or posts.
+    Observed,
+    /// A manual or the control's own source says so.
+    Manual,
+}
+
+/// `groups.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct GroupsFile {
+    #[serde(default, rename = "group")]
+    pub(crate) groups: Vec<ModalGroup>,
+}
+
+/// A modal group: of its codes at most one is active, and at most one may stand in a block.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ModalGroup {
+    /// Identifier shared by all controls, e.g. `motion`.
+    pub id: String,
+    /// The control's own number, e.g. `01`.
+    #[serde(default)]
+    pub number: Option<String>,
+    /// What the group decides, e.g. "motion".
+    pub title: String,
+    /// False for the group of one-shot codes.
+    #[serde(default = "yes")]
+    pub modal: bool,
+    /// Two codes of the group in one block are a mistake.
+    #[serde(default = "yes")]
+    pub exclusive: bool,
+    /// Code active at power-on; `None` where it depends on a setting or nothing is.
+    #[serde(default)]
+    pub default: Option<String>,
+    /// Where the group stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// `codes-*.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct CodesFile {
+    #[serde(default, rename = "code")]
+    pub(crate) codes: Vec<CodeEntry>,
+}
+
+/// One G or M code.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a code, named one by one in data")]
+pub struct CodeEntry {
+    /// Canonical spelling without leading zeros: `G1`, `G54.1`, `M6`.
+    pub code: String,
+    /// Names the function in a few words, lower case: "tool length compensation, positive".
+    pub title: String,
+    /// Modal group, an `id` of `groups.toml`.
+    pub group: String,
+    /// Place in the block's order of execution, one of the control's `phases`.
+    pub phase: String,
+    /// One true sentence.
+    pub summary: String,
+    /// Words the code reads.
+    #[serde(default)]
+    pub words: Vec<WordEntry>,
+    /// True when the code may be followed by words not listed (macro calls, aliases, printing).
+    #[serde(default)]
+    pub any_words: bool,
+    /// Of each list at least one word must stand in the block.
+    #[serde(default)]
+    pub one_of: Vec<Vec<String>>,
+    /// Of each list the items exclude each other; an item may be several letters: `["R", "IJK"]`.
+    #[serde(default)]
+    pub not_together: Vec<Vec<String>>,
+    /// Letters that must not stand in the block with this code, though another code could use them.
+    #[serde(default)]
+    pub forbidden: Vec<String>,
+    /// Codes that must be active (`G90`), or in the block.
+    #[serde(default)]
+    pub requires: Vec<String>,
+    /// Codes that the manual recommends to be active.
+    #[serde(default)]
+    pub recommends: Vec<String>,
+    /// Codes, or groups as `@canned-cycle`, that must not be commanded or active while this code is active.
+    #[serde(default)]
+    pub forbids: Vec<String>,
+    /// Codes, or groups as `@motion`, that must not stand in the same block.
+    #[serde(default)]
+    pub conflicts: Vec<String>,
+    /// Codes that this one ends.
+    #[serde(default)]
+    pub cancels: Vec<String>,
+    /// Codes or words (`H0`) that end this one.
+    #[serde(default)]
+    pub cancelled_by: Vec<String>,
+    /// What moves.
+    #[serde(default)]
+    pub motion: Motion,
+    /// Axis words in the block belong to this code, not to the active motion mode (`G10`, `G28`, `G52`, `G92`).
+    #[serde(default)]
+    pub takes_axes: bool,
+    /// No other code may stand in the block.
+    #[serde(default)]
+    pub alone: bool,
+    /// What comes to its end here.
+    #[serde(default)]
+    pub ends: Option<Ends>,
+    /// The machine needs this option, in words.
+    #[serde(default)]
+    pub option: Option<String>,
+    /// Alarms that misuse raises.
+    #[serde(default)]
+    pub alarms: Vec<AlarmEntry>,
+    /// Hover prose in Markdown: purpose, rules, common mistakes.
+    #[serde(default)]
+    pub hover: Option<String>,
+    /// Blocks that make `example` meaningful, e.g. `["T1 M6"]`.
+    #[serde(default)]
+    pub setup: Vec<String>,
+    /// One block that uses the code well; it is the entry's fixture.
+    pub example: String,
+    /// Where the entry stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// A word as one code reads it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct WordEntry {
+    /// The address, upper case; `,R` and `,C` for corner words.
+    pub letter: String,
+    /// Meaning in a few words.
+    pub is: String,
+    /// Kind of value.
+    #[serde(rename = "type")]
+    pub kind: WordKind,
+    /// Must it stand?
+    #[serde(default)]
+    pub need: Need,
+    /// For `need = "conditional"`: when, in words.
+    #[serde(default)]
+    pub when: Option<String>,
+    /// Smallest value.
+    #[serde(default)]
+    pub min: Option<f64>,
+    /// Largest value.
+    #[serde(default)]
+    pub max: Option<f64>,
+    /// The value must be greater than this.
+    #[serde(default)]
+    pub above: Option<f64>,
+    /// Value when left out, in words.
+    #[serde(default)]
+    pub default: Option<String>,
+    /// Confidence of this word's facts where it differs from the entry's.
+    #[serde(default)]
+    pub confidence: Option<Confidence>,
+}
+
+/// Must a word stand in the block?
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Need {
+    /// In every block with the code.
+    Required,
+    /// In the block, or given earlier and still in effect.
+    Modal,
+    /// May be left out.
+    #[default]
+    Optional,
+    /// Depends on what `when` says.
+    Conditional,
+}
+
+/// Kind of value behind an address.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WordKind {
+    /// A length; scaled when the decimal point is missing.
+    Length,
+    /// An angle in degrees; scaled when the decimal point is missing.
+    Angle,
+    /// A direction number, never converted between inch and millimetre.
+    Direction,
+    /// A whole number; a decimal point is refused.
+    Integer,
+    /// A plain number.
+    Real,
+    /// A feed rate.
+    Feed,
+    /// A spindle speed.
+    Speed,
+    /// Seconds with a decimal point, milliseconds without.
+    SecondsOrMilliseconds,
+    /// Seconds.
+    Seconds,
+    /// Milliseconds, a whole number.
+    Milliseconds,
+    /// A sequence number `N` in this program.
+    Label,
+    /// A program number.
+    Program,
+    /// A factor.
+    Ratio,
+    /// Only its presence counts.
+    Flag,
+}
+
+/// What a code makes move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Motion {
+    /// Nothing.
+    #[default]
+    None,
+    /// Rapid traverse.
+    Rapid,
+    /// Straight cutting feed.
+    Feed,
+    /// Circular or helical cutting feed.
+    Arc,
+    /// Feed synchronised with the spindle.
+    Thread,
+    /// Canned cycle, stays on for the following blocks.
+    Cycle,
+    /// A whole operation of one block (`G12`, `G150`, `G71`).
+    Operation,
+    /// Move until a probe or skip signal.
+    Probe,
+    /// Return to a reference position.
+    Reference,
+    /// Standing still for a time.
+    Dwell,
+    /// Spline or other curve.
+    Curve,
+}
+
+/// What a code brings to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ends {
+    /// The program (`M2`, `M30`).
+    Program,
+    /// A subprogram; a main program starts again (`M99`).
+    Subprogram,
+}
+
+/// An alarm that misuse of a code raises.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct AlarmEntry {
+    /// The control's number, where one is known: `PS0011`, `339`.
+    #[serde(default)]
+    pub number: Option<String>,
+    /// What happened, in our words.
+    pub text: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// `letters.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct LettersFile {
+    #[serde(default, rename = "letter")]
+    pub(crate) letters: Vec<LetterEntry>,
+}
+
+/// An address as the control reads it when no code of the block says otherwise.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of an address, named one by one in data")]
+pub struct LetterEntry {
+    /// The address, upper case; `,R` and `,C` for corner words.
+    pub letter: String,
+    /// Meaning in a few words.
+    pub is: String,
+    /// Kind of value.
+    #[serde(rename = "type")]
+    pub kind: WordKind,
+    /// An axis or its increment: belongs to the active motion mode.
+    #[serde(default)]
+    pub axis: bool,
+    /// May stand in any block, whatever its codes (`F`, `S`, `T`, `N`, axes).
+    #[serde(default)]
+    pub free: bool,
+    /// A minus sign is accepted.
+    #[serde(default)]
+    pub negative: bool,
+    /// Smallest value.
+    #[serde(default)]
+    pub min: Option<f64>,
+    /// Largest value.
+    #[serde(default)]
+    pub max: Option<f64>,
+    /// May stand more than once in a block (`G`, `M`, arguments).
+    #[serde(default)]
+    pub repeatable: bool,
+    /// A missing decimal point changes the value.
+    #[serde(default)]
+    pub scaled: bool,
+    /// The setting that changes how a missing decimal point is read, where it differs from the general one.
+    #[serde(default)]
+    pub scale_setting: Option<String>,
+    /// Where the entry stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// `variables.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct VariablesFile {
+    #[serde(default, rename = "variable")]
+    pub(crate) variables: Vec<VariableEntry>,
+    #[serde(default, rename = "function")]
+    pub(crate) functions: Vec<FunctionEntry>,
+}
+
+/// A macro variable, a range of them, or a predefined named parameter.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct VariableEntry {
+    /// First and last number; equal for one variable.
+    #[serde(default)]
+    pub range: Option<[u32; 2]>,
+    /// Name without brackets (`_feed`), instead of a range.
+    #[serde(default)]
+    pub name: Option<String>,
+    /// What it holds.
+    pub title: String,
+    /// Who may do what.
+    pub access: Access,
+    /// How long it lives.
+    pub kind: VariableKind,
+    /// Where the entry stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// Who may read or write a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Access {
+    /// Both.
+    ReadWrite,
+    /// Programs may only read it.
+    Read,
+    /// Programs may only write it (`#3000`).
+    Write,
+}
+
+/// How long a variable keeps its value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum VariableKind {
+    /// One macro level.
+    Local,
+    /// Until power off.
+    Common,
+    /// Over power off.
+    Retained,
+    /// The control's own state.
+    System,
+}
+
+/// A function of macro expressions.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FunctionEntry {
+    /// Upper case: `ATAN`.
+    pub name: String,
+    /// What it gives, with units.
+    pub title: String,
+    /// Where the entry stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// `settings.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SettingsFile {
+    #[serde(default, rename = "setting")]
+    pub(crate) settings: Vec<SettingEntry>,
+}
+
+/// A setting or parameter of the control that changes what a program means.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SettingEntry {
+    /// As the control numbers it: `162`, `3401#0`.
+    pub number: String,
+    /// Its name.
+    pub title: String,
+    /// Values it takes, as the control words them, lower case; or `length`, `number`, `on/off`.
+    pub values: Vec<String>,
+    /// Value that gcheck assumes when nothing is configured.
+    #[serde(default)]
+    pub default: Option<String>,
+    /// What it changes for a program.
+    pub changes: String,
+    /// Where the entry stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+fn yes() -> bool {
+    true
+}

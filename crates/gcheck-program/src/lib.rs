@@ -1,0 +1,20 @@
+//! Part programs after syntax: blocks with their words resolved against a control, expressions, labels, calls.
+//!
+//! Knows: the block table of a chunk, the facts of a whole file that jumps and calls need, the map back to the source. Must
+//! not know: values of expressions, motion.
+//!
+//! Everything but [`Survey`] depends on one chunk alone.
+
+mod block;
+mod expression;
+mod lower;
+mod number;
+mod statement;
+mod survey;
+
+pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
+pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
+pub use lower::{Dialect, lower, lower_tree, profile};
+pub use number::NumberShape;
+pub use statement::{OKeyword, OLabel, Statement, StatementKind, Target};
+pub use survey::{Call, CallKind, EndMark, Jump, Label, Loop, OWord, ProgramNumber, Survey, code_region};

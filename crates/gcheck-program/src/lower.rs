@@ -1,0 +1,784 @@
+//! Lowering: from the grammar's events to the block table.
+//!
+//! Knows: how tokens and nodes become words, codes, expressions and statements, given a control. Must not know: rules. The
+//! same sink is fed by the grammar directly (the flat path) and by the tree (law 2): nothing here may depend on *when* a
+//! node was opened, only on what it holds when it ends.
+
+use std::ops::Range;
+
+use gcheck_controls::{CodeIx, CodeNumber, Control, Letter, LetterSet, Semicolon, WordKind};
+use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
+
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
+use crate::expression::{BinaryOp, Expr, ExprIx, Function, Op, is_well_formed};
+use crate::number::{self, NumberShape};
+use crate::statement::{OKeyword, OLabel, Statement, StatementKind, Target};
+
+/// A control as the lowering asks it: facts about addresses in arrays, code look-up by number.
+///
+/// Made once per control and shared by all chunks and threads.
+#[derive(Debug, Clone)]
+pub struct Dialect<'c> {
+    control: &'c Control,
+    profile: SyntaxProfile,
+    letters: [LetterFacts; Letter::COUNT],
+    max_digits: u32,
+    line_length: u32,
+    lower_case: bool,
+    /// By code index: does the code name a label or program?
+    refers: Vec<bool>,
+}
+
+/// What [`BlockFlags`] need to know about an address when no code says otherwise.
+#[derive(Debug, Clone, Copy)]
+struct LetterFacts {
+    known: bool,
+    integer: bool,
+    count: bool,
+    negative: bool,
+    repeatable: bool,
+    free: bool,
+    min: f64,
+    max: f64,
+}
+
+impl LetterFacts {
+    const UNKNOWN: Self = Self {
+        known: false,
+        integer: false,
+        count: false,
+        negative: true,
+        repeatable: false,
+        free: false,
+        min: f64::NEG_INFINITY,
+        max: f64::INFINITY,
+    };
+}
+
+impl<'c> Dialect<'c> {
+    /// Prepares a control.
+    pub fn new(control: &'c Control) -> Self {
+        let mut letters = [LetterFacts::UNKNOWN; Letter::COUNT];
+        let all = (0..=u8::MAX).filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)));
+        for letter in all.chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A]) {
+            let Some(entry) = control.letter(letter) else { continue };
+            let integer = matches!(entry.kind, WordKind::Integer | WordKind::Label | WordKind::Program);
+            if let Some(facts) = letters.get_mut(letter.index()) {
+                *facts = LetterFacts {
+                    known: true,
+                    integer: integer && !control.numbers().integers_take_point,
+                    count: integer || !entry.scaled,
+                    negative: entry.negative,
+                    repeatable: entry.repeatable,
+                    free: entry.free || entry.axis,
+                    min: entry.min.unwrap_or(f64::NEG_INFINITY),
+                    max: entry.max.unwrap_or(f64::INFINITY),
+                };
+            }
+        }
+        Self {
+            control,
+            profile: profile(control),
+            letters,
+            max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
+            line_length: control.limits().line_length.unwrap_or(u32::MAX),
+            lower_case: control.syntax().lower_case,
+            refers: control
+                .codes()
+                .map(|code| code.entry().words.iter().any(|w| matches!(w.kind, WordKind::Label | WordKind::Program)))
+                .collect(),
+        }
+    }
+
+    /// The control.
+    pub fn control(&self) -> &'c Control {
+        self.control
+    }
+
+    /// How the grammar reads text for it.
+    pub fn profile(&self) -> SyntaxProfile {
+        self.profile
+    }
+
+    /// Does the code name a label or a program in one of its words?
+    pub(crate) fn refers(&self, code: CodeIx) -> bool {
+        self.refers.get(code.index()).copied().unwrap_or(false)
+    }
+
+    fn letter(&self, letter: Letter) -> &LetterFacts {
+        self.letters.get(letter.index()).unwrap_or(&LetterFacts::UNKNOWN)
+    }
+}
+
+/// The syntax profile of a control.
+pub fn profile(control: &Control) -> SyntaxProfile {
+    let syntax = control.syntax();
+    SyntaxProfile {
+        semicolon_comment: syntax.semicolon == Semicolon::Comment,
+        blanks_in_numbers: syntax.blanks_in_numbers,
+        o_words: syntax.o_words,
+        macro_statements: syntax.macro_statements,
+        named_parameters: syntax.named_parameters,
+        bare_expressions: syntax.bare_expressions,
+        logic_binds_last: syntax.logic_binds_last,
+        power_operator: syntax.power_operator,
+    }
+}
+
+/// Lowers a chunk from its text: the fast path, without a tree.
+pub fn lower(text: &str, dialect: &Dialect<'_>) -> BlockTable {
+    let mut sink = LowerSink::new(text, dialect);
+    parse_into(text, dialect.profile, &mut sink);
+    sink.table
+}
+
+/// Lowers a chunk from its tree. Equal to [`lower`] on the same text (law 2).
+pub fn lower_tree(parse: &Parse, dialect: &Dialect<'_>) -> BlockTable {
+    let text = parse.syntax().text().to_string();
+    let mut sink = LowerSink::new(&text, dialect);
+    replay(parse, &mut sink);
+    sink.place_late_errors();
+    sink.table
+}
+
+/// A node that has begun and not ended.
+#[derive(Debug, Clone)]
+struct Open {
+    kind: SyntaxKind,
+    start: u32,
+    /// Where its operations begin.
+    ops: usize,
+    /// The operator of a BINARY or sign of a UNARY node.
+    operator: Option<BinaryOp>,
+    function: Option<Function>,
+    /// Arguments of a function: groups, and commas in them.
+    arguments: u8,
+    /// Pieces found on the way, by statement.
+    first: Option<ExprIx>,
+    target: Option<Target>,
+    keyword: Option<(OLabel, OKeyword)>,
+    first_argument: u32,
+}
+
+struct LowerSink<'t, 'd> {
+    text: &'t str,
+    dialect: &'d Dialect<'d>,
+    table: BlockTable,
+    open: Vec<Open>,
+    /// Depth of nodes whose content is not lowered: ERROR and PRINT_STATEMENT.
+    skip: u32,
+    /// End of the last token that counts: expressions and statements end there, not behind blanks.
+    end: u32,
+    /// Where the next token starts, and so where the next block does.
+    next_token: u32,
+    block_words: u32,
+    block_flags: BlockFlags,
+    block_delete: u8,
+    has_content: bool,
+    /// Errors of this block: their number in the table when it began.
+    block_errors: usize,
+    /// The tree reports its errors after its nodes.
+    late_errors: Vec<SyntaxError>,
+}
+
+impl<'t, 'd> LowerSink<'t, 'd> {
+    fn new(text: &'t str, dialect: &'d Dialect<'d>) -> Self {
+        let lines = text.len() / 24 + 1;
+        let table = BlockTable {
+            blocks: Vec::with_capacity(lines),
+            words: Vec::with_capacity(lines * 3),
+            ..BlockTable::default()
+        };
+        Self {
+            text,
+            dialect,
+            table,
+            open: Vec::with_capacity(8),
+            skip: 0,
+            end: 0,
+            next_token: 0,
+            block_words: 0,
+            block_flags: BlockFlags::empty(),
+            block_delete: 0,
+            has_content: false,
+            block_errors: 0,
+            late_errors: Vec::new(),
+        }
+    }
+
+    fn slice(&self, range: &Range<u32>) -> &'t [u8] {
+        self.text.as_bytes().get(range.start as usize..range.end as usize).unwrap_or_default()
+    }
+
+    fn innermost(&self) -> SyntaxKind {
+        self.open.last().map_or(SyntaxKind::CHUNK, |o| o.kind)
+    }
+
+    /// Takes the operations since `from` as an expression that ends at the last token.
+    fn take_expr(&mut self, from: usize, start: u32) -> Option<ExprIx> {
+        let to = self.table.ops.len();
+        if from == to {
+            return None;
+        }
+        let ops = self.table.ops.get(from..to).unwrap_or_default();
+        let expr = Expr {
+            range: start..self.end,
+            well_formed: is_well_formed(ops),
+            ops: from as u32..to as u32,
+        };
+        self.table.exprs.push(expr);
+        Some(ExprIx(self.table.exprs.len() as u32 - 1))
+    }
+
+    fn push_word(&mut self, range: Range<u32>, letter: Letter, value: Value, shape: NumberShape) {
+        let code = match value {
+            Value::Number(number) if matches!(letter.ascii(), b'G' | b'M') && !letter.is_corner() => {
+                let number = match (shape.decimals, shape.minus) {
+                    (0 | 1, false) => CodeNumber::from_value(letter.ascii(), number),
+                    _ => None,
+                };
+                number.map_or(CodeIx::NONE, |n| self.dialect.control.code_ix(n))
+            }
+            _ => CodeIx::NONE,
+        };
+        self.table.words.push(Word { letter, value, shape, code, start: range.start, end: range.end });
+    }
+
+    /// A fused word: `X-1.5`, `,R.5`, `:1234`.
+    fn fused(&mut self, range: Range<u32>) {
+        let text = self.slice(&range);
+        let (letter, number) = match text {
+            [b',', letter, number @ ..] => (Letter::corner(*letter).or(Letter::new(*letter)), number),
+            [b':', number @ ..] => (Letter::new(b'O'), number),
+            [letter, number @ ..] => (Letter::new(*letter).or_else(|| Letter::sign(*letter)), number),
+            [] => return,
+        };
+        let Some(letter) = letter else { return };
+        let (value, shape) = number::parse(number);
+        self.push_word(range, letter, Value::Number(value), shape);
+    }
+
+    /// An ADDRESS node ended: a word whose value is not fused to it.
+    fn address(&mut self, open: &Open) {
+        let range = open.start..self.end;
+        let text = self.slice(&range);
+        let (letter, rest) = match text {
+            [b',', letter, rest @ ..] => (Letter::corner(*letter).or(Letter::new(*letter)), rest),
+            [letter, rest @ ..] => (Letter::new(*letter).or_else(|| Letter::sign(*letter)), rest),
+            [] => return,
+        };
+        let Some(letter) = letter else { return };
+        // `X 1.`, `X 1. 5`, `X - 1.`: a number after all, spread over tokens.
+        let literal = !rest.is_empty() && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
+        let (value, shape) = if literal {
+            let (value, shape) = number::parse(rest);
+            (Value::Number(value), shape)
+        } else if let Some(expr) = self.take_expr(open.ops, open.start + 1) {
+            (Value::Expr(expr), NumberShape::default())
+        } else {
+            (Value::Missing, NumberShape::default())
+        };
+        self.push_word(range, letter, value, shape);
+    }
+
+    fn statement(&mut self, open: &Open, kind: StatementKind) {
+        let block = BlockIx(self.table.blocks.len() as u32);
+        self.table.statements.push((block, Statement { range: open.start..self.end, kind }));
+        self.block_flags |= BlockFlags::STATEMENT;
+    }
+
+    /// Closes the condition of the innermost IF when its consequence begins.
+    fn close_condition(&mut self) {
+        if let Some(open) = self.open.last()
+            && matches!(open.kind, SyntaxKind::IF_STATEMENT | SyntaxKind::WHILE_STATEMENT)
+            && open.target.is_none()
+        {
+            let (from, start) = (open.ops, open.start);
+            let is_if = open.kind == SyntaxKind::IF_STATEMENT;
+            let condition = self.take_expr(from, start);
+            let ops = self.table.ops.len();
+            let end = self.end;
+            if let Some(open) = self.open.last_mut() {
+                open.first = condition;
+                open.ops = ops;
+                // Marks the condition as taken.
+                open.target = Some(Target::Invalid);
+            }
+            if is_if {
+                let block = BlockIx(self.table.blocks.len() as u32);
+                let kind = StatementKind::If { condition };
+                self.table.statements.push((block, Statement { range: start..end, kind }));
+                self.block_flags |= BlockFlags::STATEMENT;
+            }
+        }
+    }
+
+    /// The keyword of an O-word: the word before it is the label, not a word of the block.
+    fn o_keyword(&mut self, keyword: OKeyword) {
+        let from_word = |word: &Word| word.integer().map_or(OLabel::Computed, OLabel::Number);
+        let Some(open) = self.open.last() else { return };
+        if open.keyword.is_some() {
+            return;
+        }
+        let named = open.target.clone();
+        let label = match named {
+            Some(Target::Named(range)) => OLabel::Name(name_key(self.slice(&range))),
+            _ => match self.table.words.pop() {
+                Some(word) => from_word(&word),
+                None => OLabel::Computed,
+            },
+        };
+        let ops = self.table.ops.len();
+        let first_argument = self.table.exprs.len() as u32;
+        if let Some(open) = self.open.last_mut() {
+            open.keyword = Some((label, keyword));
+            open.ops = ops;
+            open.first_argument = first_argument;
+        }
+    }
+
+    fn operator(&mut self, kind: SyntaxKind, range: &Range<u32>) {
+        let operator = BinaryOp::parse(self.slice(range));
+        if let Some(open) = self.open.last_mut()
+            && matches!(open.kind, SyntaxKind::BINARY | SyntaxKind::UNARY)
+            && open.operator.is_none()
+        {
+            open.operator = operator;
+        }
+        debug_assert!(operator.is_some() || kind == SyntaxKind::SLASH, "{kind:?} is an operator");
+    }
+
+    fn finish_block(&mut self, open: &Open) {
+        let ix = BlockIx(self.table.blocks.len() as u32);
+        let words = self.block_words..self.table.words.len() as u32;
+        let errors = self.table.errors.len() > self.block_errors;
+        if words.is_empty() && !errors && !self.has_content && self.block_flags.is_empty() {
+            return;
+        }
+        let range = open.start..self.end.max(open.start);
+        let mut flags = self.block_flags;
+        flags.set(BlockFlags::ERROR, errors);
+        // Bytes are at least as many as characters: only a line that may be too long is counted.
+        if range.end - range.start > self.dialect.line_length {
+            let text = self.text.get(range.start as usize..range.end as usize).unwrap_or_default();
+            flags.set(BlockFlags::LONG_LINE, text.chars().count() > self.dialect.line_length as usize);
+        }
+        let (letters, facts) = self.survey_words(&words);
+        self.table.blocks.push(Block { range, flags: flags | facts, letters, delete: self.block_delete, words });
+        debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
+    }
+
+    /// One pass over the words of a finished block.
+    fn survey_words(&self, words: &Range<u32>) -> (LetterSet, BlockFlags) {
+        let mut letters = LetterSet::EMPTY;
+        let mut flags = BlockFlags::empty();
+        let words = self.table.words.get(words.start as usize..words.end as usize).unwrap_or_default();
+        let mut read = LetterSet::EMPTY;
+        let mut reads_anything = false;
+        let mut bound = LetterSet::EMPTY;
+        for word in words {
+            let facts = self.dialect.letter(word.letter);
+            let is_new = letters.insert(word.letter);
+            if !is_new && !facts.repeatable {
+                flags |= BlockFlags::REPEATED;
+            }
+            if !facts.known {
+                flags |= BlockFlags::UNKNOWN_ADDRESS;
+            }
+            match word.letter.ascii() {
+                b'G' | b'M' => {
+                    flags |= BlockFlags::CODE;
+                    if let Some(code) = self.dialect.control.code_at(word.code) {
+                        read = read.or(code.reads());
+                        reads_anything |= code.entry().any_words;
+                    } else if !matches!(word.value, Value::Expr(_)) {
+                        flags |= BlockFlags::UNKNOWN_CODE;
+                    } else {
+                        // `G#1`: which code it is only the engine can say.
+                        reads_anything = true;
+                    }
+                    if matches!(word.value, Value::Expr(_)) {
+                        flags |= BlockFlags::EXPRESSION;
+                    }
+                    continue;
+                }
+                b'N' => flags |= BlockFlags::LABEL,
+                b'O' => flags |= BlockFlags::PROGRAM_NUMBER,
+                _ => {}
+            }
+            if !facts.free {
+                bound.insert(word.letter);
+            }
+            match word.value {
+                Value::Number(value) => {
+                    let shape = word.shape;
+                    if shape.digits() > self.dialect.max_digits {
+                        flags |= BlockFlags::LONG_NUMBER;
+                    }
+                    if !shape.point && value != 0.0 && !facts.count {
+                        flags |= BlockFlags::UNPOINTED;
+                    }
+                    if shape.point && facts.integer {
+                        flags |= BlockFlags::POINT_ON_INTEGER;
+                    }
+                    if shape.minus && !facts.negative {
+                        flags |= BlockFlags::NEGATIVE;
+                    }
+                    if !(facts.min..=facts.max).contains(&value) {
+                        flags |= BlockFlags::OUT_OF_RANGE;
+                    }
+                }
+                Value::Expr(_) => flags |= BlockFlags::EXPRESSION,
+                Value::Missing => {}
+            }
+        }
+        if flags.contains(BlockFlags::CODE) && !reads_anything && !bound.without(read).is_empty() {
+            flags |= BlockFlags::UNREAD_WORD;
+        }
+        (letters, flags)
+    }
+
+    /// The tree gives its errors at the end: put each to the block whose text holds it.
+    fn place_late_errors(&mut self) {
+        for error in std::mem::take(&mut self.late_errors) {
+            let at = self.table.blocks.partition_point(|b| b.range.start <= error.range.start).saturating_sub(1);
+            if let Some(block) = self.table.blocks.get_mut(at) {
+                block.flags |= BlockFlags::ERROR;
+                self.table.errors.push((BlockIx(at as u32), error));
+            }
+        }
+    }
+}
+
+/// A name as it is compared: lower case, without blanks and brackets.
+pub(crate) fn name_key(text: &[u8]) -> String {
+    let text = String::from_utf8_lossy(text);
+    text.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+}
+
+/// The bytes between `<` and `>` of a fused named token.
+fn between_brackets(text: &[u8], range: &Range<u32>) -> Range<u32> {
+    let open = memchr::memchr(b'<', text).map_or(0, |at| at as u32 + 1);
+    range.start + open..range.end.saturating_sub(1)
+}
+
+impl Sink for LowerSink<'_, '_> {
+    type Checkpoint = u32;
+
+    fn start_node(&mut self, kind: SyntaxKind) {
+        self.start_node_at(u32::MAX, kind);
+    }
+
+    /// Where the next token starts.
+    fn checkpoint(&self) -> u32 {
+        self.next_token
+    }
+
+    fn start_node_at(&mut self, checkpoint: u32, kind: SyntaxKind) {
+        match kind {
+            SyntaxKind::BLOCK => {
+                self.block_words = self.table.words.len() as u32;
+                self.block_flags = BlockFlags::empty();
+                self.block_delete = 0;
+                self.has_content = false;
+                self.block_errors = self.table.errors.len();
+                self.end = self.next_token;
+            }
+            SyntaxKind::ERROR | SyntaxKind::PRINT_STATEMENT => self.skip += 1,
+            SyntaxKind::BLOCK_DELETE => {
+                self.block_flags |= BlockFlags::BLOCK_DELETE;
+                self.block_delete = 1;
+            }
+            SyntaxKind::GOTO_STATEMENT | SyntaxKind::ASSIGNMENT => self.close_condition(),
+            _ => {}
+        }
+        self.open.push(Open {
+            kind,
+            // Unknown until its first token comes, unless the node is opened behind it.
+            start: checkpoint,
+            ops: self.table.ops.len(),
+            operator: None,
+            function: None,
+            arguments: 0,
+            first: None,
+            target: None,
+            keyword: None,
+            first_argument: self.table.exprs.len() as u32,
+        });
+        if kind == SyntaxKind::BLOCK
+            && let Some(open) = self.open.last_mut()
+        {
+            open.start = self.next_token;
+        }
+    }
+
+    fn finish_node(&mut self) {
+        let Some(mut open) = self.open.pop() else { return };
+        if open.start == u32::MAX {
+            open.start = self.end;
+        }
+        match open.kind {
+            SyntaxKind::ERROR => {
+                self.skip -= 1;
+                self.has_content = true;
+                return;
+            }
+            SyntaxKind::PRINT_STATEMENT => {
+                self.skip -= 1;
+                if self.skip == 0 {
+                    self.statement(&open, StatementKind::Print);
+                }
+                return;
+            }
+            SyntaxKind::BLOCK => {
+                self.finish_block(&open);
+                return;
+            }
+            _ if self.skip > 0 => return,
+            _ => {}
+        }
+        match open.kind {
+            SyntaxKind::ADDRESS => self.address(&open),
+            SyntaxKind::BINARY => {
+                if let Some(operator) = open.operator {
+                    self.table.ops.push(Op::Binary(operator));
+                }
+            }
+            SyntaxKind::UNARY => {
+                if open.operator == Some(BinaryOp::Subtract) {
+                    self.table.ops.push(Op::Negate);
+                }
+            }
+            SyntaxKind::INDIRECT => self.table.ops.push(Op::Indirect),
+            SyntaxKind::FUNCTION_CALL => {
+                if let Some(function) = open.function {
+                    self.table.ops.push(Op::Call(function, open.arguments));
+                }
+            }
+            SyntaxKind::GROUP => {
+                if let Some(parent) = self.open.last_mut() {
+                    match parent.kind {
+                        SyntaxKind::FUNCTION_CALL => parent.arguments = parent.arguments.saturating_add(1 + open.arguments),
+                        SyntaxKind::O_STATEMENT
+                            if matches!(
+                                parent.keyword,
+                                Some((_, OKeyword::Call | OKeyword::Return | OKeyword::EndSub))
+                            ) =>
+                        {
+                            let from = parent.ops;
+                            self.take_expr(from, open.start);
+                            let ops = self.table.ops.len();
+                            if let Some(parent) = self.open.last_mut() {
+                                parent.ops = ops;
+                            }
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            SyntaxKind::ASSIGNMENT => {
+                let target = open.target.clone().unwrap_or(Target::Invalid);
+                let start = open.second_start();
+                let value = self.take_expr(open.ops, start);
+                self.statement(&open, StatementKind::Assign { target, value });
+            }
+            SyntaxKind::CONDITION => {
+                let condition = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::Guard { condition });
+            }
+            SyntaxKind::IF_STATEMENT => {
+                if open.target.is_none() {
+                    let condition = self.take_expr(open.ops, open.start);
+                    self.statement(&open, StatementKind::If { condition });
+                }
+            }
+            SyntaxKind::GOTO_STATEMENT => {
+                let target = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::Goto { target });
+            }
+            SyntaxKind::WHILE_STATEMENT => {
+                let number = self.take_expr(open.ops, open.start);
+                // Without DO the only expression is the condition.
+                let (condition, number) = if open.target.is_some() { (open.first, number) } else { (number, None) };
+                self.statement(&open, StatementKind::Do { condition, number });
+            }
+            SyntaxKind::END_STATEMENT => {
+                let number = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::End { number });
+            }
+            SyntaxKind::O_STATEMENT => {
+                if let Some((label, keyword)) = open.keyword.take() {
+                    if !matches!(keyword, OKeyword::Call | OKeyword::Return | OKeyword::EndSub) {
+                        self.take_expr(open.ops, open.start);
+                    }
+                    let arguments = open.first_argument..self.table.exprs.len() as u32;
+                    self.statement(&open, StatementKind::OWord { label, keyword, arguments });
+                }
+            }
+            SyntaxKind::PORT_STATEMENT => self.statement(&open, StatementKind::Print),
+            _ => {}
+        }
+    }
+
+    fn token(&mut self, kind: SyntaxKind, range: Range<u32>) {
+        if kind == SyntaxKind::WORD && self.skip == 0 && self.innermost() == SyntaxKind::BLOCK {
+            // The short path: nearly every token of a large program.
+            self.end = range.end;
+            self.next_token = range.end;
+            if self.slice(&range).iter().any(u8::is_ascii_lowercase) {
+                self.lower_case();
+            }
+            self.fused(range);
+            return;
+        }
+        // The next block starts behind this token, whatever it is.
+        self.next_token = range.end;
+        match kind {
+            SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE | SyntaxKind::BOM | SyntaxKind::SEMICOLON => return,
+            SyntaxKind::COMMENT | SyntaxKind::BROKEN_COMMENT | SyntaxKind::LINE_COMMENT => {
+                self.block_flags |= BlockFlags::COMMENT;
+                if memchr::memmem::find(self.slice(&range), b"gcheck:").is_some() {
+                    self.table.directives.push(range.clone());
+                }
+                // A comment belongs to its block but not to the statement in front of it.
+                let end = self.end;
+                self.end = range.end;
+                if self.innermost() != SyntaxKind::BLOCK && self.skip == 0 {
+                    self.end = end;
+                }
+                return;
+            }
+            _ => {}
+        }
+        self.end = range.end;
+        for open in self.open.iter_mut().rev().take_while(|o| o.start == u32::MAX) {
+            open.start = range.start;
+        }
+        if self.skip > 0 {
+            return;
+        }
+        self.meaningful_token(kind, range);
+    }
+
+    fn error(&mut self, error: SyntaxError) {
+        if self.open.is_empty() {
+            self.late_errors.push(error);
+        } else {
+            self.table.errors.push((BlockIx(self.table.blocks.len() as u32), error));
+        }
+    }
+}
+
+impl LowerSink<'_, '_> {
+    fn lower_case(&mut self) {
+        if !self.dialect.lower_case {
+            self.block_flags |= BlockFlags::LOWER_CASE;
+        }
+    }
+
+    /// A token that is no blank, no comment, and stands outside errors.
+    fn meaningful_token(&mut self, kind: SyntaxKind, range: Range<u32>) {
+        let inner = self.innermost();
+        match kind {
+            SyntaxKind::WORD if inner == SyntaxKind::ADDRESS => {
+                // `X1. 5`: the node reads its whole text when it ends.
+            }
+            SyntaxKind::WORD | SyntaxKind::COLON_NUMBER => self.fused(range),
+            SyntaxKind::LETTER => {
+                if self.slice(&range).iter().any(u8::is_ascii_lowercase) {
+                    self.lower_case();
+                }
+            }
+            SyntaxKind::NUMBER => match inner {
+                SyntaxKind::BLOCK_DELETE => {
+                    self.block_delete = self.slice(&range).first().map_or(1, |digit| digit.saturating_sub(b'0').max(1));
+                }
+                _ => {
+                    let (value, _) = number::parse(self.slice(&range));
+                    self.table.ops.push(Op::Number(value));
+                }
+            },
+            SyntaxKind::VARIABLE => {
+                let digits = self.slice(&range).get(1..).unwrap_or_default();
+                let number = std::str::from_utf8(digits).ok().and_then(|d| d.parse().ok()).unwrap_or(u32::MAX);
+                self.table.ops.push(Op::Variable(number));
+            }
+            SyntaxKind::NAMED_VARIABLE => {
+                let name = between_brackets(self.slice(&range), &range);
+                self.table.ops.push(Op::Named { start: name.start, end: name.end });
+            }
+            SyntaxKind::O_NAME => {
+                let name = between_brackets(self.slice(&range), &range);
+                if let Some(open) = self.open.last_mut() {
+                    open.target = Some(Target::Named(name));
+                }
+            }
+            SyntaxKind::EQUALS if inner == SyntaxKind::ASSIGNMENT => self.assignment_target(),
+            SyntaxKind::COMMA if inner == SyntaxKind::GROUP => {
+                if let Some(open) = self.open.last_mut() {
+                    open.arguments = open.arguments.saturating_add(1);
+                }
+            }
+            SyntaxKind::FUNCTION if inner == SyntaxKind::FUNCTION_CALL => {
+                let function = Function::parse(self.slice(&range));
+                if let Some(open) = self.open.last_mut() {
+                    open.function = function;
+                }
+            }
+            SyntaxKind::THEN_KW | SyntaxKind::DO_KW
+                if matches!(inner, SyntaxKind::IF_STATEMENT | SyntaxKind::WHILE_STATEMENT) =>
+            {
+                self.close_condition();
+            }
+            SyntaxKind::PLUS
+            | SyntaxKind::MINUS
+            | SyntaxKind::STAR
+            | SyntaxKind::POWER
+            | SyntaxKind::SLASH
+            | SyntaxKind::COMPARISON
+            | SyntaxKind::AND_KW
+            | SyntaxKind::OR_KW
+            | SyntaxKind::MOD_KW => self.operator(kind, &range),
+            SyntaxKind::PERCENT => self.block_flags |= BlockFlags::TAPE_MARK,
+            _ if inner == SyntaxKind::O_STATEMENT => {
+                if let Some(keyword) = OKeyword::of(kind) {
+                    self.o_keyword(keyword);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// `=`: what came before it is the target.
+    fn assignment_target(&mut self) {
+        let Some(open) = self.open.last() else { return };
+        if open.target.is_some() {
+            return;
+        }
+        let (from, start) = (open.ops, open.start);
+        let target = match self.table.ops.get(from..).unwrap_or_default() {
+            [Op::Variable(number)] => Target::Variable(*number),
+            [Op::Named { start, end }] => Target::Named(*start..*end),
+            [.., Op::Indirect] => {
+                // The expression gives the number of the variable: without the final read.
+                self.table.ops.pop();
+                self.take_expr(from, start).map_or(Target::Invalid, Target::Computed)
+            }
+            _ => Target::Invalid,
+        };
+        let ops = self.table.ops.len();
+        let end = self.end;
+        if let Some(open) = self.open.last_mut() {
+            open.target = Some(target);
+            open.ops = ops;
+            open.first_argument = end;
+        }
+    }
+}
+
+impl Open {
+    /// Where the value of an assignment starts: behind its `=`.
+    fn second_start(&self) -> u32 {
+        if self.target.is_some() { self.first_argument } else { self.start }
+    }
+}

@@ -1,0 +1,296 @@
+//! The facts of a whole file that do not depend on values: labels, jumps, calls, loops, program numbers, ends.
+//!
+//! Knows: block tables in order, with the offset of each chunk. Must not know: which of these facts are mistakes.
+
+use std::ops::Range;
+
+use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, WordKind};
+
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Word};
+use crate::lower::Dialect;
+use crate::statement::{OKeyword, OLabel, StatementKind, Target};
+
+/// The part of a file that the control reads, as bytes.
+///
+/// A `%` at the head of a line marks the beginning and the end of the tape. What stands behind the closing mark is not
+/// read; a single mark closes unless nothing but blanks comes before it.
+pub fn code_region(text: &str) -> Range<usize> {
+    let marks: Vec<usize> = memchr::memchr_iter(b'%', text.as_bytes()).filter(|at| is_line_head(text, *at)).take(2).collect();
+    match marks.as_slice() {
+        [first] if !text.get(..*first).unwrap_or_default().trim_matches(['\u{FEFF}', ' ', '\t', '\r', '\n', '\0']).is_empty() => 0..end_of_line(text, *first),
+        [_, second] => 0..end_of_line(text, *second),
+        _ => 0..text.len(),
+    }
+}
+
+fn is_line_head(text: &str, at: usize) -> bool {
+    let before = text.get(..at).unwrap_or_default().trim_end_matches([' ', '\t', '\u{FEFF}']);
+    before.is_empty() || before.ends_with(['\n', '\r'])
+}
+
+fn end_of_line(text: &str, at: usize) -> usize {
+    at + gcheck_syntax::line_len(text.as_bytes().get(at..).unwrap_or_default())
+}
+
+/// A sequence number at the head of a block.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Label {
+    /// `N`'s value.
+    pub number: u32,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// An `O` number at the head of a block.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProgramNumber {
+    /// `None` when it is no whole number.
+    pub number: Option<u32>,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// A jump to a sequence number.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Jump {
+    /// `None` when it is computed.
+    pub target: Option<u32>,
+    /// The code that jumps; [`CodeIx::NONE`] for `GOTO`.
+    pub code: CodeIx,
+    /// Bytes of the file: the word or statement that names the target.
+    pub range: Range<u32>,
+}
+
+/// What a call names.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum CallKind {
+    /// A program number.
+    Program(u32),
+    /// An O-word subroutine.
+    OWord(OLabel),
+    /// Computed.
+    Unknown,
+}
+
+/// A call of another program.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Call {
+    /// What is called.
+    pub target: CallKind,
+    /// The code that calls; [`CodeIx::NONE`] for an O-word.
+    pub code: CodeIx,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// `DO n` or `END n`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loop {
+    /// `DO`, else `END`.
+    pub begins: bool,
+    /// `n`; `None` when missing or computed.
+    pub number: Option<f64>,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// An O-word statement.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OWord {
+    /// The label.
+    pub label: OLabel,
+    /// The keyword.
+    pub keyword: OKeyword,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// A code that ends a program or subprogram.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct EndMark {
+    /// What ends.
+    pub ends: Ends,
+    /// Only under a condition or block delete.
+    pub conditional: bool,
+    /// Bytes of the file.
+    pub range: Range<u32>,
+}
+
+/// Everything collected from the chunks of one file.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Survey {
+    /// Sequence numbers in text order.
+    pub labels: Vec<Label>,
+    /// Program numbers in text order.
+    pub programs: Vec<ProgramNumber>,
+    /// Jumps in text order.
+    pub jumps: Vec<Jump>,
+    /// Calls in text order.
+    pub calls: Vec<Call>,
+    /// `DO` and `END` in text order.
+    pub loops: Vec<Loop>,
+    /// O-words in text order.
+    pub o_words: Vec<OWord>,
+    /// Program ends in text order.
+    pub ends: Vec<EndMark>,
+    /// Tape marks.
+    pub tape_marks: Vec<Range<u32>>,
+    /// Distinct codes with the place of their first use, in order of that place; unknown codes by number.
+    pub codes: Vec<(CodeNumber, Range<u32>)>,
+    /// Addresses used anywhere.
+    pub letters: gcheck_controls::LetterSet,
+    /// Numbered variables that are assigned to, with the place of the first assignment.
+    pub assigned: Vec<(u32, Range<u32>)>,
+    /// The first block that is more than a comment or tape mark.
+    pub first_block: Option<Range<u32>>,
+    /// The last block that is more than a comment or tape mark.
+    pub last_block: Option<Range<u32>>,
+    /// How many blocks there are.
+    pub blocks: usize,
+}
+
+impl Survey {
+    /// Adds the next chunk; `base` is its offset in the file, `end` the end of the region that the control reads.
+    pub fn add(&mut self, table: &BlockTable, base: u32, end: u32, dialect: &Dialect<'_>) {
+        for (ix, block) in table.blocks() {
+            if base + block.range.start >= end {
+                break;
+            }
+            self.blocks += 1;
+            self.letters = self.letters.or(block.letters);
+            if block.flags.contains(BlockFlags::TAPE_MARK) {
+                self.tape_marks.push(shift(&block.range, base));
+            }
+            if !block.letters.is_empty() || block.flags.contains(BlockFlags::STATEMENT) {
+                let range = shift(&block.range, base);
+                self.first_block.get_or_insert(range.clone());
+                self.last_block = Some(range);
+            }
+            let interesting = BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
+            if block.flags.intersects(interesting) {
+                self.add_block(table, ix, block, base, dialect);
+            }
+        }
+    }
+
+    fn add_block(&mut self, table: &BlockTable, ix: BlockIx, block: &Block, base: u32, dialect: &Dialect<'_>) {
+        let words = table.words(block);
+        // `N10 O1234` is as good a head as `O1234`.
+        for (position, word) in words.iter().enumerate().take(2) {
+            let is_head = position == 0 || words.first().is_some_and(|w| matches!(w.letter.ascii(), b'N' | b'O'));
+            match word.letter {
+                letter if letter == Letter::of('N') && is_head => {
+                    if let Some(number) = word.integer() {
+                        self.labels.push(Label { number, range: shift(&word.range(), base) });
+                    }
+                }
+                letter if letter == Letter::of('O') && is_head => {
+                    self.programs.push(ProgramNumber { number: word.integer(), range: shift(&word.range(), base) });
+                }
+                _ => {}
+            }
+        }
+        if block.flags.contains(BlockFlags::CODE) {
+            self.add_codes(table, ix, block, base, dialect);
+        }
+        for statement in table.statements(ix) {
+            let range = shift(&statement.range, base);
+            let constant = |expr: Option<crate::ExprIx>| expr.and_then(|e| table.constant(e));
+            match &statement.kind {
+                StatementKind::Goto { target } => {
+                    self.jumps.push(Jump { target: constant(*target).and_then(whole), code: CodeIx::NONE, range });
+                }
+                StatementKind::Do { number, .. } => self.loops.push(Loop { begins: true, number: constant(*number), range }),
+                StatementKind::End { number } => self.loops.push(Loop { begins: false, number: constant(*number), range }),
+                StatementKind::OWord { label, keyword, .. } => {
+                    if *keyword == OKeyword::Call {
+                        let target = CallKind::OWord(label.clone());
+                        self.calls.push(Call { target, code: CodeIx::NONE, range: range.clone() });
+                    }
+                    self.o_words.push(OWord { label: label.clone(), keyword: *keyword, range });
+                }
+                StatementKind::Assign { target: Target::Variable(number), .. } => {
+                    if !self.assigned.iter().any(|(n, _)| n == number) {
+                        self.assigned.push((*number, range));
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn add_codes(&mut self, table: &BlockTable, ix: BlockIx, block: &Block, base: u32, dialect: &Dialect<'_>) {
+        let words = table.words(block);
+        for word in words.iter().filter(|w| matches!(w.letter.ascii(), b'G' | b'M') && !w.letter.is_corner()) {
+            if let Some(number) = word.number().and_then(|n| CodeNumber::from_value(word.letter.ascii(), n))
+                && !self.codes.iter().any(|(known, _)| *known == number)
+            {
+                self.codes.push((number, shift(&word.range(), base)));
+            }
+            let Some(code) = dialect.control().code_at(word.code) else { continue };
+            let entry = code.entry();
+            if let Some(ends) = entry.ends {
+                let conditional = block.delete > 0
+                    || table
+                        .statements(ix)
+                        .any(|s| matches!(s.kind, StatementKind::If { .. } | StatementKind::Guard { .. }));
+                self.ends.push(EndMark { ends, conditional, range: shift(&word.range(), base) });
+            }
+            if !dialect.refers(word.code) {
+                continue;
+            }
+            for target in &entry.words {
+                let Some(letter) = Letter::parse(&target.letter) else { continue };
+                let Some(found) = words.iter().find(|w| w.letter == letter) else { continue };
+                let range = shift(&found.range(), base);
+                match target.kind {
+                    WordKind::Label => self.jumps.push(Jump { target: target_number(found), code: word.code, range }),
+                    WordKind::Program => {
+                        let target = target_number(found).map_or(CallKind::Unknown, CallKind::Program);
+                        self.calls.push(Call { target, code: word.code, range });
+                    }
+                    _ => {}
+                }
+            }
+        }
+    }
+}
+
+fn target_number(word: &Word) -> Option<u32> {
+    word.integer()
+}
+
+fn whole(value: f64) -> Option<u32> {
+    #[expect(clippy::cast_sign_loss, reason = "the range is checked")]
+    ((0.0..=f64::from(u32::MAX)).contains(&value) && value.fract() == 0.0).then_some(value as u32)
+}
+
+fn shift(range: &Range<u32>, base: u32) -> Range<u32> {
+    range.start + base..range.end + base
+}
+
+#[cfg(test)]
+mod tests {
+    use super::code_region;
+
+    fn region(text: &str) -> &str {
+        &text[code_region(text)]
+    }
+
+    #[test]
+    fn what_stands_behind_the_closing_tape_mark_is_not_read() {
+        assert_eq!(region("%\nG0\n%\nnotes\n"), "%\nG0\n%\n");
+        assert_eq!(region("\n  %\nG0\n % \nnotes"), "\n  %\nG0\n % \n");
+    }
+
+    #[test]
+    fn one_mark_opens_or_closes() {
+        assert_eq!(region("%\nG0\nM30\n"), "%\nG0\nM30\n");
+        assert_eq!(region("G0\nM30\n%\nnotes\n"), "G0\nM30\n%\n");
+    }
+
+    #[test]
+    fn a_percent_sign_inside_a_line_is_no_mark() {
+        assert_eq!(region("%\nG0 (50%)\nM30\n"), "%\nG0 (50%)\nM30\n");
+    }
+}

@@ -1,0 +1,189 @@
+//! Running the selected rules over one file.
+//!
+//! Knows: chunks, tiers, suppressions, the order of findings. Must not know: any rule. Memory stays bounded: a chunk's table
+//! is dropped before the next is made, and findings beyond [`MAX_FINDINGS`] are counted, not kept.
+
+use std::ops::Range;
+
+use gcheck_program::{BlockFlags, Survey, code_region, lower};
+use gcheck_syntax::{SourceText, cut};
+
+use crate::suppression::Suppressions;
+use crate::{BlockCx, FileCx, Finding, Report, RuleEntry, RuleMeta, Run, Scene, Selection, Severity};
+
+/// Findings of one file that are kept; the rest are counted by rule.
+pub const MAX_FINDINGS: usize = 10_000;
+
+/// What is to be checked, and how.
+pub struct Job<'a> {
+    /// The file.
+    pub source: &'a SourceText,
+    /// Control, machine, other programs.
+    pub scene: Scene<'a>,
+    /// The rules that run.
+    pub selection: &'a Selection,
+    /// Whether comments may silence rules.
+    pub suppressions: bool,
+}
+
+/// What came out of a file.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Findings in text order.
+    pub findings: Vec<Finding>,
+    /// Findings beyond the limit, by rule and severity.
+    pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
+    /// Findings silenced by comments.
+    pub suppressed: usize,
+    /// Lines of the file.
+    pub lines: usize,
+}
+
+/// The selected rules, arranged by when they run.
+struct Plan {
+    token: Vec<(&'static RuleEntry, Option<Severity>)>,
+    block: Vec<(&'static RuleEntry, Option<Severity>, BlockFlags)>,
+    program: Vec<(&'static RuleEntry, Option<Severity>)>,
+    suppressions: Vec<(&'static RuleEntry, Option<Severity>)>,
+    /// Blocks without any of these flags need no rule.
+    trigger: BlockFlags,
+}
+
+impl Plan {
+    fn new(selection: &Selection) -> Self {
+        let mut plan = Self {
+            token: Vec::new(),
+            block: Vec::new(),
+            program: Vec::new(),
+            suppressions: Vec::new(),
+            trigger: BlockFlags::ERROR,
+        };
+        for (rule, severity) in selection.rules() {
+            match rule.run {
+                Run::Token { .. } => plan.token.push((rule, severity)),
+                Run::Block { trigger, .. } => {
+                    plan.trigger |= trigger;
+                    plan.block.push((rule, severity, trigger));
+                }
+                Run::Program { .. } => plan.program.push((rule, severity)),
+                Run::Suppressions { .. } => plan.suppressions.push((rule, severity)),
+            }
+        }
+        plan
+    }
+}
+
+/// Keeps findings up to the limit.
+#[derive(Default)]
+struct Collector {
+    findings: Vec<Finding>,
+    omitted: Vec<(&'static RuleMeta, Severity, usize)>,
+}
+
+impl Collector {
+    fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
+        if let Some(severity) = severity {
+            finding.severity = severity;
+        }
+        if self.findings.len() < MAX_FINDINGS {
+            self.findings.push(finding);
+            return;
+        }
+        let same = |(rule, severity, _): &&mut (&'static RuleMeta, Severity, usize)| {
+            std::ptr::eq(*rule, finding.rule) && *severity == finding.severity
+        };
+        match self.omitted.iter_mut().find(same) {
+            Some((_, _, count)) => *count += 1,
+            None => self.omitted.push((finding.rule, finding.severity, 1)),
+        }
+    }
+}
+
+/// Checks one file.
+pub fn check(job: &Job<'_>) -> Outcome {
+    let plan = Plan::new(job.selection);
+    let text = job.source.text();
+    let region = code_region(text);
+    let region = region.start as u32..region.end as u32;
+    let mut collector = Collector::default();
+    let mut survey = Survey::default();
+    let mut directives = Vec::new();
+    for chunk in cut(text) {
+        if chunk.start as u32 >= region.end {
+            break;
+        }
+        check_chunk(job, &plan, &region, chunk, &mut survey, &mut directives, &mut collector);
+    }
+    let cx = FileCx { scene: job.scene, source: job.source, region, survey: &survey };
+    for (rule, severity) in &plan.program {
+        if let Run::Program { check } = rule.run {
+            check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
+        }
+    }
+    let lines = memchr::memchr_iter(b'\n', text.as_bytes()).count().max(usize::from(!text.is_empty()));
+    finish(job, &plan, collector, &directives, lines)
+}
+
+fn check_chunk(
+    job: &Job<'_>,
+    plan: &Plan,
+    region: &Range<u32>,
+    chunk: Range<usize>,
+    survey: &mut Survey,
+    directives: &mut Vec<Range<u32>>,
+    collector: &mut Collector,
+) {
+    let base = chunk.start as u32;
+    let text = job.source.text().get(chunk).unwrap_or_default();
+    let table = lower(text, job.scene.dialect);
+    survey.add(&table, base, region.end, job.scene.dialect);
+    directives.extend(table.directives().iter().map(|r| r.start + base..r.end + base));
+    for (ix, block) in table.blocks() {
+        if !block.flags.intersects(plan.trigger) {
+            continue;
+        }
+        if base + block.range.start >= region.end {
+            break;
+        }
+        let cx = BlockCx { scene: job.scene, table: &table, ix, block, text, base };
+        for (rule, severity, trigger) in &plan.block {
+            if let Run::Block { check, .. } = rule.run
+                && block.flags.intersects(*trigger)
+            {
+                check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
+            }
+        }
+        if block.flags.contains(BlockFlags::ERROR) {
+            for error in table.errors(ix) {
+                for (rule, severity) in &plan.token {
+                    if let Run::Token { on, check } = rule.run
+                        && on(error.kind)
+                    {
+                        check(&cx, error, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Silences, reports what silences nothing, and puts findings in order.
+fn finish(job: &Job<'_>, plan: &Plan, mut collector: Collector, directives: &[Range<u32>], lines: usize) -> Outcome {
+    let mut suppressed = 0;
+    if job.suppressions && !directives.is_empty() {
+        let mut suppressions = Suppressions::read(job.source.text(), directives);
+        let before = collector.findings.len();
+        collector.findings.retain(|finding| !suppressions.silences(finding));
+        suppressed = before - collector.findings.len();
+        for (rule, severity) in &plan.suppressions {
+            if let Run::Suppressions { check } = rule.run {
+                check(&suppressions, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
+            }
+        }
+    }
+    let mut findings = collector.findings;
+    findings.sort_by(|a, b| {
+        (a.range.start, a.range.end, a.rule.id, &a.message).cmp(&(b.range.start, b.range.end, b.rule.id, &b.message))
+    });
+    Outcome { findings, omitted: collector.omitted, suppressed, lines }
+}

@@ -1,0 +1,22 @@
+//! The findings of gcheck: their vocabulary, the rules that make them, suppressions.
+//!
+//! Knows: what is wrong with a program and how to say so. Must not know: salsa, LSP, terminals, files.
+//!
+//! A rule is one file under `rules/<group>/`; `cargo xtask new-rule` scaffolds it and [`all`] lists them.
+
+mod check;
+mod context;
+mod finding;
+mod meta;
+mod rules;
+mod selection;
+mod suppression;
+#[cfg(test)]
+mod testing;
+
+pub use check::{Job, MAX_FINDINGS, Outcome, check};
+pub use context::{BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit};
+pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
+pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
+pub use rules::{all, by_id};
+pub use selection::{Selection, UnknownRule, suggest};

@@ -1,0 +1,85 @@
+//! Two codes of one modal group in a block.
+
+use gcheck_controls::Code;
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+
+declare_rule! {
+    /// Two codes of one modal group stand in the same block.
+    ///
+    /// ## Why it matters
+    /// Only one code of a group can be active. Some controls refuse the block, others silently take the last code, so the
+    /// same program moves differently on the next machine.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G0 G1 X1. F100
+    /// ```
+    /// ## Not reported
+    /// Codes of different groups share a block.
+    /// ```nc,quiet,linuxcnc
+    /// G90 G0 X1.
+    /// ```
+    rule "two-codes-of-one-group" in "modal" {
+        summary: "two codes of one modal group in a block",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    let codes: Vec<(&Word, Code<'_>)> = cx.codes().collect();
+    for (ix, (second, code)) in codes.iter().enumerate() {
+        let earlier = codes.iter().take(ix).find(|(_, other)| other.group_ix() == code.group_ix());
+        // The same code twice is a repetition: harmless, and the business of another rule.
+        if let Some((first, other)) = earlier
+            && code.group().exclusive
+            && other.number() != code.number()
+        {
+            report.add(finding(cx, (first, *other), (second, *code)));
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)) -> Finding {
+    let group = second.1.group();
+    let number = group.number.as_ref().map(|n| format!(" (group {n})")).unwrap_or_default();
+    let (a, b) = (cx.text(first.0), cx.text(second.0));
+    Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` belong to one modal group"))
+        .label(format!("{}, the same group", second.1.entry().title))
+        .also(cx.range(first.0), first.1.entry().title.as_str())
+        .note(format!("`{a}` and `{b}` both set {}{number}; only one can be active  [{}]", group.title, group.source))
+        .help("keep one of the two, or put them in separate blocks")
+        .at_most(limit(group.confidence))
+        .at_most(if second.1.is_user() || first.1.is_user() { Severity::Info } else { Severity::Error })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_second_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 G1 G0 X1. F100\n",
+            &expect![[r#"
+                1 | G90 G1 G0 X1. F100
+                  |        ^^ error[two-codes-of-one-group] `G1` and `G0` belong to one modal group
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_same_code_twice_is_another_matter() {
+        check_rule(&RULE, "linuxcnc", "G90 G1 G90 X1. F100\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,138 @@
+//! Which rules run, and with what severity.
+//!
+//! Knows: rule ids, groups, sets, aliases. Must not know: where the wishes come from (command line, configuration).
+
+use crate::{RuleEntry, Severity, all};
+
+/// Why a selector cannot be used.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct UnknownRule {
+    /// As written.
+    pub name: String,
+    /// The nearest rule, group or set.
+    pub suggestion: Option<&'static str>,
+}
+
+/// Rules that run, with their severities.
+#[derive(Debug, Clone)]
+pub struct Selection {
+    /// Parallel to [`all`]: `None` when off, else the severity that replaces the rule's own, if any.
+    states: Vec<Option<Option<Severity>>>,
+}
+
+impl Default for Selection {
+    /// The recommended set.
+    fn default() -> Self {
+        Self { states: all().iter().map(|rule| rule.meta.recommended.then_some(None)).collect() }
+    }
+}
+
+impl Selection {
+    /// No rule at all.
+    pub fn none() -> Self {
+        Self { states: vec![None; all().len()] }
+    }
+
+    /// Only the rule of an entry.
+    pub fn only(rule: &RuleEntry) -> Self {
+        Self { states: all().iter().map(|r| std::ptr::eq(r.meta, rule.meta).then_some(None)).collect() }
+    }
+
+    /// Turns on what a selector names: a rule, a group, `recommended` or `all`.
+    ///
+    /// # Errors
+    /// [`UnknownRule`] when it names nothing.
+    pub fn enable(&mut self, selector: &str) -> Result<(), UnknownRule> {
+        self.each(selector, |state| {
+            state.get_or_insert(None);
+        })
+    }
+
+    /// Turns off what a selector names.
+    ///
+    /// # Errors
+    /// [`UnknownRule`] when it names nothing.
+    pub fn disable(&mut self, selector: &str) -> Result<(), UnknownRule> {
+        self.each(selector, |state| *state = None)
+    }
+
+    /// Turns on what a selector names and fixes its severity.
+    ///
+    /// # Errors
+    /// [`UnknownRule`] when it names nothing.
+    pub fn set_severity(&mut self, selector: &str, severity: Severity) -> Result<(), UnknownRule> {
+        self.each(selector, |state| *state = Some(Some(severity)))
+    }
+
+    /// The rules that are on, with the severity that replaces their own.
+    pub fn rules(&self) -> impl Iterator<Item = (&'static RuleEntry, Option<Severity>)> {
+        all().iter().zip(&self.states).filter_map(|(rule, state)| state.map(|severity| (*rule, severity)))
+    }
+
+    /// Is the rule on?
+    pub fn contains(&self, id: &str) -> bool {
+        self.rules().any(|(rule, _)| rule.meta.id == id)
+    }
+
+    fn each(&mut self, selector: &str, mut change: impl FnMut(&mut Option<Option<Severity>>)) -> Result<(), UnknownRule> {
+        let mut found = false;
+        for (rule, state) in all().iter().zip(&mut self.states) {
+            if matches(rule, selector) {
+                found = true;
+                change(state);
+            }
+        }
+        if found { Ok(()) } else { Err(UnknownRule { name: selector.to_owned(), suggestion: suggest(selector) }) }
+    }
+}
+
+/// Does a selector name this rule?
+pub(crate) fn matches(rule: &RuleEntry, selector: &str) -> bool {
+    let meta = rule.meta;
+    match selector {
+        "all" => true,
+        "recommended" => meta.recommended,
+        _ => meta.id == selector || meta.group == selector || meta.aliases.contains(&selector),
+    }
+}
+
+/// The rule, group or set whose name is nearest, if one is near.
+pub fn suggest(name: &str) -> Option<&'static str> {
+    let names = all().iter().flat_map(|r| [r.meta.id, r.meta.group]).chain(["recommended", "all"]);
+    names
+        .map(|candidate| (distance(name, candidate), candidate))
+        .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)
+        .min()
+        .map(|(_, candidate)| candidate)
+}
+
+/// Edits (insert, delete, replace) between two ASCII names.
+fn distance(a: &str, b: &str) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.bytes().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        if let Some(first) = row.first_mut() {
+            *first = left;
+        }
+        for (cell, y) in row.iter_mut().skip(1).zip(b.bytes()) {
+            let replace = diagonal + usize::from(x != y);
+            diagonal = *cell;
+            left = replace.min(left + 1).min(*cell + 1);
+            *cell = left;
+        }
+    }
+    row.last().copied().unwrap_or(a.len())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::distance;
+
+    #[test]
+    fn distances_are_those_of_levenshtein() {
+        assert_eq!(distance("kitten", "sitting"), 3);
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("same", "same"), 0);
+    }
+}

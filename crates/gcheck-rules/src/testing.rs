@@ -1,0 +1,101 @@
+//! The check helpers of this crate's tests: one rule on a small program, shown with carets.
+//!
+//! Knows: how a test states what it expects. Must not know: any rule.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use expect_test::Expect;
+use gcheck_program::Dialect;
+use gcheck_syntax::SourceText;
+
+use crate::{Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Scene, Selection, check};
+
+/// What a test says about the world around the program.
+pub(crate) struct World<'w> {
+    pub(crate) machine: MachineFacts,
+    pub(crate) programs: &'w dyn Programs,
+    pub(crate) control_is_guessed: bool,
+    pub(crate) suppressions: bool,
+}
+
+impl Default for World<'_> {
+    fn default() -> Self {
+        Self { machine: MachineFacts::default(), programs: &NoPrograms, control_is_guessed: false, suppressions: true }
+    }
+}
+
+/// Findings of a selection of rules on a program.
+pub(crate) fn findings(selection: &Selection, control: &str, program: &str, world: &World<'_>) -> Vec<Finding> {
+    let control = gcheck_controls::load(control).unwrap();
+    let dialect = Dialect::new(&control);
+    let scene = Scene {
+        dialect: &dialect,
+        machine: &world.machine,
+        programs: world.programs,
+        control_is_guessed: world.control_is_guessed,
+    };
+    let source = SourceText::from(program);
+    check(&Job { source: &source, scene, selection, suppressions: world.suppressions }).findings
+}
+
+/// One rule on a program, with nothing configured.
+pub(crate) fn check_rule(rule: &RuleEntry, control: &str, program: &str, expected: &Expect) {
+    check_rule_in(rule, control, program, &World::default(), expected);
+}
+
+/// One rule on a program in a given world.
+pub(crate) fn check_rule_in(rule: &RuleEntry, control: &str, program: &str, world: &World<'_>, expected: &Expect) {
+    let found = findings(&Selection::only(rule), control, program, world);
+    expected.assert_eq(&found.iter().map(|f| picture(program, f)).collect::<String>());
+}
+
+/// The line of a finding with carets under its place.
+fn picture(program: &str, finding: &Finding) -> String {
+    let Range { start, end } = finding.range.start as usize..finding.range.end as usize;
+    let line_start = program[..start].rfind(['\n', '\r']).map_or(0, |at| at + 1);
+    let line_end = program[start..].find(['\n', '\r']).map_or(program.len(), |at| start + at);
+    let number = program[..start].matches('\n').count() + 1;
+    let carets = "^".repeat(program[start..end.min(line_end).max(start)].chars().count().max(1));
+    let indent = " ".repeat(program[line_start..start].chars().count());
+    let margin = " ".repeat(number.to_string().len());
+    let mut out = String::new();
+    let _ = writeln!(out, "{number} | {}", &program[line_start..line_end]);
+    let _ = writeln!(out, "{margin} | {indent}{carets} {}[{}] {}", finding.severity, finding.rule.id, finding.message);
+    out
+}
+
+/// A finding's words that carets do not show: labels, notes, help, assumptions, fixes.
+pub(crate) fn words(finding: &Finding) -> String {
+    let mut out = format!("{}\n", finding.message);
+    if !finding.label.is_empty() {
+        let _ = writeln!(out, "  here: {}", finding.label);
+    }
+    for label in &finding.labels {
+        let _ = writeln!(out, "  there: {}", label.message);
+    }
+    for note in &finding.notes {
+        let _ = writeln!(out, "  note: {note}");
+    }
+    for assumption in &finding.assumptions {
+        let _ = writeln!(out, "  assuming: {assumption}");
+    }
+    if let Some(help) = &finding.help {
+        let _ = writeln!(out, "  help: {help}");
+    }
+    for fix in &finding.fixes {
+        let _ = writeln!(out, "  fix ({}): {}", if fix.safe { "safe" } else { "unsafe" }, fix.title);
+    }
+    out
+}
+
+/// The program with a finding's first fix applied.
+pub(crate) fn fixed(program: &str, finding: &Finding) -> String {
+    let mut text = program.to_owned();
+    let mut edits = finding.fixes.first().map(|f| f.edits.clone()).unwrap_or_default();
+    edits.sort_by_key(|e| std::cmp::Reverse(e.range.start));
+    for edit in edits {
+        text.replace_range(edit.range.start as usize..edit.range.end as usize, &edit.text);
+    }
+    text
+}

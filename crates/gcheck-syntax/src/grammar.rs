@@ -1,0 +1,859 @@
+//! The grammar: how tokens group into blocks, words, statements and expressions.
+//!
+//! Knows: forms of text of all controls. Must not know: what is done with them; it drives a [`Sink`], which builds a tree
+//! or lowers blocks. Nothing is stored but the tokens of one line.
+//!
+//! Convention: `foo(p)` always makes a node or reports an error; `opt_foo(p)` may make nothing. The caller looks at the
+//! first token.
+
+use std::ops::Range;
+
+use crate::lexer::{CommentEnd, Lexer, LexerMode, SemicolonUse, Token};
+use crate::{ForeignForm, SyntaxError, SyntaxErrorKind, SyntaxKind, SyntaxProfile};
+
+/// Nesting of brackets, functions, signs and indirections that an expression may have.
+///
+/// Controls allow five to a dozen; the limit only protects the stack.
+pub const MAX_EXPRESSION_DEPTH: u32 = 64;
+
+/// Receives what the grammar recognises, in text order.
+pub trait Sink {
+    /// A place to which [`Sink::start_node_at`] can come back.
+    type Checkpoint: Copy;
+
+    /// A node begins.
+    fn start_node(&mut self, kind: SyntaxKind);
+    /// The innermost open node ends.
+    fn finish_node(&mut self);
+    /// The present place.
+    fn checkpoint(&self) -> Self::Checkpoint;
+    /// A node begins that holds everything since `checkpoint`.
+    fn start_node_at(&mut self, checkpoint: Self::Checkpoint, kind: SyntaxKind);
+    /// A token; `range` in bytes from the start of the parsed text.
+    fn token(&mut self, kind: SyntaxKind, range: Range<u32>);
+    /// A mistake.
+    fn error(&mut self, error: SyntaxError);
+}
+
+/// Parses whole lines into a sink; never fails.
+///
+/// Emits one `BLOCK` node for each block, without a node around them.
+pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
+    let mut lexer = Lexer::new(text, LexerMode { semicolon_comment: profile.semicolon_comment });
+    let mut tokens: Vec<Lexeme> = Vec::with_capacity(64);
+    let mut start = 0;
+    loop {
+        tokens.clear();
+        let mut plain = true;
+        for (token, end) in lexer.by_ref() {
+            tokens.push(Lexeme { token, start, end });
+            start = end;
+            plain &= token.is_plain();
+            if token == Token::Newline {
+                break;
+            }
+        }
+        if tokens.is_empty() {
+            return;
+        }
+        // `X 1.` and `X1. 5` need the grammar where blanks may stand in numbers, but then a NUMBER or LETTER token is there,
+        // and that is not plain.
+        if plain {
+            sink.start_node(SyntaxKind::BLOCK);
+            for lexeme in &tokens {
+                sink.token(lexeme.token.kind(), lexeme.start..lexeme.end);
+            }
+            sink.finish_node();
+        } else {
+            line(&mut Parser { text: text.as_bytes(), tokens: &tokens, at: 0, depth: 0, too_deep: false, profile, sink });
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Lexeme {
+    token: Token,
+    start: u32,
+    end: u32,
+}
+
+struct Parser<'p, S: Sink> {
+    text: &'p [u8],
+    /// Tokens of one line, its end included; never empty.
+    tokens: &'p [Lexeme],
+    at: usize,
+    depth: u32,
+    /// The depth limit was reported for this line; what follows from it is not.
+    too_deep: bool,
+    profile: SyntaxProfile,
+    sink: &'p mut S,
+}
+
+impl<S: Sink> Parser<'_, S> {
+    fn current(&self) -> Option<Token> {
+        self.tokens.get(self.at).map(|l| l.token)
+    }
+
+    /// The token that follows `skip` tokens further on, blanks and comments not counted.
+    fn peek_past_blanks(&self, skip: usize) -> Option<Token> {
+        let rest = self.tokens.get(self.at + skip..)?;
+        rest.iter().map(|l| l.token).find(|t| !matches!(t, Token::Whitespace))
+    }
+
+    /// Start of the current token, or the end of the line.
+    fn offset(&self) -> u32 {
+        self.tokens.get(self.at).map_or_else(|| self.tokens.last().map_or(0, |l| l.end), |l| l.start)
+    }
+
+    fn end_of_previous(&self) -> u32 {
+        self.at.checked_sub(1).and_then(|at| self.tokens.get(at)).map_or_else(|| self.offset(), |l| l.end)
+    }
+
+    fn bump(&mut self) {
+        if let Some(lexeme) = self.tokens.get(self.at) {
+            self.sink.token(lexeme.token.kind(), lexeme.start..lexeme.end);
+            self.at += 1;
+        }
+    }
+
+    /// Blanks inside a statement or expression.
+    fn skip_blanks(&mut self) {
+        while self.current() == Some(Token::Whitespace) {
+            self.bump();
+        }
+    }
+
+    /// The text of the current token.
+    fn current_text(&self) -> &[u8] {
+        let range = self.tokens.get(self.at).map(|l| l.start as usize..l.end as usize);
+        range.and_then(|r| self.text.get(r)).unwrap_or_default()
+    }
+
+    fn is_address_o(&self) -> bool {
+        matches!(self.current_text(), [b'O' | b'o', ..])
+    }
+
+    fn at_end(&self) -> bool {
+        matches!(self.current(), None | Some(Token::Newline | Token::Semicolon(SemicolonUse::EndOfBlock)))
+    }
+
+    /// Is the previous token directly in front, without a blank?
+    fn touches_previous(&self) -> bool {
+        let previous = self.at.checked_sub(1).and_then(|at| self.tokens.get(at));
+        previous.is_some_and(|l| l.token != Token::Whitespace)
+    }
+
+    fn error(&mut self, kind: SyntaxErrorKind, range: Range<u32>) {
+        if self.too_deep {
+            return;
+        }
+        self.sink.error(SyntaxError { kind, range });
+    }
+
+    fn error_here(&mut self, kind: SyntaxErrorKind) {
+        let range = self.tokens.get(self.at).map_or_else(|| self.offset()..self.offset(), |l| l.start..l.end);
+        self.error(kind, range);
+    }
+
+    /// The current token in an ERROR node.
+    fn bump_as_error(&mut self, kind: SyntaxErrorKind) {
+        self.error_here(kind);
+        self.sink.start_node(SyntaxKind::ERROR);
+        self.bump();
+        self.sink.finish_node();
+    }
+
+    /// Everything to the end of the block in an ERROR node.
+    fn rest_as_error(&mut self) {
+        if self.at_end() {
+            return;
+        }
+        self.sink.start_node(SyntaxKind::ERROR);
+        while !self.at_end() {
+            self.bump();
+        }
+        self.sink.finish_node();
+    }
+
+    fn foreign(&mut self, form: ForeignForm, range: Range<u32>) {
+        self.error(SyntaxErrorKind::Foreign(form), range);
+    }
+}
+
+/// A line: one block, or several where `;` ends a block.
+fn line<S: Sink>(p: &mut Parser<'_, S>) {
+    loop {
+        p.sink.start_node(SyntaxKind::BLOCK);
+        block(p);
+        match p.current() {
+            Some(Token::Semicolon(SemicolonUse::EndOfBlock)) => {
+                p.bump();
+                if rest_is_not_a_block(p) {
+                    // `; end` or `G0 X1. ; move`: the line end closes this block, so that no empty block follows.
+                    finish_line(p);
+                    return;
+                }
+                p.sink.finish_node();
+            }
+            _ => {
+                p.bump();
+                p.sink.finish_node();
+                return;
+            }
+        }
+        if p.at >= p.tokens.len() {
+            return;
+        }
+    }
+}
+
+/// After an end-of-block character: nothing more, only comments, or text that cannot be read as words.
+fn rest_is_not_a_block<S: Sink>(p: &Parser<'_, S>) -> bool {
+    let rest = p.tokens.get(p.at..).unwrap_or_default();
+    let meaningful = |t: Token| !matches!(t, Token::Whitespace | Token::Comment(_) | Token::Newline | Token::Semicolon(_));
+    let mut previous = Token::Whitespace;
+    let mut has_word = false;
+    for lexeme in rest {
+        match lexeme.token {
+            Token::Unknown => return true,
+            // `T` `O` `O` `L`: two letters in a row are prose.
+            Token::Letter if previous == Token::Letter => return true,
+            token => has_word |= meaningful(token),
+        }
+        if lexeme.token != Token::Whitespace {
+            previous = lexeme.token;
+        }
+    }
+    !has_word || previous == Token::Letter
+}
+
+/// The rest of a line behind its last end-of-block character.
+fn finish_line<S: Sink>(p: &mut Parser<'_, S>) {
+    while matches!(p.current(), Some(Token::Whitespace | Token::Comment(_) | Token::Semicolon(_))) {
+        comment_or_blank(p);
+    }
+    if !matches!(p.current(), None | Some(Token::Newline)) {
+        let end = p.tokens.iter().rev().find(|l| l.token != Token::Newline).map_or(0, |l| l.end);
+        p.error(SyntaxErrorKind::TextAfterEndOfBlock, p.offset()..end);
+        p.sink.start_node(SyntaxKind::ERROR);
+        while !matches!(p.current(), None | Some(Token::Newline)) {
+            p.bump();
+        }
+        p.sink.finish_node();
+    }
+    p.bump();
+    p.sink.finish_node();
+}
+
+fn comment_or_blank<S: Sink>(p: &mut Parser<'_, S>) {
+    match p.current() {
+        Some(Token::Comment(CommentEnd::Nested)) => p.bump_as_error(SyntaxErrorKind::NestedComment),
+        Some(Token::Comment(CommentEnd::Unclosed)) => p.bump_as_error(SyntaxErrorKind::UnclosedComment),
+        _ => p.bump(),
+    }
+}
+
+/// Everything of a block but its end.
+fn block<S: Sink>(p: &mut Parser<'_, S>) {
+    while !p.at_end() {
+        item(p);
+    }
+}
+
+/// One part of a block: blank, comment, word, assignment or statement.
+fn item<S: Sink>(p: &mut Parser<'_, S>) {
+    let Some(token) = p.current() else { return };
+    match token {
+        Token::Whitespace | Token::Bom | Token::Percent | Token::Semicolon(_) => p.bump(),
+        Token::Comment(_) => comment_or_blank(p),
+        Token::Word => word(p),
+        Token::Letter => address(p),
+        Token::OName => o_statement(p),
+        Token::ColonNumber => p.bump(),
+        Token::Variable | Token::NamedVariable | Token::Hash => assignment(p),
+        Token::LBracket => condition(p),
+        Token::Slash => block_delete(p),
+        Token::Number => p.bump_as_error(if p.touches_previous() && p.at > 0 {
+            SyntaxErrorKind::MalformedNumber
+        } else {
+            SyntaxErrorKind::ValueWithoutAddress
+        }),
+        Token::RParen => p.bump_as_error(SyntaxErrorKind::StrayParenthesis),
+        Token::RBracket => p.bump_as_error(SyntaxErrorKind::StrayBracket),
+        Token::If => if_statement(p),
+        Token::While | Token::Do => while_statement(p),
+        Token::End => end_statement(p),
+        Token::Goto => goto_statement(p),
+        Token::Print => print_statement(p),
+        Token::Port => macro_statement(p, SyntaxKind::PORT_STATEMENT, |p| p.bump()),
+        Token::Then
+        | Token::Else
+        | Token::ElseIf
+        | Token::EndIf
+        | Token::EndWhile
+        | Token::Sub
+        | Token::EndSub
+        | Token::Call
+        | Token::Return
+        | Token::Repeat
+        | Token::EndRepeat
+        | Token::Break
+        | Token::Continue
+        | Token::Comparison
+        | Token::And
+        | Token::Or
+        | Token::Mod
+        | Token::Function => p.bump_as_error(SyntaxErrorKind::StrayKeyword),
+        Token::Newline
+        | Token::Plus
+        | Token::Minus
+        | Token::Star
+        | Token::Power
+        | Token::Equals
+        | Token::Comma
+        | Token::Unknown => unexpected(p),
+    }
+}
+
+/// A run of characters that make no sense here is one mistake.
+fn unexpected<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::ERROR);
+    p.bump();
+    while matches!(p.current(), Some(Token::Unknown | Token::Plus | Token::Minus | Token::Star | Token::Equals | Token::Comma)) {
+        p.bump();
+    }
+    p.sink.finish_node();
+    let end = p.end_of_previous();
+    p.error(SyntaxErrorKind::Unexpected, start..end);
+}
+
+/// `/`, `/3`. At the head of a block or, on some controls, further in.
+fn block_delete<S: Sink>(p: &mut Parser<'_, S>) {
+    p.sink.start_node(SyntaxKind::BLOCK_DELETE);
+    p.bump();
+    // `/1` is a level, `/ 1` and `/12` are not.
+    if let Some(level) = p.tokens.get(p.at)
+        && level.token == Token::Number
+        && level.end - level.start == 1
+    {
+        p.bump();
+    }
+    p.sink.finish_node();
+}
+
+/// A fused word, or `O100` in front of a keyword.
+fn word<S: Sink>(p: &mut Parser<'_, S>) {
+    // Between `O100` and its keyword stand blanks at most; `N10 IF` is a label and a statement.
+    if p.peek_past_blanks(1).is_some_and(is_o_keyword) && p.is_address_o() {
+        o_statement(p);
+        return;
+    }
+    // `X1. 5` is one number where blanks are allowed in numbers.
+    if p.profile.blanks_in_numbers && p.peek_past_blanks(1) == Some(Token::Number) {
+        p.sink.start_node(SyntaxKind::ADDRESS);
+        p.bump();
+        while p.peek_past_blanks(0) == Some(Token::Number) {
+            p.skip_blanks();
+            p.bump();
+        }
+        p.sink.finish_node();
+        return;
+    }
+    p.bump();
+    needs_brackets(p);
+}
+
+fn is_o_keyword(token: Token) -> bool {
+    matches!(
+        token,
+        Token::Sub
+            | Token::EndSub
+            | Token::Call
+            | Token::Return
+            | Token::If
+            | Token::ElseIf
+            | Token::Else
+            | Token::EndIf
+            | Token::While
+            | Token::EndWhile
+            | Token::Do
+            | Token::Repeat
+            | Token::EndRepeat
+            | Token::Break
+            | Token::Continue
+    )
+}
+
+/// An address whose number is not fused to it: `X#1`, `X[#1+2.]`, `X - .5`, `X 1.`; or nothing at all.
+fn address<S: Sink>(p: &mut Parser<'_, S>) {
+    let is_o = p.is_address_o();
+    let statement = p.sink.checkpoint();
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::ADDRESS);
+    p.bump();
+    let letter = start..p.end_of_previous();
+    let value = match p.peek_past_blanks(0) {
+        Some(Token::Number) => {
+            p.skip_blanks();
+            p.bump();
+            while p.profile.blanks_in_numbers && p.peek_past_blanks(0) == Some(Token::Number) {
+                p.skip_blanks();
+                p.bump();
+            }
+            true
+        }
+        Some(token) if starts_operand(token) => {
+            p.skip_blanks();
+            unary(p);
+            true
+        }
+        _ => false,
+    };
+    p.sink.finish_node();
+    if !value {
+        p.error(SyntaxErrorKind::AddressWithoutValue, letter);
+        return;
+    }
+    if is_o && p.peek_past_blanks(0).is_some_and(is_o_keyword) {
+        p.sink.start_node_at(statement, SyntaxKind::O_STATEMENT);
+        o_tail(p, start);
+        p.sink.finish_node();
+        return;
+    }
+    needs_brackets(p);
+}
+
+fn starts_operand(token: Token) -> bool {
+    matches!(
+        token,
+        Token::Number
+            | Token::Variable
+            | Token::NamedVariable
+            | Token::Hash
+            | Token::LBracket
+            | Token::Plus
+            | Token::Minus
+            | Token::Function
+    )
+}
+
+/// `X#1+2`, `X1.-2`: arithmetic behind a value that is not in brackets.
+fn needs_brackets<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    let mut any = false;
+    // `X#1 /G0` is a block delete, `X#1/2` a division.
+    while let Some(token) = p.current()
+        && binding_power(token, p.profile).is_some()
+        && p.tokens.get(p.at + 1).is_some_and(|next| starts_operand(next.token) || next.token == Token::Whitespace)
+        && (token != Token::Slash || p.tokens.get(p.at + 1).is_some_and(|next| next.token != Token::Whitespace))
+    {
+        if !any {
+            p.sink.start_node(SyntaxKind::ERROR);
+            any = true;
+        }
+        p.bump();
+        p.skip_blanks();
+        unary(p);
+    }
+    if any {
+        p.sink.finish_node();
+        let end = p.end_of_previous();
+        p.error(SyntaxErrorKind::NeedsBrackets, start..end);
+    }
+}
+
+/// `#100 = …`.
+fn assignment<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::ASSIGNMENT);
+    variable(p);
+    let target = start..p.end_of_previous();
+    if p.peek_past_blanks(0) == Some(Token::Equals) {
+        p.skip_blanks();
+        p.bump();
+        p.skip_blanks();
+        if p.current().is_some_and(starts_operand) {
+            let value = p.offset();
+            let is_bare = expression(p);
+            if is_bare && !p.profile.bare_expressions {
+                let end = p.end_of_previous();
+                p.error(SyntaxErrorKind::NeedsBrackets, value..end);
+            }
+        } else {
+            let end = p.end_of_previous();
+            p.error(SyntaxErrorKind::MissingOperand, start..end);
+        }
+    } else {
+        p.error(SyntaxErrorKind::MissingEquals, target);
+    }
+    p.sink.finish_node();
+}
+
+/// `[#1 LT 10]` in front of words.
+fn condition<S: Sink>(p: &mut Parser<'_, S>) {
+    p.sink.start_node(SyntaxKind::CONDITION);
+    group(p);
+    p.sink.finish_node();
+}
+
+/// A statement of macro-B controls, reported where the control has none.
+fn macro_statement<S: Sink>(p: &mut Parser<'_, S>, kind: SyntaxKind, body: impl FnOnce(&mut Parser<'_, S>)) {
+    if !p.profile.macro_statements {
+        let range = p.offset()..p.tokens.get(p.at).map_or(0, |l| l.end);
+        p.foreign(ForeignForm::MacroStatement, range);
+    }
+    p.sink.start_node(kind);
+    body(p);
+    p.sink.finish_node();
+}
+
+/// `[…]`, or several joined by `AND` and `OR`.
+fn required_condition<S: Sink>(p: &mut Parser<'_, S>) {
+    let keyword = p.at.checked_sub(1).and_then(|at| p.tokens.get(at)).map_or(0..0, |l| l.start..l.end);
+    if p.peek_past_blanks(0) == Some(Token::LBracket) {
+        p.skip_blanks();
+        expression(p);
+    } else {
+        p.error(SyntaxErrorKind::MissingCondition, keyword);
+    }
+}
+
+/// The number after `GOTO`, `DO`, `END`.
+fn required_number<S: Sink>(p: &mut Parser<'_, S>) {
+    let keyword = p.at.checked_sub(1).and_then(|at| p.tokens.get(at)).map_or(0..0, |l| l.start..l.end);
+    if p.peek_past_blanks(0).is_some_and(starts_operand) {
+        p.skip_blanks();
+        unary(p);
+    } else {
+        p.error(SyntaxErrorKind::MissingNumber, keyword);
+        if p.peek_past_blanks(0) == Some(Token::Word) {
+            // `GOTO N10`: the label word is not a word of this block.
+            p.skip_blanks();
+            p.sink.start_node(SyntaxKind::ERROR);
+            p.bump();
+            p.sink.finish_node();
+        }
+    }
+}
+
+fn if_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::IF_STATEMENT, |p| {
+        let start = p.offset();
+        p.bump();
+        required_condition(p);
+        match p.peek_past_blanks(0) {
+            Some(Token::Goto) => {
+                p.skip_blanks();
+                goto_tail(p);
+            }
+            Some(Token::Then) => {
+                p.skip_blanks();
+                p.bump();
+                block(p);
+            }
+            // `IF [#9 EQ #0] #9=#4109`: some controls let THEN be left out in front of an assignment.
+            Some(Token::Variable | Token::NamedVariable | Token::Hash) => block(p),
+            _ => {
+                let end = p.end_of_previous();
+                p.error(SyntaxErrorKind::IfWithoutConsequence, start..end);
+            }
+        }
+    });
+}
+
+fn goto_tail<S: Sink>(p: &mut Parser<'_, S>) {
+    p.sink.start_node(SyntaxKind::GOTO_STATEMENT);
+    p.bump();
+    required_number(p);
+    p.sink.finish_node();
+}
+
+fn goto_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::GOTO_STATEMENT, |p| {
+        p.bump();
+        required_number(p);
+    });
+}
+
+/// `WHILE […] DO1` or `DO1`.
+fn while_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::WHILE_STATEMENT, |p| {
+        let start = p.offset();
+        if p.current() == Some(Token::While) {
+            p.bump();
+            required_condition(p);
+        }
+        if p.peek_past_blanks(0) == Some(Token::Do) {
+            p.skip_blanks();
+            p.bump();
+            required_number(p);
+        } else {
+            let end = p.end_of_previous();
+            p.error(SyntaxErrorKind::WhileWithoutDo, start..end);
+        }
+    });
+}
+
+fn end_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::END_STATEMENT, |p| {
+        p.bump();
+        required_number(p);
+    });
+}
+
+/// `DPRNT[TEXT#100[53]]`: the text runs to the matching bracket and is not read as words.
+fn print_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::PRINT_STATEMENT, |p| {
+        let start = p.offset();
+        p.bump();
+        p.skip_blanks();
+        if p.current() != Some(Token::LBracket) {
+            let end = p.end_of_previous();
+            p.error(SyntaxErrorKind::MissingOperand, start..end);
+            return;
+        }
+        let open = p.offset();
+        let mut depth = 0_usize;
+        while !matches!(p.current(), None | Some(Token::Newline)) {
+            match p.current() {
+                Some(Token::LBracket) => depth += 1,
+                Some(Token::RBracket) => depth -= 1,
+                _ => {}
+            }
+            p.bump();
+            if depth == 0 {
+                return;
+            }
+        }
+        p.error(SyntaxErrorKind::UnclosedBracket, open..open + 1);
+    });
+}
+
+/// `O100 SUB`, `O<name> CALL [1] [2]` with a fused label.
+fn o_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::O_STATEMENT);
+    p.bump();
+    if p.peek_past_blanks(0).is_some_and(is_o_keyword) {
+        o_tail(p, start);
+    } else {
+        let end = p.end_of_previous();
+        p.error(SyntaxErrorKind::OWordWithoutKeyword, start..end);
+    }
+    p.sink.finish_node();
+}
+
+/// The keyword of an O-word statement and what follows it.
+fn o_tail<S: Sink>(p: &mut Parser<'_, S>, start: u32) {
+    p.skip_blanks();
+    let keyword = p.current();
+    p.bump();
+    if !p.profile.o_words {
+        let end = p.end_of_previous();
+        p.foreign(ForeignForm::OWord, start..end);
+    }
+    match keyword {
+        Some(Token::If | Token::ElseIf | Token::While | Token::Repeat) => required_condition(p),
+        Some(Token::Call) => {
+            while p.peek_past_blanks(0) == Some(Token::LBracket) {
+                p.skip_blanks();
+                group(p);
+            }
+        }
+        Some(Token::Return | Token::EndSub) if p.peek_past_blanks(0) == Some(Token::LBracket) => {
+            p.skip_blanks();
+            group(p);
+        }
+        _ => {}
+    }
+}
+
+/// How tightly an operator binds, or `None` for other tokens.
+fn binding_power(token: Token, profile: SyntaxProfile) -> Option<u8> {
+    let logic = profile.logic_binds_last;
+    Some(match token {
+        Token::Power => 6,
+        Token::And if !logic => 5,
+        Token::Star | Token::Slash | Token::Mod => 5,
+        Token::Or if !logic => 4,
+        Token::Plus | Token::Minus => 4,
+        Token::Comparison => 3,
+        Token::And | Token::Or => 2,
+        _ => return None,
+    })
+}
+
+/// An expression; true if it has an operator that stands in no bracket.
+fn expression<S: Sink>(p: &mut Parser<'_, S>) -> bool {
+    binary(p, 0)
+}
+
+fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
+    let left = p.sink.checkpoint();
+    unary(p);
+    let mut any = false;
+    while let Some(power) = p.peek_past_blanks(0).and_then(|t| binding_power(t, p.profile)).filter(|power| *power >= weakest) {
+        any = true;
+        p.sink.start_node_at(left, SyntaxKind::BINARY);
+        p.skip_blanks();
+        if p.current() == Some(Token::Power) && !p.profile.power_operator {
+            let range = p.offset()..p.offset() + 2;
+            p.foreign(ForeignForm::PowerOperator, range);
+        }
+        let operator = p.offset();
+        p.bump();
+        let operator = operator..p.end_of_previous();
+        p.skip_blanks();
+        if p.current().is_some_and(starts_operand) {
+            binary(p, power + 1);
+        } else {
+            p.error(SyntaxErrorKind::MissingOperand, operator);
+        }
+        p.sink.finish_node();
+    }
+    any
+}
+
+/// Runs `body` one level deeper, or reports the limit and gives up on the block.
+fn deeper<S: Sink>(p: &mut Parser<'_, S>, body: impl FnOnce(&mut Parser<'_, S>)) {
+    if p.depth >= MAX_EXPRESSION_DEPTH {
+        p.error_here(SyntaxErrorKind::TooDeep);
+        p.too_deep = true;
+        p.rest_as_error();
+        return;
+    }
+    p.depth += 1;
+    body(p);
+    p.depth -= 1;
+}
+
+/// A value with its signs.
+fn unary<S: Sink>(p: &mut Parser<'_, S>) {
+    if matches!(p.current(), Some(Token::Plus | Token::Minus)) {
+        deeper(p, |p| {
+            let sign = p.offset();
+            p.sink.start_node(SyntaxKind::UNARY);
+            p.bump();
+            p.skip_blanks();
+            if p.current().is_some_and(starts_operand) {
+                unary(p);
+            } else {
+                p.error(SyntaxErrorKind::MissingOperand, sign..sign + 1);
+            }
+            p.sink.finish_node();
+        });
+    } else {
+        primary(p);
+    }
+}
+
+fn primary<S: Sink>(p: &mut Parser<'_, S>) {
+    match p.current() {
+        Some(Token::Number) => p.bump(),
+        Some(Token::Variable | Token::NamedVariable | Token::Hash) => variable(p),
+        Some(Token::LBracket) => group(p),
+        Some(Token::Function) => function_call(p),
+        _ => p.error_here(SyntaxErrorKind::MissingOperand),
+    }
+}
+
+/// `#1`, `#<name>`, `##1`, `#[#1+2]`.
+fn variable<S: Sink>(p: &mut Parser<'_, S>) {
+    match p.current() {
+        Some(Token::Variable) => p.bump(),
+        Some(Token::NamedVariable) => {
+            if !p.profile.named_parameters {
+                let range = p.offset()..p.tokens.get(p.at).map_or(0, |l| l.end);
+                p.foreign(ForeignForm::NamedParameter, range);
+            }
+            p.bump();
+        }
+        _ => deeper(p, |p| {
+            let hash = p.offset();
+            p.sink.start_node(SyntaxKind::INDIRECT);
+            p.bump();
+            p.skip_blanks();
+            match p.current() {
+                Some(Token::Variable | Token::NamedVariable | Token::Hash) => variable(p),
+                Some(Token::LBracket) => group(p),
+                Some(Token::Number) => p.bump(),
+                _ => p.error(SyntaxErrorKind::MissingOperand, hash..hash + 1),
+            }
+            p.sink.finish_node();
+        }),
+    }
+}
+
+/// `[…]`.
+fn group<S: Sink>(p: &mut Parser<'_, S>) {
+    deeper(p, |p| {
+        let open = p.offset();
+        p.sink.start_node(SyntaxKind::GROUP);
+        p.bump();
+        p.skip_blanks();
+        if p.current().is_some_and(starts_operand) {
+            expression(p);
+            p.skip_blanks();
+            // `ATAN[a,b]`, `POW[a,b]`.
+            while p.current() == Some(Token::Comma) {
+                p.bump();
+                p.skip_blanks();
+                expression(p);
+                p.skip_blanks();
+            }
+        } else {
+            p.error(SyntaxErrorKind::MissingOperand, open..open + 1);
+        }
+        close_group(p, open);
+        p.sink.finish_node();
+    });
+}
+
+fn close_group<S: Sink>(p: &mut Parser<'_, S>, open: u32) {
+    if p.current() != Some(Token::RBracket) && !p.at_end() {
+        // What stands between the expression and its bracket is one mistake, if the bracket comes at all.
+        let rest = p.tokens.get(p.at..).unwrap_or_default();
+        let closes = rest.iter().any(|l| l.token == Token::RBracket);
+        if closes {
+            let start = p.offset();
+            p.sink.start_node(SyntaxKind::ERROR);
+            while !matches!(p.current(), None | Some(Token::RBracket)) {
+                p.bump();
+            }
+            p.sink.finish_node();
+            let end = p.end_of_previous();
+            p.error(SyntaxErrorKind::Unexpected, start..end);
+        }
+    }
+    if p.current() == Some(Token::RBracket) {
+        p.bump();
+    } else {
+        p.error(SyntaxErrorKind::UnclosedBracket, open..open + 1);
+    }
+}
+
+/// `SIN[a]`, `ATAN[a]/[b]`.
+fn function_call<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    let is_atan = p.current_text().eq_ignore_ascii_case(b"ATAN");
+    p.sink.start_node(SyntaxKind::FUNCTION_CALL);
+    p.bump();
+    let name = start..p.end_of_previous();
+    p.skip_blanks();
+    if p.current() == Some(Token::LBracket) {
+        group(p);
+        if is_atan && p.peek_past_blanks(0) == Some(Token::Slash) {
+            let slash = p.tokens.get(p.at..).and_then(|rest| rest.iter().position(|l| l.token == Token::Slash)).unwrap_or(0);
+            if p.peek_past_blanks(slash + 1) == Some(Token::LBracket) {
+                p.skip_blanks();
+                p.bump();
+                p.skip_blanks();
+                group(p);
+            }
+        }
+    } else {
+        p.error(SyntaxErrorKind::MissingOperand, name);
+    }
+    p.sink.finish_node();
+}

@@ -1,0 +1,54 @@
+//! The few facts about a control that the grammar needs.
+//!
+//! Knows: forms of text. Must not know: any control's name; the knowledge base maps a control to a profile.
+
+/// How a control reads a line of text.
+///
+/// Every form is parsed whatever the profile says; a form that the control does not have is reported as
+/// [`SyntaxErrorKind::Foreign`](crate::SyntaxErrorKind::Foreign), so a program in the wrong dialect still has a tree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one")]
+pub struct SyntaxProfile {
+    /// `;` starts a comment; otherwise it ends the block.
+    pub semicolon_comment: bool,
+    /// `X 1. 5` is `X1.5`.
+    pub blanks_in_numbers: bool,
+    /// `O100 SUB`, `O<name> CALL [1]`.
+    pub o_words: bool,
+    /// `IF […] GOTO`, `WHILE […] DO1`, `DPRNT[…]`.
+    pub macro_statements: bool,
+    /// `#<name>`.
+    pub named_parameters: bool,
+    /// `#1=#2+3` without brackets.
+    pub bare_expressions: bool,
+    /// `AND`, `OR`, `XOR` bind weaker than comparisons; otherwise `AND` binds as `*`, `OR` and `XOR` as `+`.
+    pub logic_binds_last: bool,
+    /// `**`.
+    pub power_operator: bool,
+}
+
+impl SyntaxProfile {
+    /// A macro-B style control: `;` ends the block, `IF`/`WHILE`/`GOTO`.
+    pub const MACRO_B: Self = Self {
+        semicolon_comment: false,
+        blanks_in_numbers: false,
+        o_words: false,
+        macro_statements: true,
+        named_parameters: false,
+        bare_expressions: true,
+        logic_binds_last: false,
+        power_operator: false,
+    };
+
+    /// An RS274/NGC style control: `;` comments, O-words, named parameters.
+    pub const NGC: Self = Self {
+        semicolon_comment: true,
+        blanks_in_numbers: true,
+        o_words: true,
+        macro_statements: false,
+        named_parameters: true,
+        bare_expressions: false,
+        logic_binds_last: true,
+        power_operator: true,
+    };
+}

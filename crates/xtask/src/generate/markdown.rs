@@ -1,0 +1,41 @@
+//! Small pieces of Markdown.
+//!
+//! Knows: Markdown's syntax. Must not know: what the pages are about.
+
+use std::fmt::Write as _;
+
+/// The first line of a generated page.
+pub(super) fn header(source: &str) -> String {
+    format!("<!-- Written by `cargo xtask gen` from {source}; edit that. -->\n\n")
+}
+
+/// A table; nothing at all without rows.
+pub(super) fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
+    let mut text = String::new();
+    if rows.is_empty() {
+        return text;
+    }
+    let _ = writeln!(text, "| {} |", columns.join(" | "));
+    let _ = writeln!(text, "|{}", "---|".repeat(columns.len()));
+    for row in rows {
+        let cells: Vec<String> = row.iter().map(|cell| cell.trim().replace('|', "\\|").replace('\n', " ")).collect();
+        let _ = writeln!(text, "| {} |", cells.join(" | "));
+    }
+    text
+}
+
+/// Items as code, with commas between them.
+pub(super) fn codes<I: AsRef<str>>(items: impl IntoIterator<Item = I>) -> String {
+    let items: Vec<String> = items.into_iter().map(|item| format!("`{}`", item.as_ref())).collect();
+    items.join(", ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::table;
+
+    #[test]
+    fn cells_cannot_break_the_table() {
+        assert_eq!(table(&["a", "b"], &[vec!["x|y".into(), "1\n2".into()]]), "| a | b |\n|---|---|\n| x\\|y | 1 2 |\n");
+    }
+}

@@ -1,0 +1,61 @@
+//! `cargo xtask`: what developers of gcheck need beside cargo.
+//!
+//! Knows: which commands there are. Must not know: what they do; each is a module of its own.
+//!
+//! The alias in `.cargo/config.toml` builds xtask without the product's crates, so that it works while they do not
+//! compile; a command that has to read the product (`gen`, `bench`) runs xtask again with them, see [`product`].
+
+#![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool for developers")]
+
+mod bench;
+mod corpus;
+mod generate;
+mod measure;
+mod new_rule;
+mod product;
+mod test;
+mod tidy;
+mod workspace;
+
+use std::env;
+use std::process::ExitCode;
+
+const USAGE: &str = "\
+usage: cargo xtask COMMAND
+
+  tidy                        check the laws of the repository that no compiler checks
+  gen [--check]               write (or check) registries, pages and schemas that come from code and data
+  new-rule ID --tier token|block|program --group GROUP
+                              scaffold a rule
+  test [--quick] [ARGS…]      install what tests need, then run everything that CI runs; ARGS go to the tests
+  bench                       measure speed and memory against the budgets, in one table
+  corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = env::args().skip(1).collect();
+    let (command, rest) = match arguments.split_first() {
+        Some((command, rest)) => (command.as_str(), rest),
+        None => ("help", arguments.as_slice()),
+    };
+    let outcome = match command {
+        "tidy" => tidy::run(rest),
+        "gen" => generate::run(rest),
+        "new-rule" => new_rule::run(rest),
+        "test" => test::run(rest),
+        "bench" => bench::run(rest),
+        "corpus" => corpus::run(rest),
+        "measure" => measure::run(rest),
+        "help" | "--help" | "-h" => {
+            println!("{USAGE}");
+            Ok(ExitCode::SUCCESS)
+        }
+        unknown => {
+            eprintln!("xtask: there is no command `{unknown}`\n\n{USAGE}");
+            Ok(ExitCode::from(2))
+        }
+    };
+    outcome.unwrap_or_else(|error| {
+        eprintln!("xtask {command}: {error:#}");
+        ExitCode::from(2)
+    })
+}

@@ -1,0 +1,24 @@
+//! Running xtask again with the product's crates built in.
+//!
+//! Knows: the feature `product`. Must not know: what is read from the product.
+
+use std::env;
+use std::process::{Command, ExitCode};
+
+use anyhow::Context as _;
+
+use crate::workspace;
+
+/// True in a build that has the product's crates.
+pub(crate) const BUILT_IN: bool = cfg!(feature = "product");
+
+/// Runs an xtask command in a build with the product; `release` for measurements.
+pub(crate) fn rerun(command: &str, arguments: &[String], release: bool) -> anyhow::Result<ExitCode> {
+    let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    cargo.current_dir(workspace::root()).args(["run", "--quiet", "--package", "xtask"]);
+    if release {
+        cargo.arg("--release");
+    }
+    let status = cargo.args(["--", command]).args(arguments).status().context("cargo does not start")?;
+    Ok(workspace::exit_code(status))
+}
