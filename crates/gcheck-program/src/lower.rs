@@ -158,6 +158,8 @@ struct Open {
     target: Option<Target>,
     keyword: Option<(OLabel, OKeyword)>,
     first_argument: u32,
+    /// Where the value of an assignment starts: behind its `=`.
+    value_start: u32,
 }
 
 struct LowerSink<'t, 'd> {
@@ -504,6 +506,7 @@ impl Sink for LowerSink<'_, '_> {
             target: None,
             keyword: None,
             first_argument: self.table.exprs.len() as u32,
+            value_start: 0,
         });
         if kind == SyntaxKind::BLOCK
             && let Some(open) = self.open.last_mut()
@@ -520,7 +523,6 @@ impl Sink for LowerSink<'_, '_> {
         match open.kind {
             SyntaxKind::ERROR => {
                 self.skip -= 1;
-                self.has_content = true;
                 return;
             }
             SyntaxKind::PRINT_STATEMENT => {
@@ -577,9 +579,9 @@ impl Sink for LowerSink<'_, '_> {
                 }
             }
             SyntaxKind::ASSIGNMENT => {
+                // Without `=` there is neither target nor value.
+                let value = open.target.as_ref().and_then(|_| self.take_expr(open.ops, open.value_start));
                 let target = open.target.clone().unwrap_or(Target::Invalid);
-                let start = open.second_start();
-                let value = self.take_expr(open.ops, start);
                 self.statement(&open, StatementKind::Assign { target, value });
             }
             SyntaxKind::CONDITION => {
@@ -651,6 +653,7 @@ impl Sink for LowerSink<'_, '_> {
             _ => {}
         }
         self.end = range.end;
+        self.has_content = true;
         for open in self.open.iter_mut().rev().take_while(|o| o.start == u32::MAX) {
             open.start = range.start;
         }
@@ -771,14 +774,7 @@ impl LowerSink<'_, '_> {
         if let Some(open) = self.open.last_mut() {
             open.target = Some(target);
             open.ops = ops;
-            open.first_argument = end;
+            open.value_start = end;
         }
-    }
-}
-
-impl Open {
-    /// Where the value of an assignment starts: behind its `=`.
-    fn second_start(&self) -> u32 {
-        if self.target.is_some() { self.first_argument } else { self.start }
     }
 }

@@ -349,19 +349,31 @@ fn word<S: Sink>(p: &mut Parser<'_, S>) {
         o_statement(p);
         return;
     }
-    // `X1. 5` is one number where blanks are allowed in numbers.
-    if p.profile.blanks_in_numbers && p.peek_past_blanks(1) == Some(Token::Number) {
+    // `X1. 5` is one number where blanks are allowed in numbers; `X1.2.3` is none anywhere.
+    let next_is_number = p.tokens.get(p.at + 1).is_some_and(|l| l.token == Token::Number);
+    if p.profile.blanks_in_numbers && !next_is_number && p.peek_past_blanks(1) == Some(Token::Number) {
         p.sink.start_node(SyntaxKind::ADDRESS);
-        p.bump();
-        while p.peek_past_blanks(0) == Some(Token::Number) {
-            p.skip_blanks();
-            p.bump();
-        }
+        number_with_blanks(p);
         p.sink.finish_node();
         return;
     }
     p.bump();
     needs_brackets(p);
+}
+
+/// The pieces of a number that blanks divide, the first of which may be a fused word.
+fn number_with_blanks<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.bump();
+    while p.peek_past_blanks(0) == Some(Token::Number) {
+        p.skip_blanks();
+        p.bump();
+    }
+    let range = start..p.end_of_previous();
+    let text = p.text.get(range.start as usize..range.end as usize).unwrap_or_default();
+    if memchr::memchr_iter(b'.', text).count() > 1 {
+        p.error(SyntaxErrorKind::MalformedNumber, range);
+    }
 }
 
 fn is_o_keyword(token: Token) -> bool {
@@ -396,9 +408,9 @@ fn address<S: Sink>(p: &mut Parser<'_, S>) {
     let value = match p.peek_past_blanks(0) {
         Some(Token::Number) => {
             p.skip_blanks();
-            p.bump();
-            while p.profile.blanks_in_numbers && p.peek_past_blanks(0) == Some(Token::Number) {
-                p.skip_blanks();
+            if p.profile.blanks_in_numbers {
+                number_with_blanks(p);
+            } else {
                 p.bump();
             }
             true
