@@ -10,17 +10,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     folders.sort_by_key(fs::DirEntry::file_name);
     let mut out = String::from("pub(crate) static SOURCES: &[Source] = &[\n");
     for folder in folders.iter().filter(|f| f.path().join("control.toml").exists()) {
-        let name = folder.file_name();
-        writeln!(out, "    Source {{ name: {name:?}, files: &[")?;
+        writeln!(out, "    Source {{ name: {}, files: &[", literal(folder.file_name().as_ref())?)?;
         let mut files: Vec<_> = fs::read_dir(folder.path())?.collect::<Result<_, _>>()?;
         files.sort_by_key(fs::DirEntry::file_name);
         for file in files.iter().filter(|f| f.path().extension().is_some_and(|e| e == "toml")) {
             println!("cargo::rerun-if-changed={}", file.path().display());
-            writeln!(out, "        ({:?}, include_str!({:?})),", file.file_name(), file.path())?;
+            let name = literal(file.file_name().as_ref())?;
+            writeln!(out, "        ({name}, include_str!({})),", literal(&file.path())?)?;
         }
         out.push_str("    ] },\n");
     }
     out.push_str("];\n");
     fs::write(Path::new(&env::var("OUT_DIR")?).join("sources.rs"), out)?;
     Ok(())
+}
+
+/// A path as a string literal of Rust source.
+fn literal(path: &Path) -> Result<String, Box<dyn std::error::Error>> {
+    Ok(format!("{:?}", path.to_str().ok_or("a path of the data folder is not UTF-8")?))
 }

@@ -3,8 +3,8 @@
 //! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
 
 use crate::schema::{
-    Access, CodeEntry, Confidence, FunctionEntry, Hint, LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules,
-    Reference, SettingEntry, SyntaxRules, VariableEntry,
+    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FunctionEntry, Hint, LetterEntry,
+    Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules, VariableEntry,
 };
 use crate::{CodeNumber, Letter, LetterSet};
 
@@ -47,6 +47,8 @@ pub struct Control {
     pub(crate) syntax: SyntaxRules,
     pub(crate) numbers: NumberRules,
     pub(crate) limits: Limits,
+    pub(crate) code_list: CodeList,
+    pub(crate) block: BlockRules,
     pub(crate) phases: Vec<String>,
     pub(crate) axes: LetterSet,
     pub(crate) hints: Vec<Hint>,
@@ -58,6 +60,8 @@ pub struct Control {
     pub(crate) variables: Vec<VariableEntry>,
     pub(crate) functions: Vec<FunctionEntry>,
     pub(crate) settings: Vec<SettingEntry>,
+    /// By rule id.
+    pub(crate) alarms: Vec<(String, AlarmEntry)>,
 }
 
 /// A code and what is derived from its entry once, at load time.
@@ -165,6 +169,16 @@ impl Control {
         &self.limits
     }
 
+    /// How complete the list of codes is.
+    pub fn code_list(&self) -> &CodeList {
+        &self.code_list
+    }
+
+    /// What becomes of contradictions and repetitions in a block.
+    pub fn block_rules(&self) -> &BlockRules {
+        &self.block
+    }
+
     /// Order in which the parts of a block take effect.
     pub fn phases(&self) -> &[String] {
         &self.phases
@@ -261,6 +275,16 @@ impl Control {
     /// A setting by its number.
     pub fn setting(&self, number: &str) -> Option<&SettingEntry> {
         self.settings.iter().find(|s| s.number == number)
+    }
+
+    /// The alarm that the control raises for what a rule finds, where it is known.
+    pub fn alarm(&self, rule: &str) -> Option<&AlarmEntry> {
+        self.alarms.iter().find(|(id, _)| id == rule).map(|(_, alarm)| alarm)
+    }
+
+    /// Rules that `alarms.toml` names.
+    pub fn rules_with_alarms(&self) -> impl Iterator<Item = &str> {
+        self.alarms.iter().map(|(id, _)| id.as_str())
     }
 
     /// The same control with codes that the user's configuration declares, which replace entries of the same number.

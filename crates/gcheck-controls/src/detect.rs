@@ -3,6 +3,9 @@
 //! Knows: the hints of each control and how to weigh them. Must not know: how evidence is found in a program; the caller
 //! collects [`Evidence`] from comments, codes and forms of syntax.
 
+use std::sync::LazyLock;
+
+use crate::Hint;
 use crate::loader::all_control_files;
 
 /// What a program shows of itself.
@@ -25,40 +28,60 @@ pub struct Guess {
     pub because: String,
 }
 
-/// The control that the evidence speaks for, or `None` when it speaks for none or for two alike.
-pub fn guess(evidence: &Evidence) -> Option<Guess> {
-    let mut scores: Vec<(i32, Guess)> = Vec::new();
-    for control in all_control_files() {
-        let mut total = 0;
-        let mut best: (i32, Option<String>) = (0, None);
-        for hint in &control.detect {
-            let found = hint.comment.as_ref().map_or_else(
-                || {
-                    let (list, wanted) = match (&hint.code, &hint.form) {
-                        (Some(code), _) => (&evidence.codes, code),
-                        (None, Some(form)) => (&evidence.forms, form),
-                        (None, None) => return None,
-                    };
-                    list.iter().find(|have| *have == wanted).cloned()
-                },
-                |text| evidence.comments.iter().find(|c| contains_word(c, text)).map(|c| format!("({c})")),
-            );
-            if let Some(found) = found {
-                total += hint.weight;
-                if hint.weight > best.0 {
-                    best = (hint.weight, Some(found));
-                }
+/// What the evidence is worth for one control.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Score {
+    /// The control and the piece of the program that counted most for it.
+    pub guess: Guess,
+    /// Sum of the weights of the hints found.
+    pub points: i32,
+    /// Hints found that speak against the control.
+    pub against: usize,
+}
+
+/// What the evidence is worth for each control, the best first. Controls without any hint found are left out.
+pub fn scores(evidence: &Evidence) -> Vec<Score> {
+    let mut scores: Vec<Score> =
+        HINTS.iter().filter_map(|(control, hints)| score(control, hints, evidence)).collect();
+    scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
+    scores
+}
+
+/// The hints of every control that can be chosen, read once.
+static HINTS: LazyLock<Vec<(String, Vec<Hint>)>> =
+    LazyLock::new(|| all_control_files().map(|file| (file.name, file.detect)).collect());
+
+fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
+    let mut points = 0;
+    let mut against = 0;
+    let mut best: (i32, Option<String>) = (i32::MIN, None);
+    for hint in hints {
+        let found = match (&hint.comment, &hint.code, &hint.form) {
+            (Some(text), _, _) => {
+                evidence.comments.iter().find(|c| contains_word(c, text)).map(|c| format!("({c})"))
+            }
+            (None, Some(code), _) => evidence.codes.iter().find(|c| *c == code).cloned(),
+            (None, None, Some(form)) => evidence.forms.iter().find(|f| *f == form).cloned(),
+            (None, None, None) => None,
+        };
+        if let Some(found) = found {
+            points += hint.weight;
+            against += usize::from(hint.weight < 0);
+            if hint.weight > best.0 {
+                best = (hint.weight, Some(found));
             }
         }
-        if let (true, Some(because)) = (total > 0, best.1) {
-            scores.push((total, Guess { control: control.name, because }));
-        }
     }
-    scores.sort_by_key(|(total, guess)| (-total, guess.control.clone()));
+    Some(Score { guess: Guess { control: control.to_owned(), because: best.1? }, points, against })
+}
+
+/// The control that the evidence speaks for, or `None` when it speaks for none or for two alike.
+pub fn guess(evidence: &Evidence) -> Option<Guess> {
+    let scores = scores(evidence);
     match scores.as_slice() {
-        [(first, _), (second, _), ..] if first == second => None,
-        [(_, guess), ..] => Some(guess.clone()),
-        [] => None,
+        [first, second, ..] if first.points == second.points => None,
+        [first, ..] if first.points > 0 => Some(first.guess.clone()),
+        _ => None,
     }
 }
 

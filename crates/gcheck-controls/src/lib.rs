@@ -20,11 +20,12 @@ mod validate;
 
 pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
-pub use detect::{Evidence, Guess, guess};
+pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, load, names};
 pub use schema::{
-    Access, AlarmEntry, CodeEntry, Confidence, Ends, FunctionEntry, Hint, LetterEntry, Limits, Machine, ModalGroup, Motion, Need,
-    NumberRules, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, WordKind,
+    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FunctionEntry, Handling, Hint,
+    LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules, Reference, Semicolon, SettingEntry,
+    SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, WordKind,
 };
 pub use validate::problems;

@@ -8,8 +8,8 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::control::CodeFacts;
 use crate::schema::{
-    CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry, LettersFile, Machine, ModalGroup, SettingEntry,
-    SettingsFile, VariableEntry, VariablesFile,
+    AlarmEntry, AlarmsFile, CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry,
+    LettersFile, Machine, ModalGroup, SettingEntry, SettingsFile, VariableEntry, VariablesFile,
 };
 use crate::{CodeNumber, Control, Letter, LetterSet};
 
@@ -41,7 +41,9 @@ pub enum LoadError {
 impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Unknown { name } => write!(f, "no control is called `{name}`; choose one of {}", names().join(", ")),
+            Self::Unknown { name } => {
+                write!(f, "no control is called `{name}`; choose one of {}", names().join(", "))
+            }
             Self::Data { file, message } => write!(f, "knowledge base: {file}: {message}"),
         }
     }
@@ -109,6 +111,7 @@ struct Layers {
     variables: Vec<VariableEntry>,
     functions: Vec<FunctionEntry>,
     settings: Vec<SettingEntry>,
+    alarms: Vec<(String, AlarmEntry)>,
 }
 
 fn resolve(name: &str) -> Result<Control, LoadError> {
@@ -141,6 +144,8 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         head.syntax = head.syntax.or(base.syntax);
         head.numbers = head.numbers.or(base.numbers);
         head.limits = head.limits.or(base.limits);
+        head.code_list = head.code_list.or(base.code_list);
+        head.block = head.block.or(base.block);
         if head.phases.is_empty() {
             head.phases = base.phases;
         }
@@ -170,6 +175,13 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
     if let Some(file) = parse_file::<SettingsFile>(source, "settings.toml")? {
         put_all(&mut layers.settings, file.settings, |s| s.number.clone());
     }
+    if let Some(file) = parse_file::<AlarmsFile>(source, "alarms.toml")? {
+        let alarms = file
+            .alarms
+            .into_iter()
+            .map(|a| (a.rule, AlarmEntry { number: a.number, text: a.text, confidence: a.confidence }));
+        put_all(&mut layers.alarms, alarms.collect(), |(rule, _)| rule.clone());
+    }
     Ok(())
 }
 
@@ -195,6 +207,8 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         syntax: head.syntax.ok_or_else(|| missing("syntax"))?,
         numbers: head.numbers.ok_or_else(|| missing("numbers"))?,
         limits: head.limits.unwrap_or_default(),
+        code_list: head.code_list.unwrap_or_default(),
+        block: head.block.unwrap_or_default(),
         phases: head.phases,
         axes: head.axes.iter().filter_map(|a| Letter::parse(a)).collect(),
         hints: head.detect,
@@ -208,6 +222,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         variables: layers.variables,
         functions: layers.functions,
         settings: layers.settings,
+        alarms: layers.alarms,
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));
@@ -215,7 +230,10 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         let number = CodeNumber::parse(&entry.code)
             .ok_or_else(|| data_error(&control.name, &format!("`{}` is no code", entry.code)))?;
         let group = control.group_by_id(&entry.group).ok_or_else(|| {
-            data_error(&control.name, &format!("{} names the group `{}`, which does not exist", entry.code, entry.group))
+            data_error(
+                &control.name,
+                &format!("{} names the group `{}`, which does not exist", entry.code, entry.group),
+            )
         })?;
         let reads: LetterSet = entry.words.iter().filter_map(|w| Letter::parse(&w.letter)).collect();
         control.put_code(CodeFacts { entry, number, group, reads, user: false });

@@ -27,6 +27,10 @@ pub(crate) struct ControlFile {
     pub(crate) numbers: Option<NumberRules>,
     #[serde(default)]
     pub(crate) limits: Option<Limits>,
+    #[serde(default)]
+    pub(crate) code_list: Option<CodeList>,
+    #[serde(default)]
+    pub(crate) block: Option<BlockRules>,
     /// Order in which the parts of one block take effect; identifiers used by `phase` of the codes.
     #[serde(default)]
     pub(crate) phases: Vec<String>,
@@ -51,7 +55,10 @@ pub enum Machine {
 /// How the control reads a line of text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a control, named one by one in data")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a control, named one by one in data"
+)]
 pub struct SyntaxRules {
     /// What `;` means.
     pub semicolon: Semicolon,
@@ -75,12 +82,21 @@ pub struct SyntaxRules {
     pub block_delete_levels: bool,
     /// `/` may stand after the first word.
     pub block_delete_inside: bool,
+    /// How sure the two are; `assumed` when not given.
+    #[serde(default)]
+    pub block_delete_confidence: Option<Confidence>,
+    /// A `(` inside a comment is refused, wherever the comment would end.
+    #[serde(default)]
+    pub nested_comment_refused: bool,
     /// Lower-case letters are read.
     pub lower_case: bool,
     /// `AND`, `OR`, `XOR` bind weaker than comparisons (LinuxCNC); else `AND` binds as `*`, the others as `+`.
     pub logic_binds_last: bool,
     /// `**` is an operator.
     pub power_operator: bool,
+    /// A pair of `%` lines ends the program where no code does.
+    #[serde(default)]
+    pub tape_marks_end: bool,
 }
 
 /// What a semicolon does.
@@ -151,6 +167,9 @@ pub struct Limits {
     /// Nesting of `[`.
     #[serde(default)]
     pub bracket_depth: Option<u8>,
+    /// Where `bracket-depth` stands.
+    #[serde(default)]
+    pub bracket_depth_source: Option<String>,
     /// Nesting of subprogram calls.
     #[serde(default)]
     pub call_depth: Option<u8>,
@@ -168,6 +187,89 @@ pub struct Limits {
     pub source: Option<String>,
 }
 
+/// How complete the list of codes is: what may be said of a code that is not in it.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CodeList {
+    /// How sure it is that the control has no other G codes.
+    pub g_codes: Confidence,
+    /// How sure it is that the control has no other M codes.
+    pub m_codes: Confidence,
+    /// The machine builder adds M codes of his own.
+    pub builder_m_codes: bool,
+    /// Codes that the control has, or that mean something else, only under a setting that chooses another set of G codes.
+    #[serde(default)]
+    pub by_setting: Vec<String>,
+    /// Where this stands.
+    pub source: String,
+}
+
+impl CodeList {
+    /// Does another setting of the control give the code a meaning, or another one?
+    pub fn depends_on_setting(&self, code: crate::CodeNumber) -> bool {
+        self.by_setting.iter().any(|c| crate::CodeNumber::parse(c) == Some(code))
+    }
+}
+
+impl Default for CodeList {
+    /// Nothing is known.
+    fn default() -> Self {
+        Self {
+            g_codes: Confidence::Assumed,
+            m_codes: Confidence::Assumed,
+            builder_m_codes: true,
+            by_setting: Vec::new(),
+            source: "general knowledge".to_owned(),
+        }
+    }
+}
+
+/// What the control does with a block that says a thing twice, or says it to nobody.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct BlockRules {
+    /// Two codes of one modal group.
+    pub two_of_a_group: Handling,
+    /// One code written twice.
+    pub code_twice: Handling,
+    /// An address that stands twice.
+    pub word_twice: Handling,
+    /// A word that neither a code of the block nor the active motion reads.
+    pub unread_word: Handling,
+    /// Where this stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+impl Default for BlockRules {
+    /// Nothing is known: the mildest reading.
+    fn default() -> Self {
+        Self {
+            two_of_a_group: Handling::LastWins,
+            code_twice: Handling::Accepted,
+            word_twice: Handling::LastWins,
+            unread_word: Handling::Ignored,
+            source: "general knowledge".to_owned(),
+            confidence: Confidence::Assumed,
+        }
+    }
+}
+
+/// What becomes of a contradiction or repetition in a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Handling {
+    /// The control stops with an alarm.
+    Refused,
+    /// The last one counts.
+    LastWins,
+    /// It has no effect.
+    Ignored,
+    /// It means what it says.
+    Accepted,
+}
+
 /// One hint that a program is written for this control.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -179,7 +281,9 @@ pub struct Hint {
     #[serde(default)]
     pub code: Option<String>,
     /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
-    /// `packed-tool` (`T0101`), `incremental-words` (`U`, `W`).
+    /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
+    /// `turning-cycle-one-block` (`G71 P Q D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
+    /// `five-digit-program` (`O00123`).
     #[serde(default)]
     pub form: Option<String>,
     /// Points for this control.
@@ -253,7 +357,6 @@ pub(crate) struct CodesFile {
 /// One G or M code.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a code, named one by one in data")]
 pub struct CodeEntry {
     /// Canonical spelling without leading zeros: `G1`, `G54.1`, `M6`.
     pub code: String,
@@ -359,6 +462,12 @@ pub struct WordEntry {
     /// Value when left out, in words.
     #[serde(default)]
     pub default: Option<String>,
+    /// For labels and programs: what the word names stands in another program or memory, so it need not be in this file.
+    #[serde(default)]
+    pub elsewhere: bool,
+    /// For programs: digits before the last four are a repeat count.
+    #[serde(default)]
+    pub packed_repeats: bool,
     /// Confidence of this word's facts where it differs from the entry's.
     #[serde(default)]
     pub confidence: Option<Confidence>,
@@ -465,6 +574,29 @@ pub struct AlarmEntry {
     pub confidence: Confidence,
 }
 
+/// `alarms.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AlarmsFile {
+    #[serde(default, rename = "alarm")]
+    pub(crate) alarms: Vec<RuleAlarm>,
+}
+
+/// The alarm that a control raises for what a rule finds, whatever the code.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct RuleAlarm {
+    /// The rule's id.
+    pub(crate) rule: String,
+    /// As in [`AlarmEntry`].
+    #[serde(default)]
+    pub(crate) number: Option<String>,
+    /// As in [`AlarmEntry`].
+    pub(crate) text: String,
+    /// As in [`AlarmEntry`].
+    pub(crate) confidence: Confidence,
+}
+
 /// `letters.toml`.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -476,7 +608,10 @@ pub(crate) struct LettersFile {
 /// An address as the control reads it when no code of the block says otherwise.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of an address, named one by one in data")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of an address, named one by one in data"
+)]
 pub struct LetterEntry {
     /// The address, upper case; `,R` and `,C` for corner words.
     pub letter: String,
@@ -506,7 +641,8 @@ pub struct LetterEntry {
     /// A missing decimal point changes the value.
     #[serde(default)]
     pub scaled: bool,
-    /// The setting that changes how a missing decimal point is read, where it differs from the general one.
+    /// The setting that changes how a missing decimal point is read, where it differs from the general one; `none` where no
+    /// setting does.
     #[serde(default)]
     pub scale_setting: Option<String>,
     /// Where the entry stands.
@@ -608,6 +744,9 @@ pub struct SettingEntry {
     /// Value that gcheck assumes when nothing is configured.
     #[serde(default)]
     pub default: Option<String>,
+    /// The value under which a number without decimal point counts as it stands, for settings that decide this.
+    #[serde(default)]
+    pub as_written: Option<String>,
     /// What it changes for a program.
     pub changes: String,
     /// Where the entry stands.

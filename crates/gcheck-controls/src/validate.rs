@@ -43,7 +43,11 @@ impl Problems<'_> {
             self.say("control.toml", "has no axes");
         }
         let numbers = self.control.numbers();
-        for (name, least) in [("least-inch", numbers.least_inch), ("least-mm", numbers.least_mm), ("least-angle", numbers.least_angle)] {
+        for (name, least) in [
+            ("least-inch", numbers.least_inch),
+            ("least-mm", numbers.least_mm),
+            ("least-angle", numbers.least_angle),
+        ] {
             if least.is_nan() || least <= 0.0 {
                 self.say("numbers", format!("`{name}` must be positive"));
             }
@@ -82,7 +86,9 @@ impl Problems<'_> {
         if !self.control.phases().contains(&entry.phase) {
             self.say(code, format!("phase `{}` is not among the control's phases", entry.phase));
         }
-        for (what, text) in [("title", &entry.title), ("summary", &entry.summary), ("example", &entry.example)] {
+        for (what, text) in
+            [("title", &entry.title), ("summary", &entry.summary), ("example", &entry.example)]
+        {
             if text.trim().is_empty() {
                 self.say(code, format!("has no {what}"));
             }
@@ -114,7 +120,9 @@ impl Problems<'_> {
         for word in &entry.words {
             match Letter::parse(&word.letter) {
                 None => self.say(code, format!("`{}` is no address", word.letter)),
-                Some(letter) if !seen.insert(letter) => self.say(code, format!("word `{letter}` is listed twice")),
+                Some(letter) if !seen.insert(letter) => {
+                    self.say(code, format!("word `{letter}` is listed twice"));
+                }
                 Some(_) => {}
             }
             if word.need == crate::Need::Conditional && word.when.is_none() {
@@ -148,7 +156,10 @@ impl Problems<'_> {
         for code in control.codes() {
             for word in &code.entry().words {
                 if Letter::parse(&word.letter).is_some_and(|l| control.letter(l).is_none()) {
-                    self.say(&code.entry().code, format!("word `{}` has no entry in letters.toml", word.letter));
+                    self.say(
+                        &code.entry().code,
+                        format!("word `{}` has no entry in letters.toml", word.letter),
+                    );
                 }
             }
         }
@@ -171,6 +182,11 @@ impl Problems<'_> {
             self.source(&setting.number, &setting.source);
             if setting.values.is_empty() {
                 self.say(&setting.number, "lists no values");
+            }
+        }
+        for rule in control.rules_with_alarms() {
+            if control.alarm(rule).is_none_or(|a| a.text.trim().is_empty()) {
+                self.say("alarms.toml", format!("the alarm of `{rule}` has no text"));
             }
         }
         for function in control.functions() {

@@ -222,5 +222,9 @@ impl BlockTable {
 /// Entries of one block in a list sorted by block.
 fn of_block<T>(list: &[(BlockIx, T)], ix: BlockIx) -> impl Iterator<Item = &T> {
     let first = list.partition_point(|(block, _)| *block < ix);
-    list.get(first..).unwrap_or_default().iter().take_while(move |(block, _)| *block == ix).map(|(_, item)| item)
+    list.get(first..)
+        .unwrap_or_default()
+        .iter()
+        .take_while(move |(block, _)| *block == ix)
+        .map(|(_, item)| item)
 }

@@ -31,6 +31,7 @@ pub struct Dialect<'c> {
 
 /// What [`BlockFlags`] need to know about an address when no code says otherwise.
 #[derive(Debug, Clone, Copy)]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of an address")]
 struct LetterFacts {
     known: bool,
     integer: bool,
@@ -85,7 +86,9 @@ impl<'c> Dialect<'c> {
             lower_case: control.syntax().lower_case,
             refers: control
                 .codes()
-                .map(|code| code.entry().words.iter().any(|w| matches!(w.kind, WordKind::Label | WordKind::Program)))
+                .map(|code| {
+                    code.entry().words.iter().any(|w| matches!(w.kind, WordKind::Label | WordKind::Program))
+                })
                 .collect(),
         }
     }
@@ -167,7 +170,7 @@ struct LowerSink<'t, 'd> {
     dialect: &'d Dialect<'d>,
     table: BlockTable,
     open: Vec<Open>,
-    /// Depth of nodes whose content is not lowered: ERROR and PRINT_STATEMENT.
+    /// Depth of nodes whose content is not lowered: `ERROR` and `PRINT_STATEMENT`.
     skip: u32,
     /// End of the last token that counts: expressions and statements end there, not behind blanks.
     end: u32,
@@ -223,11 +226,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             return None;
         }
         let ops = self.table.ops.get(from..to).unwrap_or_default();
-        let expr = Expr {
-            range: start..self.end,
-            well_formed: is_well_formed(ops),
-            ops: from as u32..to as u32,
-        };
+        let expr =
+            Expr { range: start..self.end, well_formed: is_well_formed(ops), ops: from as u32..to as u32 };
         self.table.exprs.push(expr);
         Some(ExprIx(self.table.exprs.len() as u32 - 1))
     }
@@ -271,7 +271,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         };
         let Some(letter) = letter else { return };
         // `X 1.`, `X 1. 5`, `X - 1.`: a number after all, spread over tokens.
-        let literal = !rest.is_empty() && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
+        let literal = !rest.is_empty()
+            && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
         let (value, shape) = if literal {
             let (value, shape) = number::parse(rest);
             (Value::Number(value), shape)
@@ -366,7 +367,13 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             flags.set(BlockFlags::LONG_LINE, text.chars().count() > self.dialect.line_length as usize);
         }
         let (letters, facts) = self.survey_words(&words);
-        self.table.blocks.push(Block { range, flags: flags | facts, letters, delete: self.block_delete, words });
+        self.table.blocks.push(Block {
+            range,
+            flags: flags | facts,
+            letters,
+            delete: self.block_delete,
+            words,
+        });
         debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
     }
 
@@ -443,7 +450,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
     /// The tree gives its errors at the end: put each to the block whose text holds it.
     fn place_late_errors(&mut self) {
         for error in std::mem::take(&mut self.late_errors) {
-            let at = self.table.blocks.partition_point(|b| b.range.start <= error.range.start).saturating_sub(1);
+            let at =
+                self.table.blocks.partition_point(|b| b.range.start <= error.range.start).saturating_sub(1);
             if let Some(block) = self.table.blocks.get_mut(at) {
                 block.flags |= BlockFlags::ERROR;
                 self.table.errors.push((BlockIx(at as u32), error));
@@ -541,84 +549,12 @@ impl Sink for LowerSink<'_, '_> {
         }
         match open.kind {
             SyntaxKind::ADDRESS => self.address(&open),
-            SyntaxKind::BINARY => {
-                if let Some(operator) = open.operator {
-                    self.table.ops.push(Op::Binary(operator));
-                }
-            }
-            SyntaxKind::UNARY => {
-                if open.operator == Some(BinaryOp::Subtract) {
-                    self.table.ops.push(Op::Negate);
-                }
-            }
-            SyntaxKind::INDIRECT => self.table.ops.push(Op::Indirect),
-            SyntaxKind::FUNCTION_CALL => {
-                if let Some(function) = open.function {
-                    self.table.ops.push(Op::Call(function, open.arguments));
-                }
-            }
-            SyntaxKind::GROUP => {
-                if let Some(parent) = self.open.last_mut() {
-                    match parent.kind {
-                        SyntaxKind::FUNCTION_CALL => parent.arguments = parent.arguments.saturating_add(1 + open.arguments),
-                        SyntaxKind::O_STATEMENT
-                            if matches!(
-                                parent.keyword,
-                                Some((_, OKeyword::Call | OKeyword::Return | OKeyword::EndSub))
-                            ) =>
-                        {
-                            let from = parent.ops;
-                            self.take_expr(from, open.start);
-                            let ops = self.table.ops.len();
-                            if let Some(parent) = self.open.last_mut() {
-                                parent.ops = ops;
-                            }
-                        }
-                        _ => {}
-                    }
-                }
-            }
-            SyntaxKind::ASSIGNMENT => {
-                // Without `=` there is neither target nor value.
-                let value = open.target.as_ref().and_then(|_| self.take_expr(open.ops, open.value_start));
-                let target = open.target.clone().unwrap_or(Target::Invalid);
-                self.statement(&open, StatementKind::Assign { target, value });
-            }
-            SyntaxKind::CONDITION => {
-                let condition = self.take_expr(open.ops, open.start);
-                self.statement(&open, StatementKind::Guard { condition });
-            }
-            SyntaxKind::IF_STATEMENT => {
-                if open.target.is_none() {
-                    let condition = self.take_expr(open.ops, open.start);
-                    self.statement(&open, StatementKind::If { condition });
-                }
-            }
-            SyntaxKind::GOTO_STATEMENT => {
-                let target = self.take_expr(open.ops, open.start);
-                self.statement(&open, StatementKind::Goto { target });
-            }
-            SyntaxKind::WHILE_STATEMENT => {
-                let number = self.take_expr(open.ops, open.start);
-                // Without DO the only expression is the condition.
-                let (condition, number) = if open.target.is_some() { (open.first, number) } else { (number, None) };
-                self.statement(&open, StatementKind::Do { condition, number });
-            }
-            SyntaxKind::END_STATEMENT => {
-                let number = self.take_expr(open.ops, open.start);
-                self.statement(&open, StatementKind::End { number });
-            }
-            SyntaxKind::O_STATEMENT => {
-                if let Some((label, keyword)) = open.keyword.take() {
-                    if !matches!(keyword, OKeyword::Call | OKeyword::Return | OKeyword::EndSub) {
-                        self.take_expr(open.ops, open.start);
-                    }
-                    let arguments = open.first_argument..self.table.exprs.len() as u32;
-                    self.statement(&open, StatementKind::OWord { label, keyword, arguments });
-                }
-            }
-            SyntaxKind::PORT_STATEMENT => self.statement(&open, StatementKind::Print),
-            _ => {}
+            SyntaxKind::BINARY
+            | SyntaxKind::UNARY
+            | SyntaxKind::INDIRECT
+            | SyntaxKind::FUNCTION_CALL
+            | SyntaxKind::GROUP => self.finish_operation(&open),
+            _ => self.finish_statement(open),
         }
     }
 
@@ -673,6 +609,100 @@ impl Sink for LowerSink<'_, '_> {
 }
 
 impl LowerSink<'_, '_> {
+    /// An operator, function or bracket has all its operands.
+    fn finish_operation(&mut self, open: &Open) {
+        match open.kind {
+            SyntaxKind::BINARY => {
+                if let Some(operator) = open.operator {
+                    self.table.ops.push(Op::Binary(operator));
+                }
+            }
+            SyntaxKind::UNARY => {
+                if open.operator == Some(BinaryOp::Subtract) {
+                    self.table.ops.push(Op::Negate);
+                }
+            }
+            SyntaxKind::INDIRECT => self.table.ops.push(Op::Indirect),
+            SyntaxKind::FUNCTION_CALL => {
+                if let Some(function) = open.function {
+                    self.table.ops.push(Op::Call(function, open.arguments));
+                }
+            }
+            SyntaxKind::GROUP => {
+                if let Some(parent) = self.open.last_mut() {
+                    match parent.kind {
+                        SyntaxKind::FUNCTION_CALL => {
+                            parent.arguments = parent.arguments.saturating_add(1 + open.arguments);
+                        }
+                        SyntaxKind::O_STATEMENT
+                            if matches!(
+                                parent.keyword,
+                                Some((_, OKeyword::Call | OKeyword::Return | OKeyword::EndSub))
+                            ) =>
+                        {
+                            let from = parent.ops;
+                            self.take_expr(from, open.start);
+                            let ops = self.table.ops.len();
+                            if let Some(parent) = self.open.last_mut() {
+                                parent.ops = ops;
+                            }
+                        }
+                        _ => {}
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// A statement has all its parts.
+    fn finish_statement(&mut self, mut open: Open) {
+        match open.kind {
+            SyntaxKind::ASSIGNMENT => {
+                // Without `=` there is neither target nor value.
+                let value = open.target.as_ref().and_then(|_| self.take_expr(open.ops, open.value_start));
+                let target = open.target.clone().unwrap_or(Target::Invalid);
+                self.statement(&open, StatementKind::Assign { target, value });
+            }
+            SyntaxKind::CONDITION => {
+                let condition = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::Guard { condition });
+            }
+            SyntaxKind::IF_STATEMENT => {
+                if open.target.is_none() {
+                    let condition = self.take_expr(open.ops, open.start);
+                    self.statement(&open, StatementKind::If { condition });
+                }
+            }
+            SyntaxKind::GOTO_STATEMENT => {
+                let target = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::Goto { target });
+            }
+            SyntaxKind::WHILE_STATEMENT => {
+                let number = self.take_expr(open.ops, open.start);
+                // Without DO the only expression is the condition.
+                let (condition, number) =
+                    if open.target.is_some() { (open.first, number) } else { (number, None) };
+                self.statement(&open, StatementKind::Do { condition, number });
+            }
+            SyntaxKind::END_STATEMENT => {
+                let number = self.take_expr(open.ops, open.start);
+                self.statement(&open, StatementKind::End { number });
+            }
+            SyntaxKind::O_STATEMENT => {
+                if let Some((label, keyword)) = open.keyword.take() {
+                    if !matches!(keyword, OKeyword::Call | OKeyword::Return | OKeyword::EndSub) {
+                        self.take_expr(open.ops, open.start);
+                    }
+                    let arguments = open.first_argument..self.table.exprs.len() as u32;
+                    self.statement(&open, StatementKind::OWord { label, keyword, arguments });
+                }
+            }
+            SyntaxKind::PORT_STATEMENT => self.statement(&open, StatementKind::Print),
+            _ => {}
+        }
+    }
+
     fn lower_case(&mut self) {
         if !self.dialect.lower_case {
             self.block_flags |= BlockFlags::LOWER_CASE;
@@ -694,7 +724,8 @@ impl LowerSink<'_, '_> {
             }
             SyntaxKind::NUMBER => match inner {
                 SyntaxKind::BLOCK_DELETE => {
-                    self.block_delete = self.slice(&range).first().map_or(1, |digit| digit.saturating_sub(b'0').max(1));
+                    self.block_delete =
+                        self.slice(&range).first().map_or(1, |digit| digit.saturating_sub(b'0').max(1));
                 }
                 _ => {
                     let (value, _) = number::parse(self.slice(&range));
@@ -703,7 +734,10 @@ impl LowerSink<'_, '_> {
             },
             SyntaxKind::VARIABLE => {
                 let digits = self.slice(&range).get(1..).unwrap_or_default();
-                let number = std::str::from_utf8(digits).ok().and_then(|d| d.parse().ok()).unwrap_or(u32::MAX);
+                let number = std::str::from_utf8(digits)
+                    .ok()
+                    .and_then(|d| d.trim_end_matches('.').parse().ok())
+                    .unwrap_or(u32::MAX);
                 self.table.ops.push(Op::Variable(number));
             }
             SyntaxKind::NAMED_VARIABLE => {

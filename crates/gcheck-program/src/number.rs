@@ -53,11 +53,13 @@ pub(crate) fn parse(text: &[u8]) -> (f64, NumberShape) {
 
 /// More digits than arithmetic on machine words holds: the standard library's exact algorithm.
 fn long(text: &[u8]) -> f64 {
-    let digits: String = text.iter().filter(|b| b.is_ascii_digit() || **b == b'.').map(|b| char::from(*b)).collect();
+    let digits: String =
+        text.iter().filter(|b| b.is_ascii_digit() || **b == b'.').map(|b| char::from(*b)).collect();
     digits.parse().unwrap_or(f64::INFINITY)
 }
 
-static POWERS: [f64; 16] = [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+static POWERS: [f64; 16] =
+    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 #[cfg(test)]
 mod tests {
@@ -65,9 +67,22 @@ mod tests {
 
     #[test]
     fn values_are_those_of_the_standard_library() {
-        for text in ["0", "1.", ".5", "12.0004", "123456789.123456", "0.1", "99999999999999999999.5", "1.23456789012345678901"] {
+        for text in [
+            "0",
+            "1.",
+            ".5",
+            "12.0004",
+            "123456789.123456",
+            "0.1",
+            "99999999999999999999.5",
+            "1.23456789012345678901",
+        ] {
             let (value, _) = parse(text.as_bytes());
-            assert_eq!(value.to_bits(), text.trim_end_matches('.').parse::<f64>().unwrap().to_bits(), "{text}");
+            assert_eq!(
+                value.to_bits(),
+                text.trim_end_matches('.').parse::<f64>().unwrap().to_bits(),
+                "{text}"
+            );
         }
     }
 

@@ -66,6 +66,21 @@ pub enum StatementKind {
 }
 
 impl StatementKind {
+    /// The statement's expressions: its target's, its condition, its value, its arguments.
+    pub fn expressions(&self) -> impl Iterator<Item = ExprIx> + use<> {
+        let (first, second, arguments) = match self {
+            Self::Assign { target: Target::Computed(target), value } => (Some(*target), *value, 0..0),
+            Self::Assign { value, .. } => (*value, None, 0..0),
+            Self::If { condition } | Self::Guard { condition } => (*condition, None, 0..0),
+            Self::Goto { target } => (*target, None, 0..0),
+            Self::Do { condition, number } => (*condition, *number, 0..0),
+            Self::End { number } => (*number, None, 0..0),
+            Self::OWord { arguments, .. } => (None, None, arguments.clone()),
+            Self::Print => (None, None, 0..0),
+        };
+        first.into_iter().chain(second).chain(arguments.map(ExprIx))
+    }
+
     /// Indices of an O-word's arguments.
     pub fn arguments(range: &Range<u32>) -> impl Iterator<Item = ExprIx> + use<> {
         range.clone().map(ExprIx)

@@ -2,11 +2,12 @@
 //!
 //! Knows: block tables in order, with the offset of each chunk. Must not know: which of these facts are mistakes.
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, WordKind};
 
-use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Word};
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable};
 use crate::lower::Dialect;
 use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 
@@ -15,12 +16,17 @@ use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 /// A `%` at the head of a line marks the beginning and the end of the tape. What stands behind the closing mark is not
 /// read; a single mark closes unless nothing but blanks comes before it.
 pub fn code_region(text: &str) -> Range<usize> {
-    let marks: Vec<usize> = memchr::memchr_iter(b'%', text.as_bytes()).filter(|at| is_line_head(text, *at)).take(2).collect();
+    let marks: Vec<usize> =
+        memchr::memchr_iter(b'%', text.as_bytes()).filter(|at| is_line_head(text, *at)).take(2).collect();
     match marks.as_slice() {
-        [first] if !text.get(..*first).unwrap_or_default().trim_matches(['\u{FEFF}', ' ', '\t', '\r', '\n', '\0']).is_empty() => 0..end_of_line(text, *first),
+        [only] if !is_blank(text.get(..*only).unwrap_or_default()) => 0..end_of_line(text, *only),
         [_, second] => 0..end_of_line(text, *second),
         _ => 0..text.len(),
     }
+}
+
+fn is_blank(text: &str) -> bool {
+    text.trim_matches(['\u{FEFF}', ' ', '\t', '\r', '\n', '\0']).is_empty()
 }
 
 fn is_line_head(text: &str, at: usize) -> bool {
@@ -145,8 +151,20 @@ pub struct Survey {
     pub first_block: Option<Range<u32>>,
     /// The last block that is more than a comment or tape mark.
     pub last_block: Option<Range<u32>>,
+    /// The first block with lower-case letters, on a control that does not read them.
+    pub lower_case: Option<Range<u32>>,
+    /// Blocks with a value whose missing decimal point may change it, in text order.
+    pub unpointed: Vec<Range<u32>>,
+    /// Blocks with a number of more digits than the control takes, in text order.
+    pub long_numbers: Vec<Range<u32>>,
+    /// How many blocks with axis words are not among `unpointed`.
+    pub pointed: usize,
+    /// A block has a mistake in form.
+    pub has_mistakes: bool,
     /// How many blocks there are.
     pub blocks: usize,
+    /// What `codes` and `assigned` hold, for the question "seen before?".
+    seen: (HashSet<CodeNumber>, HashSet<u32>),
 }
 
 impl Survey {
@@ -157,27 +175,48 @@ impl Survey {
                 break;
             }
             self.blocks += 1;
+            let is_pointed = block.letters.intersects(dialect.control().axes()) && !block.flags.contains(BlockFlags::UNPOINTED);
+            self.pointed += usize::from(is_pointed);
+            if block.flags.contains(BlockFlags::LONG_NUMBER) {
+                self.long_numbers.push(shift(&block.range, base));
+            }
+            if block.flags.contains(BlockFlags::UNPOINTED) {
+                self.unpointed.push(shift(&block.range, base));
+            }
             self.letters = self.letters.or(block.letters);
             if block.flags.contains(BlockFlags::TAPE_MARK) {
                 self.tape_marks.push(shift(&block.range, base));
+            }
+            self.has_mistakes |= block.flags.contains(BlockFlags::ERROR);
+            if block.flags.contains(BlockFlags::LOWER_CASE) {
+                self.lower_case.get_or_insert(shift(&block.range, base));
             }
             if !block.letters.is_empty() || block.flags.contains(BlockFlags::STATEMENT) {
                 let range = shift(&block.range, base);
                 self.first_block.get_or_insert(range.clone());
                 self.last_block = Some(range);
             }
-            let interesting = BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
+            let interesting =
+                BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::PROGRAM_NUMBER | BlockFlags::STATEMENT;
             if block.flags.intersects(interesting) {
                 self.add_block(table, ix, block, base, dialect);
             }
         }
     }
 
-    fn add_block(&mut self, table: &BlockTable, ix: BlockIx, block: &Block, base: u32, dialect: &Dialect<'_>) {
+    fn add_block(
+        &mut self,
+        table: &BlockTable,
+        ix: BlockIx,
+        block: &Block,
+        base: u32,
+        dialect: &Dialect<'_>,
+    ) {
         let words = table.words(block);
         // `N10 O1234` is as good a head as `O1234`.
         for (position, word) in words.iter().enumerate().take(2) {
-            let is_head = position == 0 || words.first().is_some_and(|w| matches!(w.letter.ascii(), b'N' | b'O'));
+            let is_head =
+                position == 0 || words.first().is_some_and(|w| matches!(w.letter.ascii(), b'N' | b'O'));
             match word.letter {
                 letter if letter == Letter::of('N') && is_head => {
                     if let Some(number) = word.integer() {
@@ -185,7 +224,8 @@ impl Survey {
                     }
                 }
                 letter if letter == Letter::of('O') && is_head => {
-                    self.programs.push(ProgramNumber { number: word.integer(), range: shift(&word.range(), base) });
+                    self.programs
+                        .push(ProgramNumber { number: word.integer(), range: shift(&word.range(), base) });
                 }
                 _ => {}
             }
@@ -198,10 +238,18 @@ impl Survey {
             let constant = |expr: Option<crate::ExprIx>| expr.and_then(|e| table.constant(e));
             match &statement.kind {
                 StatementKind::Goto { target } => {
-                    self.jumps.push(Jump { target: constant(*target).and_then(whole), code: CodeIx::NONE, range });
+                    self.jumps.push(Jump {
+                        target: constant(*target).and_then(whole),
+                        code: CodeIx::NONE,
+                        range,
+                    });
                 }
-                StatementKind::Do { number, .. } => self.loops.push(Loop { begins: true, number: constant(*number), range }),
-                StatementKind::End { number } => self.loops.push(Loop { begins: false, number: constant(*number), range }),
+                StatementKind::Do { number, .. } => {
+                    self.loops.push(Loop { begins: true, number: constant(*number), range });
+                }
+                StatementKind::End { number } => {
+                    self.loops.push(Loop { begins: false, number: constant(*number), range });
+                }
                 StatementKind::OWord { label, keyword, .. } => {
                     if *keyword == OKeyword::Call {
                         let target = CallKind::OWord(label.clone());
@@ -210,7 +258,7 @@ impl Survey {
                     self.o_words.push(OWord { label: label.clone(), keyword: *keyword, range });
                 }
                 StatementKind::Assign { target: Target::Variable(number), .. } => {
-                    if !self.assigned.iter().any(|(n, _)| n == number) {
+                    if self.seen.1.insert(*number) {
                         self.assigned.push((*number, range));
                     }
                 }
@@ -219,11 +267,19 @@ impl Survey {
         }
     }
 
-    fn add_codes(&mut self, table: &BlockTable, ix: BlockIx, block: &Block, base: u32, dialect: &Dialect<'_>) {
+    fn add_codes(
+        &mut self,
+        table: &BlockTable,
+        ix: BlockIx,
+        block: &Block,
+        base: u32,
+        dialect: &Dialect<'_>,
+    ) {
         let words = table.words(block);
-        for word in words.iter().filter(|w| matches!(w.letter.ascii(), b'G' | b'M') && !w.letter.is_corner()) {
+        for word in words.iter().filter(|w| matches!(w.letter.ascii(), b'G' | b'M') && !w.letter.is_corner())
+        {
             if let Some(number) = word.number().and_then(|n| CodeNumber::from_value(word.letter.ascii(), n))
-                && !self.codes.iter().any(|(known, _)| *known == number)
+                && self.seen.0.insert(number)
             {
                 self.codes.push((number, shift(&word.range(), base)));
             }
@@ -242,11 +298,18 @@ impl Survey {
             for target in &entry.words {
                 let Some(letter) = Letter::parse(&target.letter) else { continue };
                 let Some(found) = words.iter().find(|w| w.letter == letter) else { continue };
+                // `G4 P1 M99`: which of two codes the word belongs to is not for us to say.
+                let readers = words.iter().filter_map(|w| dialect.control().code_at(w.code));
+                if readers.filter(|c| c.reads().contains(letter) || c.is_user()).count() > 1 {
+                    continue;
+                }
                 let range = shift(&found.range(), base);
                 match target.kind {
-                    WordKind::Label => self.jumps.push(Jump { target: target_number(found), code: word.code, range }),
+                    WordKind::Label => {
+                        self.jumps.push(Jump { target: found.integer(), code: word.code, range });
+                    }
                     WordKind::Program => {
-                        let target = target_number(found).map_or(CallKind::Unknown, CallKind::Program);
+                        let target = found.integer().map_or(CallKind::Unknown, CallKind::Program);
                         self.calls.push(Call { target, code: word.code, range });
                     }
                     _ => {}
@@ -254,10 +317,6 @@ impl Survey {
             }
         }
     }
-}
-
-fn target_number(word: &Word) -> Option<u32> {
-    word.integer()
 }
 
 fn whole(value: f64) -> Option<u32> {

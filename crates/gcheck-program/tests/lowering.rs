@@ -1,5 +1,7 @@
 //! What the lowering makes of blocks, and law 2: the tree and the tokens give the same blocks.
 
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
@@ -27,17 +29,18 @@ fn dump(table: &BlockTable, text: &str, dialect: &Dialect<'_>) -> String {
             let _ = write!(out, "  {} = ", word.letter);
             let _ = match word.value {
                 Value::Number(number) => {
-                    let decimals = if word.shape.point { format!(" ({} decimals)", word.shape.decimals) } else { String::new() };
+                    let decimals = if word.shape.point {
+                        format!(" ({} decimals)", word.shape.decimals)
+                    } else {
+                        String::new()
+                    };
                     write!(out, "{number}{decimals}")
                 }
                 Value::Expr(expr) => write!(out, "{}", ops(table, expr, text)),
                 Value::Missing => write!(out, "nothing"),
             };
-            match dialect.control().code_at(word.code) {
-                Some(code) => writeln!(out, "  {}", code.number()),
-                None => writeln!(out),
-            }
-            .unwrap();
+            let code = dialect.control().code_at(word.code).map(|code| format!("  {}", code.number()));
+            let _ = writeln!(out, "{}", code.unwrap_or_default());
         }
         for statement in table.statements(ix) {
             let show = |expr: &Option<ExprIx>| expr.map_or("nothing".to_owned(), |e| ops(table, e, text));
@@ -45,7 +48,9 @@ fn dump(table: &BlockTable, text: &str, dialect: &Dialect<'_>) -> String {
                 StatementKind::Assign { target, value } => {
                     let target = match target {
                         Target::Variable(number) => format!("#{number}"),
-                        Target::Named(range) => format!("#<{}>", &text[range.start as usize..range.end as usize]),
+                        Target::Named(range) => {
+                            format!("#<{}>", &text[range.start as usize..range.end as usize])
+                        }
                         Target::Computed(expr) => format!("#[{}]", ops(table, *expr, text)),
                         Target::Invalid => "nothing".to_owned(),
                     };
@@ -54,18 +59,30 @@ fn dump(table: &BlockTable, text: &str, dialect: &Dialect<'_>) -> String {
                 StatementKind::If { condition } => format!("if {}", show(condition)),
                 StatementKind::Guard { condition } => format!("guard {}", show(condition)),
                 StatementKind::Goto { target } => format!("goto {}", show(target)),
-                StatementKind::Do { condition, number } => format!("do {} while {}", show(number), show(condition)),
+                StatementKind::Do { condition, number } => {
+                    format!("do {} while {}", show(number), show(condition))
+                }
                 StatementKind::End { number } => format!("end {}", show(number)),
                 StatementKind::OWord { label, keyword, arguments } => {
-                    let arguments: Vec<_> = StatementKind::arguments(arguments).map(|e| ops(table, e, text)).collect();
+                    let arguments: Vec<_> =
+                        StatementKind::arguments(arguments).map(|e| ops(table, e, text)).collect();
                     format!("{label:?} {} {arguments:?}", keyword.name())
                 }
                 StatementKind::Print => "print".to_owned(),
             };
-            let _ = writeln!(out, "  {:?}: {kind}", &text[statement.range.start as usize..statement.range.end as usize]);
+            let _ = writeln!(
+                out,
+                "  {:?}: {kind}",
+                &text[statement.range.start as usize..statement.range.end as usize]
+            );
         }
         for error in table.errors(ix) {
-            let _ = writeln!(out, "  ! {:?} {:?}", error.kind, &text[error.range.start as usize..error.range.end as usize]);
+            let _ = writeln!(
+                out,
+                "  ! {:?} {:?}",
+                error.kind,
+                &text[error.range.start as usize..error.range.end as usize]
+            );
         }
     }
     out
@@ -93,7 +110,7 @@ fn ops(table: &BlockTable, expr: ExprIx, text: &str) -> String {
 }
 
 #[test]
-fn plain_motion_has_no_flags() {
+fn plain_motion_asks_for_no_attention() {
     check(
         "haas-mill",
         "X1.5 Y-.25\n\n  Z0\n",
@@ -109,7 +126,10 @@ fn plain_motion_has_no_flags() {
 
 #[test]
 fn codes_are_resolved_and_numbers_keep_their_shape() {
-    check("haas-mill", "N10 G01 x1 F100 G999 M6.5\n", &expect![[r#"
+    check(
+        "haas-mill",
+        "N10 G01 x1 F100 G999 M6.5\n",
+        &expect![[r#"
         "N10 G01 x1 F100 G999 M6.5" BlockFlags(CODE | UNKNOWN_CODE | UNPOINTED | LABEL)
           N = 10
           G = 1  G1
@@ -117,18 +137,26 @@ fn codes_are_resolved_and_numbers_keep_their_shape() {
           F = 100
           G = 999
           M = 6.5 (1 decimals)
-    "#]]);
-    check("linuxcnc", "g38.2 z-1. 5 f 100\n", &expect![[r#"
+    "#]],
+    );
+    check(
+        "linuxcnc",
+        "g38.2 z-1. 5 f 100\n",
+        &expect![[r#"
         "g38.2 z-1. 5 f 100" BlockFlags(CODE)
           G = 38.2 (1 decimals)  G38.2
           Z = -1.5 (1 decimals)
           F = 100
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn addresses_take_expressions_in_every_form() {
-    check("fanuc-mill", "X#1 Y-#2 Z[#1+2.*3] A##5 B#[#1+1] C[-ATAN[#1]/[2.]]\n", &expect![[r#"
+    check(
+        "fanuc-mill",
+        "X#1 Y-#2 Z[#1+2.*3] A##5 B#[#1+1] C[-ATAN[#1]/[2.]]\n",
+        &expect![[r#"
         "X#1 Y-#2 Z[#1+2.*3] A##5 B#[#1+1] C[-ATAN[#1]/[2.]]" BlockFlags(EXPRESSION)
           X = #1
           Y = #2 neg
@@ -136,20 +164,29 @@ fn addresses_take_expressions_in_every_form() {
           A = #5 read
           B = #1 1 add read
           C = #1 2 ATAN/2 neg
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn logic_binds_as_the_control_says() {
-    check("fanuc-mill", "IF [#1 EQ 1 OR #2 EQ 2] GOTO 10\n", &expect![[r#"
+    check(
+        "fanuc-mill",
+        "IF [#1 EQ 1 OR #2 EQ 2] GOTO 10\n",
+        &expect![[r#"
         "IF [#1 EQ 1 OR #2 EQ 2] GOTO 10" BlockFlags(STATEMENT)
           "IF [#1 EQ 1 OR #2 EQ 2]": if #1 1 #2 or equal 2 equal
           "GOTO 10": goto 10
-    "#]]);
-    check("linuxcnc", "o1 if [#1 EQ 1 OR #2 EQ 2]\n", &expect![[r##"
+    "#]],
+    );
+    check(
+        "linuxcnc",
+        "o1 if [#1 EQ 1 OR #2 EQ 2]\n",
+        &expect![[r##"
         "o1 if [#1 EQ 1 OR #2 EQ 2]" BlockFlags(STATEMENT)
           "o1 if [#1 EQ 1 OR #2 EQ 2]": Number(1) IF ["#1 1 equal #2 2 equal or"]
-    "##]]);
+    "##]],
+    );
 }
 
 #[test]
@@ -210,73 +247,147 @@ fn o_words() {
 
 #[test]
 fn mistakes_leave_the_rest_of_the_block_readable() {
-    check("haas-mill", "G1 X Y2. (open\nX1.2.3 Z#1+2 [1 Y5.\n#1 2\n", &expect![[r##"
-        "G1 X Y2. (open" BlockFlags(CODE | ERROR | COMMENT)
-          G = 1  G1
-          X = nothing
-          Y = 2 (0 decimals)
-          ! AddressWithoutValue "X"
-          ! UnclosedComment "(open"
-        "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | STATEMENT | EXPRESSION)
-          X = 1.2 (1 decimals)
-          Z = #1
-          Y = 5 (0 decimals)
-          "[1": guard 1
-          ! MalformedNumber ".3"
-          ! NeedsBrackets "+2"
-          ! UnclosedBracket "["
-        "#1 2" BlockFlags(ERROR | STATEMENT)
-          "#1": nothing := nothing
-          ! MissingEquals "#1"
-          ! ValueWithoutAddress "2"
-    "##]]);
+    check(
+        "haas-mill",
+        "G1 X Y2. (open\nX1.2.3 Z#1+2 [1 Y5.\n#1 2\n",
+        &expect![[r##"
+            "G1 X Y2. (open" BlockFlags(CODE | ERROR | COMMENT)
+              G = 1  G1
+              X = nothing
+              Y = 2 (0 decimals)
+              ! AddressWithoutValue "X"
+              ! UnclosedComment "(open"
+            "X1.2.3 Z#1+2 [1 Y5." BlockFlags(ERROR | STATEMENT | EXPRESSION)
+              X = 1.2 (1 decimals)
+              Z = #1
+              Y = 5 (0 decimals)
+              "[1": guard 1
+              ! MalformedNumber ".3"
+              ! NeedsBrackets "+2"
+              ! UnclosedBracket "["
+            "#1 2" BlockFlags(ERROR | STATEMENT)
+              "#1": nothing := nothing
+              ! MissingEquals "#1"
+              ! ValueWithoutAddress "2"
+        "##]],
+    );
 }
 
 #[test]
 fn a_semicolon_ends_the_block_or_starts_a_comment() {
-    check("fanuc-mill", "G0 X1.;G1 Y2.;\nM30;(end)\nT1 ; tool one\n", &expect![[r#"
-        "G0 X1." BlockFlags(CODE)
-          G = 0  G0
-          X = 1 (0 decimals)
-        "G1 Y2." BlockFlags(CODE)
-          G = 1  G1
-          Y = 2 (0 decimals)
-        "M30;(end)" BlockFlags(CODE | COMMENT)
-          M = 30  M30
-        "T1 ; tool one" BlockFlags(ERROR)
-          T = 1
-          ! TextAfterEndOfBlock "tool one"
-    "#]]);
-    check("linuxcnc", "G0 X1 ; G1 Y2\n", &expect![[r#"
+    check(
+        "fanuc-mill",
+        "G0 X1.;G1 Y2.;\nM30;(end)\nT1 ; tool one\n",
+        &expect![[r#"
+            "G0 X1." BlockFlags(CODE)
+              G = 0  G0
+              X = 1 (0 decimals)
+            "G1 Y2." BlockFlags(CODE)
+              G = 1  G1
+              Y = 2 (0 decimals)
+            "M30;(end)" BlockFlags(CODE | COMMENT)
+              M = 30  M30
+            "T1 ; tool one" BlockFlags(ERROR)
+              T = 1
+              ! TextAfterEndOfBlock "tool one"
+        "#]],
+    );
+    check(
+        "linuxcnc",
+        "G0 X1 ; G1 Y2\n",
+        &expect![[r#"
         "G0 X1 ; G1 Y2" BlockFlags(CODE | COMMENT)
           G = 0  G0
           X = 1
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn block_delete_levels() {
-    check("fanuc-mill", "/G0\n/3 X1.\nN5 /2 Y1.\nX1. /Y2.\n", &expect![[r#"
-        "/G0" delete 1 BlockFlags(CODE | BLOCK_DELETE)
-          G = 0  G0
-        "/3 X1." delete 3 BlockFlags(BLOCK_DELETE)
-          X = 1 (0 decimals)
-        "N5 /2 Y1." delete 2 BlockFlags(LABEL | BLOCK_DELETE)
-          N = 5
-          Y = 1 (0 decimals)
-        "X1. /Y2." delete 1 BlockFlags(BLOCK_DELETE)
-          X = 1 (0 decimals)
-          Y = 2 (0 decimals)
-    "#]]);
+    check(
+        "fanuc-mill",
+        "/G0\n/3 X1.\nN5 /2 Y1.\nX1. /Y2.\n",
+        &expect![[r#"
+            "/G0" delete 1 BlockFlags(CODE | BLOCK_DELETE)
+              G = 0  G0
+            "/3 X1." delete 3 BlockFlags(BLOCK_DELETE)
+              X = 1 (0 decimals)
+            "N5 /2 Y1." delete 2 BlockFlags(LABEL | BLOCK_DELETE)
+              N = 5
+              Y = 1 (0 decimals)
+            "X1. /Y2." delete 1 BlockFlags(BLOCK_DELETE)
+              X = 1 (0 decimals)
+              Y = 2 (0 decimals)
+        "#]],
+    );
 }
 
 /// Pieces that statements and expressions are made of, so that random programs reach deep into the grammar.
 fn piece() -> impl Strategy<Value = &'static str> {
     prop::sample::select(vec![
-        "G1", "X1.", "Y-.5", "X 1. 5", "N10", "O100", "o100", "T#1", "Z[#1+2]", "#1=", "#<a>", "=", "#100", "##2", "#[", "[", "]",
-        "1.", "+", "-", "*", "/", "**", " EQ ", " AND ", " OR ", " MOD ", "SIN", "ATAN", "IF", "THEN", "GOTO", "WHILE", "DO1", "END1",
-        " sub", " endsub", " call", " if", " while", " return", "DPRNT[A#1[53]]", "POPEN", "(note)", "(open", ")", ";", "%", "\n", "\n",
-        "\r\n", " ", "/1", ",R1.", "@1", "$0", "O<a b>", "O[#1]", ":12", "µ", "X", "gcheck:",
+        "G1",
+        "X1.",
+        "Y-.5",
+        "X 1. 5",
+        "N10",
+        "O100",
+        "o100",
+        "T#1",
+        "Z[#1+2]",
+        "#1=",
+        "#<a>",
+        "=",
+        "#100",
+        "##2",
+        "#[",
+        "[",
+        "]",
+        "1.",
+        "+",
+        "-",
+        "*",
+        "/",
+        "**",
+        " EQ ",
+        " AND ",
+        " OR ",
+        " MOD ",
+        "SIN",
+        "ATAN",
+        "IF",
+        "THEN",
+        "GOTO",
+        "WHILE",
+        "DO1",
+        "END1",
+        " sub",
+        " endsub",
+        " call",
+        " if",
+        " while",
+        " return",
+        "DPRNT[A#1[53]]",
+        "POPEN",
+        "(note)",
+        "(open",
+        ")",
+        ";",
+        "%",
+        "\n",
+        "\n",
+        "\r\n",
+        " ",
+        "/1",
+        ",R1.",
+        "@1",
+        "$0",
+        "O<a b>",
+        "O[#1]",
+        ":12",
+        "µ",
+        "X",
+        "gcheck:",
     ])
 }
 

@@ -1,1 +1,29 @@
-//! x
+//! Findings rendered for people and for machines.
+//!
+//! Knows: how a [`Report`] looks in every output format, where lines and columns are, how a finding is recognised again.
+//! Must not know: how findings are made, files on disk, the environment, clocks, whether the output is a terminal. It is
+//! the only crate that may use codespan-reporting.
+//!
+//! A caller builds a [`Report`] and calls [`write()`]. For the formats that people read it also prints [`control_lines`]
+//! (to standard error), [`summary_line`] and, when asked, [`statistics`].
+
+mod closing;
+mod control;
+mod excerpt;
+mod fingerprint;
+mod formats;
+mod line_index;
+mod report;
+mod shown;
+mod source;
+mod style;
+#[cfg(test)]
+mod testing;
+
+pub use closing::{statistics, summary_line};
+pub use control::{ControlChoice, ControlSource, control_lines};
+pub use fingerprint::{Fingerprint, Fingerprinter};
+pub use formats::{Format, write};
+pub use line_index::{LineIndex, Position};
+pub use report::{FileReport, RelatedFile, Report, Summary};
+pub use style::Colour;

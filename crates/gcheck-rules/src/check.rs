@@ -5,9 +5,11 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Control;
 use gcheck_program::{BlockFlags, Survey, code_region, lower};
 use gcheck_syntax::{SourceText, cut};
 
+use crate::mistakes::worth_reporting;
 use crate::suppression::Suppressions;
 use crate::{BlockCx, FileCx, Finding, Report, RuleEntry, RuleMeta, Run, Scene, Selection, Severity};
 
@@ -74,14 +76,21 @@ impl Plan {
 }
 
 /// Keeps findings up to the limit.
-#[derive(Default)]
-struct Collector {
+struct Collector<'c> {
+    control: &'c Control,
     findings: Vec<Finding>,
     omitted: Vec<(&'static RuleMeta, Severity, usize)>,
 }
 
-impl Collector {
+impl Collector<'_> {
     fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
+        // What is no mistake for certain foretells no alarm.
+        if finding.alarm.is_none() && finding.severity == Severity::Error {
+            finding.alarm = self
+                .control
+                .alarm(finding.rule.id)
+                .map(|a| a.number.clone().unwrap_or_else(|| a.text.clone()));
+        }
         if let Some(severity) = severity {
             finding.severity = severity;
         }
@@ -105,7 +114,7 @@ pub fn check(job: &Job<'_>) -> Outcome {
     let text = job.source.text();
     let region = code_region(text);
     let region = region.start as u32..region.end as u32;
-    let mut collector = Collector::default();
+    let mut collector = Collector { control: job.scene.control(), findings: Vec::new(), omitted: Vec::new() };
     let mut survey = Survey::default();
     let mut directives = Vec::new();
     for chunk in cut(text) {
@@ -120,8 +129,14 @@ pub fn check(job: &Job<'_>) -> Outcome {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
         }
     }
-    let lines = memchr::memchr_iter(b'\n', text.as_bytes()).count().max(usize::from(!text.is_empty()));
-    finish(job, &plan, collector, &directives, lines)
+    finish(job, &plan, collector, &directives, count_lines(text.as_bytes()))
+}
+
+/// Lines as people count them: a line end (`\n`, `\r\n` or `\r`) closes one, and text behind the last is one more.
+fn count_lines(text: &[u8]) -> usize {
+    let feeds = memchr::memchr_iter(b'\n', text).count();
+    let lone_returns = memchr::memchr_iter(b'\r', text).filter(|at| text.get(at + 1) != Some(&b'\n')).count();
+    feeds + lone_returns + usize::from(text.last().is_some_and(|last| !matches!(last, b'\n' | b'\r')))
 }
 
 fn check_chunk(
@@ -131,7 +146,7 @@ fn check_chunk(
     chunk: Range<usize>,
     survey: &mut Survey,
     directives: &mut Vec<Range<u32>>,
-    collector: &mut Collector,
+    collector: &mut Collector<'_>,
 ) {
     let base = chunk.start as u32;
     let text = job.source.text().get(chunk).unwrap_or_default();
@@ -154,12 +169,16 @@ fn check_chunk(
             }
         }
         if block.flags.contains(BlockFlags::ERROR) {
-            for error in table.errors(ix) {
+            for error in worth_reporting(&cx) {
                 for (rule, severity) in &plan.token {
                     if let Run::Token { on, check } = rule.run
                         && on(error.kind)
                     {
-                        check(&cx, error, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
+                        check(
+                            &cx,
+                            error,
+                            &mut Report { add: &mut |finding| collector.add(*severity, finding) },
+                        );
                     }
                 }
             }
@@ -168,7 +187,13 @@ fn check_chunk(
 }
 
 /// Silences, reports what silences nothing, and puts findings in order.
-fn finish(job: &Job<'_>, plan: &Plan, mut collector: Collector, directives: &[Range<u32>], lines: usize) -> Outcome {
+fn finish(
+    job: &Job<'_>,
+    plan: &Plan,
+    mut collector: Collector<'_>,
+    directives: &[Range<u32>],
+    lines: usize,
+) -> Outcome {
     let mut suppressed = 0;
     if job.suppressions && !directives.is_empty() {
         let mut suppressions = Suppressions::read(job.source.text(), directives);
@@ -183,7 +208,26 @@ fn finish(job: &Job<'_>, plan: &Plan, mut collector: Collector, directives: &[Ra
     }
     let mut findings = collector.findings;
     findings.sort_by(|a, b| {
-        (a.range.start, a.range.end, a.rule.id, &a.message).cmp(&(b.range.start, b.range.end, b.rule.id, &b.message))
+        (a.range.start, a.range.end, a.rule.id, &a.message).cmp(&(
+            b.range.start,
+            b.range.end,
+            b.rule.id,
+            &b.message,
+        ))
     });
     Outcome { findings, omitted: collector.omitted, suppressed, lines }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count_lines;
+
+    #[test]
+    fn every_kind_of_line_end_closes_a_line() {
+        for (text, lines) in
+            [("", 0), ("G0", 1), ("G0\n", 1), ("G0\r\nG1", 2), ("G0\rG1\r", 2), ("\n\r\n\r", 3)]
+        {
+            assert_eq!(count_lines(text.as_bytes()), lines, "{text:?}");
+        }
+    }
 }

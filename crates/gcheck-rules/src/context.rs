@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, LetterSet, WordEntry, WordKind};
-use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Survey, Word};
+use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Expr, Survey, Value, Word};
 use gcheck_syntax::{SourceText, SyntaxError};
 
 use crate::suppression::Suppressions;
@@ -134,6 +134,12 @@ pub fn limit(confidence: Confidence) -> Severity {
     }
 }
 
+/// Words of one block that rules look at.
+///
+/// Rules may compare every word with every other. There are 32 addresses, so a block with more words than this repeats them
+/// all and is reported for that; a line of a million characters must not cost a million squared.
+pub const MAX_WORDS: usize = 256;
+
 /// One block, as a rule of the token or block tier sees it.
 pub struct BlockCx<'a> {
     /// Control, machine, other programs.
@@ -186,9 +192,10 @@ impl<'a> BlockCx<'a> {
         self.table
     }
 
-    /// The block's words in text order, statements not included.
+    /// The block's words in text order, statements not included; the first [`MAX_WORDS`] of them.
     pub fn words(&self) -> &'a [Word] {
-        self.table.words(self.block)
+        let words = self.table.words(self.block);
+        words.get(..MAX_WORDS).unwrap_or(words)
     }
 
     /// The first word with an address.
@@ -206,6 +213,16 @@ impl<'a> BlockCx<'a> {
     /// The block's statements in text order.
     pub fn statements(&self) -> impl Iterator<Item = &'a gcheck_program::Statement> + use<'a> {
         self.table.statements(self.ix)
+    }
+
+    /// The block's expressions: of its words, then of its statements.
+    pub fn expressions(&self) -> impl Iterator<Item = &'a Expr> + use<'a> {
+        let table = self.table;
+        let of_words = self.words().iter().filter_map(|word| match word.value {
+            Value::Expr(expr) => Some(expr),
+            Value::Number(_) | Value::Missing => None,
+        });
+        of_words.chain(self.statements().flat_map(|s| s.kind.expressions())).map(|ix| table.expr(ix))
     }
 
     /// Bytes of the chunk as bytes of the file.
@@ -250,7 +267,8 @@ impl<'a> BlockCx<'a> {
         let mut anything = false;
         for (_, code) in self.codes() {
             if code.reads().contains(word.letter) {
-                let entry = code.entry().words.iter().find(|w| Letter::parse(&w.letter) == Some(word.letter))?;
+                let entry =
+                    code.entry().words.iter().find(|w| Letter::parse(&w.letter) == Some(word.letter))?;
                 return Some(of_code(code, entry, general));
             }
             anything |= code.entry().any_words;

@@ -6,17 +6,26 @@
 
 mod check;
 mod context;
+mod contract;
+mod evidence;
 mod finding;
+mod loops;
 mod meta;
+mod mistakes;
 mod rules;
+mod sections;
 mod selection;
 mod suppression;
 #[cfg(test)]
 mod testing;
 
 pub use check::{Job, MAX_FINDINGS, Outcome, check};
-pub use context::{BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit};
+pub use context::{
+    BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit,
+};
+pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
 pub use rules::{all, by_id};
+pub use sections::{LabelIndex, Section};
 pub use selection::{Selection, UnknownRule, suggest};

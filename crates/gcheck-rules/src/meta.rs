@@ -92,7 +92,12 @@ impl RuleMeta {
                     if let Some(info) = line.trim().strip_prefix("```nc,") {
                         let (kind, control) = info.split_once(',').unwrap_or((info, ""));
                         let control = control.to_owned();
-                        open = Some(DocExample { reported: kind == "reported", control, code: String::new(), line: number + 2 });
+                        open = Some(DocExample {
+                            reported: kind == "reported",
+                            control,
+                            code: String::new(),
+                            line: number + 2,
+                        });
                     }
                 }
                 Some(_) if line.trim() == "```" => examples.extend(open.take()),

@@ -16,3 +16,180 @@ pub fn all() -> &'static [&'static RuleEntry] {
 pub fn by_id(id: &str) -> Option<&'static RuleEntry> {
     all().iter().copied().find(|rule| rule.meta.id == id || rule.meta.aliases.contains(&id))
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+    use std::path::Path;
+
+    use super::all;
+    use crate::testing::{World, findings};
+    use crate::{RuleEntry, Run, Selection, Tier};
+
+    /// Collects what is wrong with every rule, so that one run shows all of it.
+    fn for_each_rule(mut judge: impl FnMut(&RuleEntry, &mut dyn FnMut(String))) {
+        let mut wrong = Vec::new();
+        for rule in all() {
+            judge(rule, &mut |what| wrong.push(format!("{}: {what}", rule.meta.id)));
+        }
+        assert!(wrong.is_empty(), "{} problems:\n{}", wrong.len(), wrong.join("\n"));
+    }
+
+    #[test]
+    fn every_example_of_the_documentation_is_true() {
+        for_each_rule(|rule, say| {
+            for example in rule.meta.examples() {
+                if !gcheck_controls::names().contains(&example.control.as_str()) {
+                    say(format!("line {}: no control is called `{}`", example.line, example.control));
+                    continue;
+                }
+                // A rule about suppressions speaks of the silence of other rules.
+                let selection = match rule.run {
+                    Run::Suppressions { .. } => Selection::default(),
+                    _ => Selection::only(rule),
+                };
+                let found = findings(&selection, &example.control, &example.code, &World::default());
+                let is_reported = found.iter().any(|f| std::ptr::eq(f.rule, rule.meta));
+                if is_reported != example.reported {
+                    let is = if is_reported { "is reported" } else { "is not reported" };
+                    say(format!(
+                        "line {} of the documentation, `{}`: {is}",
+                        example.line,
+                        example.code.trim_end()
+                    ));
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn every_rule_shows_both_sides() {
+        for_each_rule(|rule, say| {
+            let docs = rule.meta.docs();
+            for heading in ["## Why it matters", "## Reported", "## Not reported"] {
+                if !docs.contains(heading) {
+                    say(format!("has no `{heading}`"));
+                }
+            }
+            for reported in [true, false] {
+                if !rule.meta.examples().iter().any(|e| e.reported == reported) {
+                    say(format!("has no example with reported = {reported}"));
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn ids_name_the_defect() {
+        let mut seen = BTreeSet::new();
+        for_each_rule(|rule, say| {
+            let id = rule.meta.id;
+            if !id.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-') {
+                say("is not kebab-case".to_owned());
+            }
+            if ["check-", "no-", "avoid-", "bad-"].iter().any(|p| id.starts_with(p)) || id.ends_with("-error")
+            {
+                say("does not name a defect".to_owned());
+            }
+            for name in rule.meta.aliases.iter().chain([&id]) {
+                if !seen.insert(*name) || ["all", "recommended"].contains(name) {
+                    say(format!("the name `{name}` is taken"));
+                }
+            }
+        });
+        let groups: BTreeSet<_> = all().iter().map(|r| r.meta.group).collect();
+        assert!(groups.iter().all(|g| !seen.contains(g)), "a group has the name of a rule");
+    }
+
+    #[test]
+    fn files_and_folders_are_named_as_the_rules() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/rules");
+        for_each_rule(|rule, say| {
+            let file = folder.join(rule.meta.group).join(format!("{}.rs", rule.meta.id.replace('-', "_")));
+            if !file.is_file() {
+                say(format!("does not stand in `{}`", file.display()));
+            }
+        });
+    }
+
+    #[test]
+    fn summaries_are_one_lower_case_line() {
+        for_each_rule(|rule, say| {
+            let summary = rule.meta.summary;
+            let starts_low = summary.starts_with(|c: char| !c.is_uppercase()) || is_name(summary);
+            if summary.is_empty()
+                || summary.len() > 70
+                || summary.ends_with('.')
+                || summary.contains('\n')
+                || !starts_low
+            {
+                say(format!("summary is no short lower-case line: `{summary}`"));
+            }
+            if rule.meta.since.is_empty() {
+                say("does not say since when it is".to_owned());
+            }
+        });
+    }
+
+    /// `O-word`, `DO`: names that are written in capitals.
+    fn is_name(text: &str) -> bool {
+        let word = text.split([' ', '-']).next().unwrap_or_default();
+        !word.is_empty() && word.bytes().all(|b| b.is_ascii_uppercase())
+    }
+
+    #[test]
+    fn messages_keep_the_wording_standard() {
+        for_each_rule(|rule, say| {
+            for example in rule.meta.examples().iter().filter(|e| e.reported) {
+                let selection = Selection::only(rule);
+                for finding in findings(&selection, &example.control, &example.code, &World::default()) {
+                    let message = finding.message.as_str();
+                    let lower = message.to_lowercase();
+                    if message.ends_with('.') || message.contains('\n') || message.chars().count() > 90 {
+                        say(format!("message is not one short line: `{message}`"));
+                    }
+                    if message.starts_with(char::is_uppercase) && !is_name(message) {
+                        say(format!("message does not begin in lower case: `{message}`"));
+                    }
+                    let banned = ["illegal", "bad", "error", "invalid"];
+                    if lower.split(|c: char| !c.is_alphabetic()).any(|w| banned.contains(&w)) {
+                        say(format!("message scolds: `{message}`"));
+                    }
+                    if finding.severity > rule.meta.severity {
+                        say(format!("`{message}` is more severe than the rule says"));
+                    }
+                    let end = example.code.len() as u32;
+                    if finding.range.start > finding.range.end || finding.range.end > end {
+                        say(format!("`{message}` stands outside the text"));
+                    }
+                }
+            }
+        });
+    }
+
+    #[test]
+    fn the_tier_is_that_of_the_way_it_runs() {
+        for_each_rule(|rule, say| {
+            let tier = match rule.run {
+                Run::Token { .. } => Tier::Token,
+                Run::Block { .. } => Tier::Block,
+                Run::Program { .. } | Run::Suppressions { .. } => Tier::Program,
+            };
+            // Suppressions are read with the tokens and judged with the file.
+            if rule.meta.tier != tier && !matches!(rule.run, Run::Suppressions { .. }) {
+                say(format!("says {:?} and runs as {tier:?}", rule.meta.tier));
+            }
+        });
+    }
+
+    #[test]
+    fn alarms_of_the_controls_name_rules() {
+        let mut wrong = Vec::new();
+        for name in gcheck_controls::names() {
+            let control = gcheck_controls::load(name).unwrap();
+            let unknown = control.rules_with_alarms().filter(|rule| super::by_id(rule).is_none());
+            wrong.extend(unknown.map(|rule| format!("{name}: {rule}")));
+        }
+        assert!(wrong.is_empty(), "alarms of rules that do not exist: {wrong:?}");
+    }
+}

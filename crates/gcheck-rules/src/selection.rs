@@ -13,29 +13,43 @@ pub struct UnknownRule {
     pub suggestion: Option<&'static str>,
 }
 
+/// Whether a rule runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Off,
+    /// With the severity that it gives each finding itself.
+    On,
+    /// With one severity for all its findings.
+    Fixed(Severity),
+}
+
 /// Rules that run, with their severities.
 #[derive(Debug, Clone)]
 pub struct Selection {
-    /// Parallel to [`all`]: `None` when off, else the severity that replaces the rule's own, if any.
-    states: Vec<Option<Option<Severity>>>,
+    /// Parallel to [`all`].
+    states: Vec<State>,
 }
 
 impl Default for Selection {
     /// The recommended set.
     fn default() -> Self {
-        Self { states: all().iter().map(|rule| rule.meta.recommended.then_some(None)).collect() }
+        Self::of(|rule| rule.meta.recommended)
     }
 }
 
 impl Selection {
     /// No rule at all.
     pub fn none() -> Self {
-        Self { states: vec![None; all().len()] }
+        Self::of(|_| false)
     }
 
     /// Only the rule of an entry.
     pub fn only(rule: &RuleEntry) -> Self {
-        Self { states: all().iter().map(|r| std::ptr::eq(r.meta, rule.meta).then_some(None)).collect() }
+        Self::of(|r| std::ptr::eq(r.meta, rule.meta))
+    }
+
+    fn of(is_on: impl Fn(&RuleEntry) -> bool) -> Self {
+        Self { states: all().iter().map(|rule| if is_on(rule) { State::On } else { State::Off }).collect() }
     }
 
     /// Turns on what a selector names: a rule, a group, `recommended` or `all`.
@@ -44,7 +58,9 @@ impl Selection {
     /// [`UnknownRule`] when it names nothing.
     pub fn enable(&mut self, selector: &str) -> Result<(), UnknownRule> {
         self.each(selector, |state| {
-            state.get_or_insert(None);
+            if *state == State::Off {
+                *state = State::On;
+            }
         })
     }
 
@@ -53,7 +69,7 @@ impl Selection {
     /// # Errors
     /// [`UnknownRule`] when it names nothing.
     pub fn disable(&mut self, selector: &str) -> Result<(), UnknownRule> {
-        self.each(selector, |state| *state = None)
+        self.each(selector, |state| *state = State::Off)
     }
 
     /// Turns on what a selector names and fixes its severity.
@@ -61,12 +77,16 @@ impl Selection {
     /// # Errors
     /// [`UnknownRule`] when it names nothing.
     pub fn set_severity(&mut self, selector: &str, severity: Severity) -> Result<(), UnknownRule> {
-        self.each(selector, |state| *state = Some(Some(severity)))
+        self.each(selector, |state| *state = State::Fixed(severity))
     }
 
     /// The rules that are on, with the severity that replaces their own.
     pub fn rules(&self) -> impl Iterator<Item = (&'static RuleEntry, Option<Severity>)> {
-        all().iter().zip(&self.states).filter_map(|(rule, state)| state.map(|severity| (*rule, severity)))
+        all().iter().zip(&self.states).filter_map(|(rule, state)| match state {
+            State::Off => None,
+            State::On => Some((*rule, None)),
+            State::Fixed(severity) => Some((*rule, Some(*severity))),
+        })
     }
 
     /// Is the rule on?
@@ -74,7 +94,7 @@ impl Selection {
         self.rules().any(|(rule, _)| rule.meta.id == id)
     }
 
-    fn each(&mut self, selector: &str, mut change: impl FnMut(&mut Option<Option<Severity>>)) -> Result<(), UnknownRule> {
+    fn each(&mut self, selector: &str, mut change: impl FnMut(&mut State)) -> Result<(), UnknownRule> {
         let mut found = false;
         for (rule, state) in all().iter().zip(&mut self.states) {
             if matches(rule, selector) {
@@ -82,7 +102,11 @@ impl Selection {
                 change(state);
             }
         }
-        if found { Ok(()) } else { Err(UnknownRule { name: selector.to_owned(), suggestion: suggest(selector) }) }
+        if found {
+            Ok(())
+        } else {
+            Err(UnknownRule { name: selector.to_owned(), suggestion: suggest(selector) })
+        }
     }
 }
 

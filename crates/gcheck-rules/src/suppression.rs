@@ -53,33 +53,42 @@ impl Suppressions {
             return;
         }
         // A reason follows a dash that stands alone: rule ids contain dashes.
-        let (rules, reason) = rest.split_once(" - ").map_or((rest, ""), |(rules, reason)| (rules, reason.trim()));
-        let selectors: Vec<String> = rules.split([',', ' ', '\t']).filter(|s| !s.is_empty()).map(str::to_owned).collect();
+        let (rules, reason) =
+            rest.split_once(" - ").map_or((rest, ""), |(rules, reason)| (rules, reason.trim()));
+        let selectors: Vec<String> =
+            rules.split([',', ' ', '\t']).filter(|s| !s.is_empty()).map(str::to_owned).collect();
         let unknown = selectors.iter().find(|s| !all().iter().any(|rule| matches(rule, s)));
         if !matches!(verb, "ignore" | "ignore-file" | "off" | "on") {
             let verbs = "`ignore`, `ignore-file`, `off`, `on` and `control=`";
             return self.refuse(range, format!("`{verb}` is no gcheck directive; there are {verbs}"));
         }
         if let Some(unknown) = unknown {
-            let near = crate::selection::suggest(unknown).map(|s| format!(", did you mean `{s}`?")).unwrap_or_default();
+            let near = crate::selection::suggest(unknown)
+                .map(|s| format!(", did you mean `{s}`?"))
+                .unwrap_or_default();
             return self.refuse(range, format!("`{unknown}` is no rule, group or set{near}"));
         }
         if selectors.is_empty() {
             return self.refuse(range, format!("`{verb}` names no rule"));
         }
-        let scope = match verb {
-            "ignore" => line_scope(text, range),
-            "ignore-file" => 0..u32::MAX,
-            "off" => range.start..u32::MAX,
-            _ => {
-                let open = self.list.iter_mut().rev().find(|s| s.scope.end == u32::MAX && s.scope.start > 0 && s.selectors == selectors);
-                match open {
-                    Some(open) => open.scope.end = range.start,
-                    None => self.refuse(range, format!("`on {}` has no `off` before it", selectors.join(", "))),
+        let scope =
+            match verb {
+                "ignore" => line_scope(text, range),
+                "ignore-file" => 0..u32::MAX,
+                "off" => range.start..u32::MAX,
+                _ => {
+                    let open =
+                        self.list.iter_mut().rev().find(|s| {
+                            s.scope.end == u32::MAX && s.scope.start > 0 && s.selectors == selectors
+                        });
+                    match open {
+                        Some(open) => open.scope.end = range.start,
+                        None => self
+                            .refuse(range, format!("`on {}` has no `off` before it", selectors.join(", "))),
+                    }
+                    return;
                 }
-                return;
-            }
-        };
+            };
         let has_reason = !reason.is_empty();
         self.list.push(Suppression { range: range.clone(), selectors, has_reason, scope, used: false });
     }
@@ -90,10 +99,14 @@ impl Suppressions {
 
     /// Is the finding silenced? Marks the suppression that does it as used.
     pub(crate) fn silences(&mut self, finding: &Finding) -> bool {
-        let Some(rule) = all().iter().find(|rule| std::ptr::eq(rule.meta, finding.rule)) else { return false };
+        let Some(rule) = all().iter().find(|rule| std::ptr::eq(rule.meta, finding.rule)) else {
+            return false;
+        };
         let mut silenced = false;
         for suppression in &mut self.list {
-            if suppression.scope.contains(&finding.range.start) && suppression.selectors.iter().any(|s| matches(rule, s)) {
+            if suppression.scope.contains(&finding.range.start)
+                && suppression.selectors.iter().any(|s| matches(rule, s))
+            {
                 suppression.used = true;
                 silenced = true;
             }
@@ -109,7 +122,9 @@ fn line_scope(text: &str, range: &Range<u32>) -> Range<u32> {
     let before = bytes.get(..start).unwrap_or_default();
     let line = memchr::memrchr2(b'\n', b'\r', before).map_or(0, |at| at + 1);
     let own_end = end + gcheck_syntax::line_len(bytes.get(end..).unwrap_or_default());
-    let blank = |range: Range<usize>| bytes.get(range).unwrap_or_default().iter().all(|b| b.is_ascii_whitespace() || *b == b';');
+    let blank = |range: Range<usize>| {
+        bytes.get(range).unwrap_or_default().iter().all(|b| b.is_ascii_whitespace() || *b == b';')
+    };
     let own = if blank(line..start) && blank(end..own_end) {
         own_end..own_end + gcheck_syntax::line_len(bytes.get(own_end..).unwrap_or_default()).max(1)
     } else {

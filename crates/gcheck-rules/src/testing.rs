@@ -21,12 +21,22 @@ pub(crate) struct World<'w> {
 
 impl Default for World<'_> {
     fn default() -> Self {
-        Self { machine: MachineFacts::default(), programs: &NoPrograms, control_is_guessed: false, suppressions: true }
+        Self {
+            machine: MachineFacts::default(),
+            programs: &NoPrograms,
+            control_is_guessed: false,
+            suppressions: true,
+        }
     }
 }
 
 /// Findings of a selection of rules on a program.
-pub(crate) fn findings(selection: &Selection, control: &str, program: &str, world: &World<'_>) -> Vec<Finding> {
+pub(crate) fn findings(
+    selection: &Selection,
+    control: &str,
+    program: &str,
+    world: &World<'_>,
+) -> Vec<Finding> {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let scene = Scene {
@@ -45,7 +55,13 @@ pub(crate) fn check_rule(rule: &RuleEntry, control: &str, program: &str, expecte
 }
 
 /// One rule on a program in a given world.
-pub(crate) fn check_rule_in(rule: &RuleEntry, control: &str, program: &str, world: &World<'_>, expected: &Expect) {
+pub(crate) fn check_rule_in(
+    rule: &RuleEntry,
+    control: &str,
+    program: &str,
+    world: &World<'_>,
+    expected: &Expect,
+) {
     let found = findings(&Selection::only(rule), control, program, world);
     expected.assert_eq(&found.iter().map(|f| picture(program, f)).collect::<String>());
 }
@@ -61,7 +77,11 @@ fn picture(program: &str, finding: &Finding) -> String {
     let margin = " ".repeat(number.to_string().len());
     let mut out = String::new();
     let _ = writeln!(out, "{number} | {}", &program[line_start..line_end]);
-    let _ = writeln!(out, "{margin} | {indent}{carets} {}[{}] {}", finding.severity, finding.rule.id, finding.message);
+    let _ = writeln!(
+        out,
+        "{margin} | {indent}{carets} {}[{}] {}",
+        finding.severity, finding.rule.id, finding.message
+    );
     out
 }
 

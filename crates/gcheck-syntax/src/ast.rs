@@ -85,7 +85,11 @@ impl Block {
 impl BlockDelete {
     /// The digit behind the slash.
     pub fn level(&self) -> Option<u8> {
-        let number = self.0.children_with_tokens().filter_map(NodeOrToken::into_token).find(|t| t.kind() == SyntaxKind::NUMBER)?;
+        let number = self
+            .0
+            .children_with_tokens()
+            .filter_map(NodeOrToken::into_token)
+            .find(|t| t.kind() == SyntaxKind::NUMBER)?;
         number.text().parse().ok()
     }
 }
@@ -116,7 +120,9 @@ impl Word {
     /// Views a token or node, if it is a word.
     pub fn cast(element: SyntaxElement) -> Option<Self> {
         match element {
-            NodeOrToken::Token(t) if matches!(t.kind(), SyntaxKind::WORD | SyntaxKind::COLON_NUMBER) => Some(Self::Fused(t)),
+            NodeOrToken::Token(t) if matches!(t.kind(), SyntaxKind::WORD | SyntaxKind::COLON_NUMBER) => {
+                Some(Self::Fused(t))
+            }
             NodeOrToken::Node(n) if n.kind() == SyntaxKind::ADDRESS => Some(Self::Spread(n)),
             _ => None,
         }

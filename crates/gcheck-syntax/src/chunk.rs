@@ -56,7 +56,8 @@ pub fn line_len(bytes: &[u8]) -> usize {
 fn is_cut(line: &[u8]) -> bool {
     let tail = line.get(line.len().saturating_sub(16)..).unwrap_or_default();
     // FNV-1a.
-    let hash = tail.iter().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
+    let hash =
+        tail.iter().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
     (hash ^ (hash >> 15)).is_multiple_of(CUT_MASK_ODDS)
 }
 
@@ -82,7 +83,12 @@ pub struct OutOfRange;
 impl Document {
     /// Cuts a text.
     pub fn new(text: &str) -> Self {
-        Self { chunks: cut(text).into_iter().map(|range| Arc::from(text.get(range).unwrap_or_default())).collect() }
+        Self {
+            chunks: cut(text)
+                .into_iter()
+                .map(|range| Arc::from(text.get(range).unwrap_or_default()))
+                .collect(),
+        }
     }
 
     /// The chunks in order.
@@ -119,7 +125,8 @@ impl Document {
         let first = starts.partition_point(|start| *start <= range.start).saturating_sub(2);
         let last = starts.partition_point(|start| *start <= range.end).min(self.chunks.len());
         let base = starts.get(first).copied().unwrap_or(0);
-        let mut text: String = self.chunks.get(first..last).unwrap_or_default().iter().map(AsRef::as_ref).collect();
+        let mut text: String =
+            self.chunks.get(first..last).unwrap_or_default().iter().map(AsRef::as_ref).collect();
         let local = range.start - base..range.end - base;
         if !text.is_char_boundary(local.start) || !text.is_char_boundary(local.end) {
             return Err(OutOfRange);

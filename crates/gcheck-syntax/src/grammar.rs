@@ -65,7 +65,15 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
             }
             sink.finish_node();
         } else {
-            line(&mut Parser { text: text.as_bytes(), tokens: &tokens, at: 0, depth: 0, too_deep: false, profile, sink });
+            line(&mut Parser {
+                text: text.as_bytes(),
+                tokens: &tokens,
+                at: 0,
+                depth: 0,
+                too_deep: false,
+                profile,
+                sink,
+            });
         }
     }
 }
@@ -210,7 +218,8 @@ fn line<S: Sink>(p: &mut Parser<'_, S>) {
 /// After an end-of-block character: nothing more, only comments, or text that cannot be read as words.
 fn rest_is_not_a_block<S: Sink>(p: &Parser<'_, S>) -> bool {
     let rest = p.tokens.get(p.at..).unwrap_or_default();
-    let meaningful = |t: Token| !matches!(t, Token::Whitespace | Token::Comment(_) | Token::Newline | Token::Semicolon(_));
+    let meaningful =
+        |t: Token| !matches!(t, Token::Whitespace | Token::Comment(_) | Token::Newline | Token::Semicolon(_));
     let mut previous = Token::Whitespace;
     let mut has_word = false;
     for lexeme in rest {
@@ -264,12 +273,14 @@ fn block<S: Sink>(p: &mut Parser<'_, S>) {
 fn item<S: Sink>(p: &mut Parser<'_, S>) {
     let Some(token) = p.current() else { return };
     match token {
-        Token::Whitespace | Token::Bom | Token::Percent | Token::Semicolon(_) => p.bump(),
+        Token::Whitespace | Token::Bom | Token::Percent | Token::ColonNumber | Token::Semicolon(_) => {
+            p.bump();
+        }
         Token::Comment(_) => comment_or_blank(p),
         Token::Word => word(p),
+        Token::Letter if starts_prose(p, p.at) => prose(p),
         Token::Letter => address(p),
         Token::OName => o_statement(p),
-        Token::ColonNumber => p.bump(),
         Token::Variable | Token::NamedVariable | Token::Hash => assignment(p),
         Token::LBracket => condition(p),
         Token::Slash => block_delete(p),
@@ -285,7 +296,7 @@ fn item<S: Sink>(p: &mut Parser<'_, S>) {
         Token::End => end_statement(p),
         Token::Goto => goto_statement(p),
         Token::Print => print_statement(p),
-        Token::Port => macro_statement(p, SyntaxKind::PORT_STATEMENT, |p| p.bump()),
+        Token::Port => port_statement(p),
         Token::Then
         | Token::Else
         | Token::ElseIf
@@ -320,8 +331,80 @@ fn unexpected<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
     p.sink.start_node(SyntaxKind::ERROR);
     p.bump();
-    while matches!(p.current(), Some(Token::Unknown | Token::Plus | Token::Minus | Token::Star | Token::Equals | Token::Comma)) {
+    while matches!(
+        p.current(),
+        Some(Token::Unknown | Token::Plus | Token::Minus | Token::Star | Token::Equals | Token::Comma)
+    ) {
         p.bump();
+    }
+    p.sink.finish_node();
+    let end = p.end_of_previous();
+    p.error(SyntaxErrorKind::Unexpected, start..end);
+}
+
+/// Do the tokens at `at` begin a word of prose? `X`, `Y`, `Z` in a row, or a letter with a keyword behind it.
+fn starts_prose<S: Sink>(p: &Parser<'_, S>, at: usize) -> bool {
+    let token = |at: usize| p.tokens.get(at).map(|l| l.token);
+    match (token(at), token(at + 1)) {
+        (Some(Token::Letter), Some(Token::Letter)) => token(at + 2)
+            .is_some_and(|t| matches!(t, Token::Letter | Token::Function | Token::Unknown) || is_keyword(t)),
+        (Some(Token::Letter), Some(next)) => is_keyword(next),
+        _ => false,
+    }
+}
+
+/// A keyword that cannot begin a value.
+fn is_keyword(token: Token) -> bool {
+    is_o_keyword(token)
+        || matches!(
+            token,
+            Token::Comparison
+                | Token::And
+                | Token::Or
+                | Token::Mod
+                | Token::Then
+                | Token::End
+                | Token::Goto
+                | Token::Print
+                | Token::Port
+        )
+}
+
+/// Text that is no code, as far as it goes, is one mistake: `OFFSET`, `move to start`.
+fn prose<S: Sink>(p: &mut Parser<'_, S>) {
+    let start = p.offset();
+    p.sink.start_node(SyntaxKind::ERROR);
+    loop {
+        // A word goes to its next blank, whatever it is made of.
+        while !p.at_end()
+            && !matches!(
+                p.current(),
+                Some(Token::Whitespace | Token::Comment(_) | Token::Semicolon(_) | Token::RParen)
+            )
+        {
+            p.bump();
+        }
+        let next = if p.current() == Some(Token::Whitespace) { p.at + 1 } else { p.at };
+        let Some(token) = p.tokens.get(next).map(|l| l.token) else { break };
+        let behind = p.tokens.get(next + 1).map(|l| l.token);
+        let goes_on = match token {
+            Token::Letter => {
+                starts_prose(p, next)
+                    || matches!(behind, None | Some(Token::Whitespace | Token::Newline | Token::Letter))
+            }
+            Token::Unknown
+            | Token::Number
+            | Token::Comma
+            | Token::Equals
+            | Token::Plus
+            | Token::Minus
+            | Token::Star => true,
+            _ => false,
+        };
+        if !goes_on {
+            break;
+        }
+        p.skip_blanks();
     }
     p.sink.finish_node();
     let end = p.end_of_previous();
@@ -457,8 +540,11 @@ fn needs_brackets<S: Sink>(p: &mut Parser<'_, S>) {
     // `X#1 /G0` is a block delete, `X#1/2` a division.
     while let Some(token) = p.current()
         && binding_power(token, p.profile).is_some()
-        && p.tokens.get(p.at + 1).is_some_and(|next| starts_operand(next.token) || next.token == Token::Whitespace)
-        && (token != Token::Slash || p.tokens.get(p.at + 1).is_some_and(|next| next.token != Token::Whitespace))
+        && p.tokens
+            .get(p.at + 1)
+            .is_some_and(|next| starts_operand(next.token) || next.token == Token::Whitespace)
+        && (token != Token::Slash
+            || p.tokens.get(p.at + 1).is_some_and(|next| next.token != Token::Whitespace))
     {
         if !any {
             p.sink.start_node(SyntaxKind::ERROR);
@@ -642,6 +728,12 @@ fn print_statement<S: Sink>(p: &mut Parser<'_, S>) {
     });
 }
 
+fn port_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    macro_statement(p, SyntaxKind::PORT_STATEMENT, |p| {
+        p.bump();
+    });
+}
+
 /// `O100 SUB`, `O<name> CALL [1] [2]` with a fused label.
 fn o_statement<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
@@ -705,7 +797,9 @@ fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
     let left = p.sink.checkpoint();
     unary(p);
     let mut any = false;
-    while let Some(power) = p.peek_past_blanks(0).and_then(|t| binding_power(t, p.profile)).filter(|power| *power >= weakest) {
+    while let Some(power) =
+        p.peek_past_blanks(0).and_then(|t| binding_power(t, p.profile)).filter(|power| *power >= weakest)
+    {
         any = true;
         p.sink.start_node_at(left, SyntaxKind::BINARY);
         p.skip_blanks();
@@ -856,7 +950,11 @@ fn function_call<S: Sink>(p: &mut Parser<'_, S>) {
     if p.current() == Some(Token::LBracket) {
         group(p);
         if is_atan && p.peek_past_blanks(0) == Some(Token::Slash) {
-            let slash = p.tokens.get(p.at..).and_then(|rest| rest.iter().position(|l| l.token == Token::Slash)).unwrap_or(0);
+            let slash = p
+                .tokens
+                .get(p.at..)
+                .and_then(|rest| rest.iter().position(|l| l.token == Token::Slash))
+                .unwrap_or(0);
             if p.peek_past_blanks(slash + 1) == Some(Token::LBracket) {
                 p.skip_blanks();
                 p.bump();

@@ -32,7 +32,8 @@ pub(crate) enum Token {
     Letter,
     #[regex(r"[0-9]+\.?[0-9]*|\.[0-9]+")]
     Number,
-    #[regex(r"#[0-9]+")]
+    /// `#100`; a decimal point may end the number, as it may end any number.
+    #[regex(r"#[0-9]+\.?")]
     Variable,
     #[regex(r"#[ \t]*<[^<>\r\n]*>")]
     NamedVariable,
@@ -103,20 +104,21 @@ pub(crate) enum Token {
     #[token("TAN", ignore(case))]
     Function,
 
+    // Where blanks do not count, `ELSE IF` and `END IF` are as good as `ELSEIF` and `ENDIF`.
     #[token("IF", ignore(case))]
     If,
     #[token("THEN", ignore(case))]
     Then,
     #[token("ELSE", ignore(case))]
     Else,
-    #[token("ELSEIF", ignore(case))]
+    #[regex(r"ELSE[ \t]*IF", ignore(case))]
     ElseIf,
-    #[token("ENDIF", ignore(case))]
+    #[regex(r"END[ \t]*IF", ignore(case))]
     EndIf,
     #[token("WHILE", ignore(case))]
     #[token("WH", ignore(case))]
     While,
-    #[token("ENDWHILE", ignore(case))]
+    #[regex(r"END[ \t]*WHILE", ignore(case))]
     EndWhile,
     #[token("DO", ignore(case))]
     Do,
@@ -126,7 +128,7 @@ pub(crate) enum Token {
     Goto,
     #[token("SUB", ignore(case))]
     Sub,
-    #[token("ENDSUB", ignore(case))]
+    #[regex(r"END[ \t]*SUB", ignore(case))]
     EndSub,
     #[token("CALL", ignore(case))]
     Call,
@@ -134,7 +136,7 @@ pub(crate) enum Token {
     Return,
     #[token("REPEAT", ignore(case))]
     Repeat,
-    #[token("ENDREPEAT", ignore(case))]
+    #[regex(r"END[ \t]*REPEAT", ignore(case))]
     EndRepeat,
     #[token("BREAK", ignore(case))]
     Break,
@@ -303,6 +305,8 @@ pub fn count_tokens(text: &str, semicolon_comment: bool) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use expect_test::{Expect, expect};
 
     use super::{Lexer, LexerMode};
@@ -312,7 +316,7 @@ mod tests {
         let mut out = String::new();
         for (token, end) in Lexer::new(text, LexerMode { semicolon_comment }) {
             let end = end as usize;
-            out.push_str(&format!("{token:?} {:?}\n", &text[start..end]));
+            let _ = writeln!(out, "{token:?} {:?}", &text[start..end]);
             start = end;
         }
         assert_eq!(start, text.len(), "no byte is lost");
@@ -354,6 +358,25 @@ mod tests {
                 End "END"
                 Number "1"
             "##]],
+        );
+    }
+
+    #[test]
+    fn a_keyword_of_two_words_may_have_a_blank() {
+        check(
+            "o1 else if end\tsub END 1",
+            true,
+            &expect![[r#"
+                Word "o1"
+                Whitespace " "
+                ElseIf "else if"
+                Whitespace " "
+                EndSub "end\tsub"
+                Whitespace " "
+                End "END"
+                Whitespace " "
+                Number "1"
+            "#]],
         );
     }
 

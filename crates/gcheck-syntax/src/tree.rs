@@ -111,7 +111,9 @@ pub fn replay<S: Sink>(parse: &Parse, sink: &mut S) {
             rowan::WalkEvent::Enter(SyntaxElement::Node(node)) if node.kind() != SyntaxKind::CHUNK => {
                 sink.start_node(node.kind());
             }
-            rowan::WalkEvent::Leave(SyntaxElement::Node(node)) if node.kind() != SyntaxKind::CHUNK => sink.finish_node(),
+            rowan::WalkEvent::Leave(SyntaxElement::Node(node)) if node.kind() != SyntaxKind::CHUNK => {
+                sink.finish_node();
+            }
             rowan::WalkEvent::Enter(SyntaxElement::Token(token)) => {
                 let range = token.text_range();
                 sink.token(token.kind(), range.start().into()..range.end().into());

@@ -1,6 +1,8 @@
 //! The laws of the syntax crate, on generated text: nothing is lost, nothing panics, edits give what a fresh start gives.
 
-use gcheck_syntax::{Document, MAX_EXPRESSION_DEPTH, MAX_LINES, SourceText, SyntaxErrorKind, SyntaxProfile, cut, parse};
+use gcheck_syntax::{
+    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, SourceText, SyntaxErrorKind, SyntaxProfile, cut, parse,
+};
 use proptest::prelude::*;
 
 /// Pieces of programs, good and broken, that a generator joins in any order.
@@ -105,7 +107,8 @@ proptest! {
 
 #[test]
 fn an_edit_in_a_long_program_touches_few_chunks() {
-    let text: String = (0..100_000).map(|n| format!("X{}.{} Y{}.\n", n % 713, n % 10, n * 7 % 1_001)).collect();
+    let text: String =
+        (0..100_000).map(|n| format!("X{}.{} Y{}.\n", n % 713, n % 10, n * 7 % 1_001)).collect();
     let mut document = Document::new(&text);
     let chunks = document.chunks().len();
     assert!((100..400).contains(&chunks), "mean chunk of about 512 lines, not {chunks} chunks");
@@ -132,7 +135,9 @@ fn edits_out_of_range_are_refused_and_change_nothing() {
 #[test]
 fn ten_thousand_brackets_are_one_mistake() {
     for profile in profiles() {
-        for text in ["[".repeat(10_000), format!("#1={}1", "-".repeat(10_000)), format!("#1={}1", "#".repeat(10_000))] {
+        for text in
+            ["[".repeat(10_000), format!("#1={}1", "-".repeat(10_000)), format!("#1={}1", "#".repeat(10_000))]
+        {
             let parsed = parse(&text, profile);
             assert_eq!(parsed.syntax().text().to_string(), text);
             let deep = parsed.errors().iter().filter(|e| e.kind == SyntaxErrorKind::TooDeep).count();

@@ -12,7 +12,12 @@ fn check_tree(profile: SyntaxProfile, text: &str, expected: &Expect) {
     let mut out = String::new();
     dump(&parsed.syntax(), 0, &mut out);
     for error in parsed.errors() {
-        let _ = writeln!(out, "! {:?} {:?}", error.kind, &text[error.range.start as usize..error.range.end as usize]);
+        let _ = writeln!(
+            out,
+            "! {:?} {:?}",
+            error.kind,
+            &text[error.range.start as usize..error.range.end as usize]
+        );
     }
     expected.assert_eq(&out);
 }
@@ -31,7 +36,10 @@ fn dump(node: &SyntaxNode, depth: usize, out: &mut String) {
 
 #[test]
 fn plain_words_are_tokens_of_their_block() {
-    check_tree(SyntaxProfile::MACRO_B, "/1 N10 G1 X-1.5 (cut)\r\n", &expect![[r#"
+    check_tree(
+        SyntaxProfile::MACRO_B,
+        "/1 N10 G1 X-1.5 (cut)\r\n",
+        &expect![[r#"
         CHUNK
           BLOCK
             BLOCK_DELETE
@@ -46,12 +54,16 @@ fn plain_words_are_tokens_of_their_block() {
             WHITESPACE " "
             COMMENT "(cut)"
             NEWLINE "\r\n"
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn expressions_nest_by_precedence() {
-    check_tree(SyntaxProfile::MACRO_B, "X[#1+2*SIN[30.]]", &expect![[r##"
+    check_tree(
+        SyntaxProfile::MACRO_B,
+        "X[#1+2*SIN[30.]]",
+        &expect![[r##"
         CHUNK
           BLOCK
             ADDRESS
@@ -71,12 +83,16 @@ fn expressions_nest_by_precedence() {
                         NUMBER "30."
                         R_BRACKET "]"
                 R_BRACKET "]"
-    "##]]);
+    "##]],
+    );
 }
 
 #[test]
 fn o_word_statements() {
-    check_tree(SyntaxProfile::NGC, "o<probe> call [1] ; go\n", &expect![[r#"
+    check_tree(
+        SyntaxProfile::NGC,
+        "o<probe> call [1] ; go\n",
+        &expect![[r#"
         CHUNK
           BLOCK
             O_STATEMENT
@@ -91,12 +107,16 @@ fn o_word_statements() {
             WHITESPACE " "
             LINE_COMMENT "; go"
             NEWLINE "\n"
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn a_form_of_another_control_has_a_tree_and_a_mistake() {
-    check_tree(SyntaxProfile::NGC, "IF [#1 EQ 2] GOTO 5", &expect![[r##"
+    check_tree(
+        SyntaxProfile::NGC,
+        "IF [#1 EQ 2] GOTO 5",
+        &expect![[r##"
         CHUNK
           BLOCK
             IF_STATEMENT
@@ -117,12 +137,16 @@ fn a_form_of_another_control_has_a_tree_and_a_mistake() {
                 WHITESPACE " "
                 NUMBER "5"
         ! Foreign(MacroStatement) "IF"
-    "##]]);
+    "##]],
+    );
 }
 
 #[test]
 fn what_cannot_be_used_stands_in_error_nodes() {
-    check_tree(SyntaxProfile::MACRO_B, "G1 ) X& [1", &expect![[r#"
+    check_tree(
+        SyntaxProfile::MACRO_B,
+        "G1 ) X& [1",
+        &expect![[r#"
         CHUNK
           BLOCK
             WORD "G1"
@@ -143,7 +167,8 @@ fn what_cannot_be_used_stands_in_error_nodes() {
         ! AddressWithoutValue "X"
         ! Unexpected "&"
         ! UnclosedBracket "["
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]

@@ -1,1 +1,6 @@
-//! x
+//! What tests and measurements of several crates share.
+//!
+//! Knows: programs as text. Must not know: what anybody expects of them. Never part of a release.
+
+pub mod corpus;
+pub mod inputs;

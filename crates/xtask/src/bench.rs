@@ -1,3 +1,34 @@
-//! Placeholder.
+//! `cargo xtask bench`: speed and memory against the budgets, in one table.
+//!
+//! Knows: the budgets and what each is measured with. Must not know: how the product works. It is no test: a busy machine
+//! would fail it.
+
+mod command_line;
+mod in_process;
+mod row;
+
 use std::process::ExitCode;
-pub(crate) fn run(_: &[String]) -> anyhow::Result<ExitCode> { Ok(ExitCode::SUCCESS) }
+
+use anyhow::bail;
+
+use crate::product;
+
+/// Measures everything in a release build.
+pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
+    if !arguments.is_empty() {
+        bail!("bench takes no arguments");
+    }
+    // Functions that are called in process must be as optimised as the product.
+    if cfg!(debug_assertions) {
+        return product::rerun("bench", arguments, true);
+    }
+    let mut rows = in_process::rows()?;
+    match command_line::rows() {
+        Ok(more) => rows.extend(more),
+        Err(error) => eprintln!("{error:#}"),
+    }
+    print!("{}", row::table(&rows));
+    let missed = rows.iter().filter(|row| row.verdict() == Some(false)).count();
+    println!("\n{missed} of {} budgets missed; CPU seconds are those of all processors together", rows.len());
+    Ok(if missed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}

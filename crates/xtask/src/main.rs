@@ -7,9 +7,11 @@
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool for developers")]
 
+#[cfg(feature = "product")]
 mod bench;
 mod corpus;
 mod generate;
+#[cfg(feature = "product")]
 mod measure;
 mod new_rule;
 mod product;
@@ -42,9 +44,13 @@ fn main() -> ExitCode {
         "gen" => generate::run(rest),
         "new-rule" => new_rule::run(rest),
         "test" => test::run(rest),
-        "bench" => bench::run(rest),
         "corpus" => corpus::run(rest),
+        #[cfg(feature = "product")]
+        "bench" => bench::run(rest),
+        #[cfg(feature = "product")]
         "measure" => measure::run(rest),
+        #[cfg(not(feature = "product"))]
+        "bench" => product::rerun("bench", rest, true),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(ExitCode::SUCCESS)

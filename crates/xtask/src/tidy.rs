@@ -11,6 +11,7 @@ mod surroundings;
 mod tokens;
 
 use std::fmt;
+use std::path::Path;
 use std::process::ExitCode;
 
 use crate::workspace::{self, TextFile};
@@ -48,7 +49,10 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     for problem in &problems {
         println!("{problem}");
     }
-    println!("tidy: {}", if problems.is_empty() { "clean".to_owned() } else { format!("{} problems", problems.len()) });
+    println!(
+        "tidy: {}",
+        if problems.is_empty() { "clean".to_owned() } else { format!("{} problems", problems.len()) }
+    );
     Ok(if problems.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
@@ -71,7 +75,7 @@ fn check_files(files: &[TextFile]) -> Vec<Problem> {
     let mut problems = Vec::new();
     for file in files {
         problems.extend(paths::problems(file));
-        if !file.path.ends_with(".rs") {
+        if Path::new(&file.path).extension().is_none_or(|extension| extension != "rs") {
             continue;
         }
         match tokens::RustFile::new(file) {

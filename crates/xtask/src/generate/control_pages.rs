@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gcheck_controls::{
-    Access, Confidence, Control, LetterEntry, Limits, Machine, Motion, Need, NumberRules, Semicolon, SyntaxRules, Unpointed,
-    VariableEntry, VariableKind, WordEntry, load, names,
+    Access, Confidence, Control, LetterEntry, Limits, Machine, Motion, Need, NumberRules, Semicolon,
+    SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
 };
 
 use super::{Generated, markdown};
@@ -34,7 +34,8 @@ pub(super) fn generate() -> anyhow::Result<Generated> {
 }
 
 fn index_row(control: &Control) -> Vec<String> {
-    let count = |letter: u8| control.codes().filter(|code| code.number().letter() == letter).count().to_string();
+    let count =
+        |letter: u8| control.codes().filter(|code| code.number().letter() == letter).count().to_string();
     let sure: Vec<String> = [Confidence::Manual, Confidence::Observed, Confidence::Assumed]
         .into_iter()
         .map(|confidence| {
@@ -53,7 +54,13 @@ fn page(control: &Control) -> String {
         Machine::Lathe => "A lathe (`X` is a diameter)",
     };
     let axes: Vec<String> = control.axes().iter().map(|axis| axis.to_string()).collect();
-    let _ = writeln!(text, "# {}\n\n{}. {machine}; axes {}.\n", control.name(), control.title(), markdown::codes(axes));
+    let _ = writeln!(
+        text,
+        "# {}\n\n{}. {machine}; axes {}.\n",
+        control.name(),
+        control.title(),
+        markdown::codes(axes)
+    );
     text.push_str("Whatever gcheck says about a program for this control rests on the facts below.\n");
     text.push_str("How sure a fact is stands beside it: see [the list of controls](README.md).\n");
     section(&mut text, "How text is read", &syntax(control.syntax()));
@@ -267,7 +274,12 @@ fn functions(control: &Control) -> String {
         .iter()
         .map(|entry| {
             let name = format!("`{}`", entry.name);
-            vec![name, entry.title.clone(), confidence_name(entry.confidence).to_owned(), entry.source.clone()]
+            vec![
+                name,
+                entry.title.clone(),
+                confidence_name(entry.confidence).to_owned(),
+                entry.source.clone(),
+            ]
         })
         .collect();
     markdown::table(&["function", "gives", "confidence", "source"], &rows)

@@ -18,7 +18,8 @@ pub(super) fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
     let _ = writeln!(text, "| {} |", columns.join(" | "));
     let _ = writeln!(text, "|{}", "---|".repeat(columns.len()));
     for row in rows {
-        let cells: Vec<String> = row.iter().map(|cell| cell.trim().replace('|', "\\|").replace('\n', " ")).collect();
+        let cells: Vec<String> =
+            row.iter().map(|cell| cell.trim().replace('|', "\\|").replace('\n', " ")).collect();
         let _ = writeln!(text, "| {} |", cells.join(" | "));
     }
     text
@@ -36,6 +37,9 @@ mod tests {
 
     #[test]
     fn cells_cannot_break_the_table() {
-        assert_eq!(table(&["a", "b"], &[vec!["x|y".into(), "1\n2".into()]]), "| a | b |\n|---|---|\n| x\\|y | 1 2 |\n");
+        assert_eq!(
+            table(&["a", "b"], &[vec!["x|y".into(), "1\n2".into()]]),
+            "| a | b |\n|---|---|\n| x\\|y | 1 2 |\n"
+        );
     }
 }

@@ -26,7 +26,7 @@ fn path(rule: &RuleMeta) -> PathBuf {
 fn page(rule: &RuleMeta) -> String {
     let source = format!("{}/{}/{}.rs", registry::RULES, rule.group, rule.id.replace('-', "_"));
     let mut text = markdown::header(&source);
-    let _ = writeln!(text, "# {}\n\n{}.\n", rule.id, capital(rule.summary));
+    let _ = writeln!(text, "# {}\n", rule.id);
     let row = vec![
         rule.severity.name().to_owned(),
         yes_no(rule.recommended),
@@ -39,32 +39,50 @@ fn page(rule: &RuleMeta) -> String {
         let _ = writeln!(text, "\nFormer names, still accepted: {}.", markdown::codes(rule.aliases));
     }
     text.push('\n');
-    text.push_str(&with_plain_fences(&rule.docs()));
+    text.push_str(&with_plainsides(&rule.docs()));
     text
 }
 
 /// Examples of documentation say in their fence for which control they hold; on a page this is a line of text.
-fn with_plain_fences(docs: &str) -> String {
-    let mut text = String::with_capacity(docs.len());
-    for line in docs.trim().lines() {
-        let example = line.strip_prefix("```nc,").and_then(|info| info.split_once(','));
-        match example {
-            Some((_, control)) => {
-                let _ = write!(text, "On `{control}`:\n\n```nc\n");
-            }
-            None => {
-                text.push_str(line.trim_end());
-                text.push('\n');
-            }
+fn with_plainsides(docs: &str) -> String {
+    let mut lines: Vec<String> = Vec::new();
+    let mut inside = false;
+    // Markdown readers differ on what may touch a heading or a fence; a blank line is right for all.
+    let apart = |lines: &mut Vec<String>| {
+        if lines.last().is_some_and(|line| !line.is_empty()) {
+            lines.push(String::new());
         }
+    };
+    for line in docs.trim().lines() {
+        let line = line.trim_end();
+        let fence = line.starts_with("```");
+        if !inside && (fence || line.starts_with('#')) {
+            apart(&mut lines);
+        }
+        if let Some((_, control)) = line.strip_prefix("```nc,").and_then(|info| info.split_once(',')) {
+            lines.extend([format!("On `{control}`:"), String::new(), "```nc".to_owned()]);
+        } else if !(line.is_empty() && lines.last().is_some_and(String::is_empty)) || inside {
+            lines.push(line.to_owned());
+        }
+        if fence && inside || line.starts_with('#') && !inside {
+            apart(&mut lines);
+        }
+        inside ^= fence;
     }
-    text
+    while lines.last().is_some_and(String::is_empty) {
+        lines.pop();
+    }
+    lines.join("\n") + "\n"
 }
 
 fn index(rules: &[&RuleMeta]) -> String {
     let mut text = markdown::header(&format!("the rules under {}", registry::RULES));
     let default = rules.iter().filter(|rule| rule.recommended).count();
-    let _ = writeln!(text, "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`).", rules.len());
+    let _ = writeln!(
+        text,
+        "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`).",
+        rules.len()
+    );
     text.push_str("`error` means that the control alarms or the move is certainly wrong, `warning` a likely crash, scrap or trap, ");
     text.push_str("`info` worth knowing, `hint` style.\nWhat rests on facts that are only assumed is never more than a warning.\n");
     let mut groups: Vec<&str> = rules.iter().map(|rule| rule.group).collect();
@@ -88,18 +106,17 @@ fn yes_no(yes: bool) -> String {
     if yes { "yes" } else { "no" }.to_owned()
 }
 
-fn capital(sentence: &str) -> String {
-    let mut letters = sentence.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
-
 #[cfg(test)]
 mod tests {
-    use super::with_plain_fences;
+    use super::with_plainsides;
 
     #[test]
     fn fences_say_the_control_in_words() {
-        let docs = "Meaning.\n\n```nc,reported,a-mill\nG4\n```\n```text\nplain\n```\n";
-        assert_eq!(with_plain_fences(docs), "Meaning.\n\nOn `a-mill`:\n\n```nc\nG4\n```\n```text\nplain\n```\n");
+        let docs =
+            "Meaning.\n## Reported\nSo.\n```nc,reported,a-mill\nG4\n\n\nM2\n```\n```text\nplain\n```\n";
+        assert_eq!(
+            with_plainsides(docs),
+            "Meaning.\n\n## Reported\n\nSo.\n\nOn `a-mill`:\n\n```nc\nG4\n\n\nM2\n```\n\n```text\nplain\n```\n"
+        );
     }
 }

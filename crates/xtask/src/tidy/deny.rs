@@ -50,10 +50,13 @@ pub(super) fn bans(deny: &Deny) -> Vec<Problem> {
     for (name, users) in layers::ONLY {
         // Foreign crates among the wrappers (the server framework uses tokio itself) are no business of the law.
         let ours = |w: &&String| w.starts_with("gcheck") || *w == "xtask";
-        let mut listed: Vec<&str> = deny.wrappers.get(*name).into_iter().flatten().filter(ours).map(String::as_str).collect();
+        let mut listed: Vec<&str> =
+            deny.wrappers.get(*name).into_iter().flatten().filter(ours).map(String::as_str).collect();
         listed.sort_unstable();
         if listed != *users {
-            let message = format!("[bans] lets {listed:?} use `{name}`, crates/xtask/src/tidy/layers.rs lets {users:?}");
+            let message = format!(
+                "[bans] lets {listed:?} use `{name}`, crates/xtask/src/tidy/layers.rs lets {users:?}"
+            );
             problems.push(Problem::new(FILE, 0, message));
         }
     }
@@ -70,7 +73,9 @@ pub(super) fn licences(deny: &Deny, packages: &[(String, String)]) -> Vec<Proble
     packages
         .iter()
         .filter(|(_, licence)| !is_allowed(licence, &deny.licences))
-        .map(|(name, licence)| Problem::new(FILE, 0, format!("the licence `{licence}` of `{name}` is not in [licenses] allow")))
+        .map(|(name, licence)| {
+            Problem::new(FILE, 0, format!("the licence `{licence}` of `{name}` is not in [licenses] allow"))
+        })
         .collect()
 }
 
@@ -130,7 +135,13 @@ mod tests {
     #[test]
     fn licence_expressions() {
         let allowed = ["MIT", "Unicode-3.0", "Apache-2.0 WITH LLVM-exception"].map(str::to_owned);
-        for good in ["MIT", "MIT/Apache-2.0", "GPL-3.0 OR MIT", "(MIT OR BSL-1.0) AND Unicode-3.0", "Apache-2.0 WITH LLVM-exception"] {
+        for good in [
+            "MIT",
+            "MIT/Apache-2.0",
+            "GPL-3.0 OR MIT",
+            "(MIT OR BSL-1.0) AND Unicode-3.0",
+            "Apache-2.0 WITH LLVM-exception",
+        ] {
             assert!(is_allowed(good, &allowed), "{good}");
         }
         for bad in ["", "GPL-3.0", "MIT AND GPL-3.0", "Apache-2.0 AND (MIT OR GPL-3.0)", "MIT MIT"] {
@@ -140,7 +151,8 @@ mod tests {
 
     #[test]
     fn a_ban_that_differs_from_the_law_is_found() {
-        let deny = Deny::parse("[bans]\ndeny = [{ crate = \"rowan\", wrappers = [\"gcheck-rules\"] }]\n").unwrap();
+        let deny =
+            Deny::parse("[bans]\ndeny = [{ crate = \"rowan\", wrappers = [\"gcheck-rules\"] }]\n").unwrap();
         let found = bans(&deny);
         assert!(found.iter().any(|p| p.message.contains("`rowan`")), "{found:?}");
     }

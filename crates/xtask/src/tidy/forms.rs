@@ -15,6 +15,9 @@ const FORBIDDEN: &[(&[&str], &str)] = &[
 /// Names that say nothing about what is inside.
 const NAMELESS: &[&str] = &["common", "helpers", "misc", "util", "utils"];
 
+/// Where `cargo xtask new-rule` leaves places to fill in.
+const SCAFFOLDED: &str = "crates/gcheck-rules/src/rules/";
+
 /// What is wrong with the form of a file.
 pub(super) fn problems(file: &RustFile<'_>) -> Vec<Problem> {
     let mut problems = Vec::new();
@@ -25,6 +28,11 @@ pub(super) fn problems(file: &RustFile<'_>) -> Vec<Problem> {
     let path = file.path.trim_end_matches(".rs");
     if let Some(name) = path.split('/').find(|part| NAMELESS.contains(part)) {
         say(0, format!("a module called `{name}` collects anything; name it for what it does"));
+    }
+    if file.path.starts_with(SCAFFOLDED) {
+        for (ix, _) in file.text.lines().enumerate().filter(|(_, line)| line.contains("TODO")) {
+            say(ix + 1, "a place of the template is not filled in".to_owned());
+        }
     }
     let tokens: Vec<&Placed> = file.tokens().iter().collect();
     for at in 0..tokens.len() {

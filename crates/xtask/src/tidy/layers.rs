@@ -33,7 +33,14 @@ const OWN: &[(&str, &[&str])] = &[
     ("gcheck-report", &["gcheck-syntax", "gcheck-rules"]),
     (
         "gcheck-db",
-        &["gcheck-syntax", "gcheck-controls", "gcheck-program", "gcheck-geometry", "gcheck-engine", "gcheck-rules"],
+        &[
+            "gcheck-syntax",
+            "gcheck-controls",
+            "gcheck-program",
+            "gcheck-geometry",
+            "gcheck-engine",
+            "gcheck-rules",
+        ],
     ),
     (
         "gcheck-ide",
@@ -93,14 +100,18 @@ pub(super) fn problems(packages: &[Package]) -> Vec<Problem> {
     let mut problems = Vec::new();
     for package in packages {
         let mut say = |message: String| problems.push(Problem::new(manifest(package), 0, message));
-        let folder = OTHER_FOLDER.iter().find(|(name, _)| *name == package.name).map_or(&*package.name, |(_, f)| f);
+        let folder =
+            OTHER_FOLDER.iter().find(|(name, _)| *name == package.name).map_or(&*package.name, |(_, f)| f);
         if package.folder != folder {
             say(format!("`{}` must stand in a folder called `{folder}`", package.name));
         }
         let own = OWN.iter().find(|(name, _)| *name == package.name).map(|(_, allowed)| *allowed);
         let free = FREE.contains(&package.name.as_str());
         if own.is_none() && !free {
-            say(format!("`{}` has no place in the layer law; give it one in crates/xtask/src/tidy/layers.rs", package.name));
+            say(format!(
+                "`{}` has no place in the layer law; give it one in crates/xtask/src/tidy/layers.rs",
+                package.name
+            ));
         }
         for used in &package.uses {
             if let Some((_, users)) = ONLY.iter().find(|(name, _)| name == used)
@@ -110,7 +121,11 @@ pub(super) fn problems(packages: &[Package]) -> Vec<Problem> {
             }
             let ours = packages.iter().any(|p| p.name == *used);
             if ours && own.is_some_and(|allowed| !allowed.contains(&used.as_str())) {
-                say(format!("`{}` may not use `{used}`: the layer law allows {own:?}", package.name, own = own.unwrap_or_default()));
+                say(format!(
+                    "`{}` may not use `{used}`: the layer law allows {own:?}",
+                    package.name,
+                    own = own.unwrap_or_default()
+                ));
             }
         }
     }
@@ -129,7 +144,11 @@ mod tests {
     use super::{OWN, Package, problems};
 
     fn package(name: &str, uses: &[&str]) -> Package {
-        Package { name: name.to_owned(), folder: name.to_owned(), uses: uses.iter().map(ToString::to_string).collect() }
+        Package {
+            name: name.to_owned(),
+            folder: name.to_owned(),
+            uses: uses.iter().map(ToString::to_string).collect(),
+        }
     }
 
     fn messages(packages: &[Package]) -> Vec<String> {
@@ -154,7 +173,10 @@ mod tests {
         let mut stray = package("gcheck-extra", &[]);
         stray.folder = "extra".to_owned();
         let found = messages(&[stray]);
-        assert!(found[0].contains("folder called `gcheck-extra`") && found[1].contains("no place"), "{found:?}");
+        assert!(
+            found[0].contains("folder called `gcheck-extra`") && found[1].contains("no place"),
+            "{found:?}"
+        );
     }
 
     #[test]

@@ -9,8 +9,21 @@ use crate::workspace::TextFile;
 
 /// Builders and controls, whether the knowledge base has them or not.
 const BUILDERS: &[&str] = &[
-    "fagor", "fanuc", "grbl", "haas", "heidenhain", "hurco", "linuxcnc", "marlin", "mazak", "mazatrol", "mitsubishi",
-    "okuma", "siemens", "sinumerik", "tsnc",
+    "fagor",
+    "fanuc",
+    "grbl",
+    "haas",
+    "heidenhain",
+    "hurco",
+    "linuxcnc",
+    "marlin",
+    "mazak",
+    "mazatrol",
+    "mitsubishi",
+    "okuma",
+    "siemens",
+    "sinumerik",
+    "tsnc",
 ];
 
 /// Words in names of controls that name nobody.
@@ -28,7 +41,9 @@ const DATA: &str = "crates/gcheck-controls/data/";
 pub(super) fn banned(files: &[TextFile]) -> Vec<String> {
     let mut words: Vec<String> = BUILDERS.iter().map(ToString::to_string).collect();
     for file in files {
-        let Some((folder, _)) = file.path.strip_prefix(DATA).and_then(|rest| rest.split_once('/')) else { continue };
+        let Some((folder, _)) = file.path.strip_prefix(DATA).and_then(|rest| rest.split_once('/')) else {
+            continue;
+        };
         // Shorter words (`yh`) would be found inside ordinary ones.
         words.extend(folder.split('-').filter(|w| w.len() >= 4 && !NOBODY.contains(w)).map(str::to_owned));
     }
@@ -50,13 +65,17 @@ pub(super) fn problems(file: &RustFile<'_>, banned: &[String]) -> Vec<Problem> {
             Token::Mark(_) => continue,
         };
         // Rules carry their documentation as text; its examples say for which control they hold.
-        for (offset, line) in text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("```nc,")) {
+        for (offset, line) in
+            text.lines().enumerate().filter(|(_, line)| !line.trim_start().starts_with("```nc,"))
+        {
             let line = line.to_lowercase();
             if let Some(name) = banned.iter().find(|name| line.contains(name.as_str())) {
                 problems.push(Problem::new(
                     file.path,
                     placed.line + offset,
-                    format!("`{name}` names a control or builder in code; make the difference a fact in {DATA}"),
+                    format!(
+                        "`{name}` names a control or builder in code; make the difference a fact in {DATA}"
+                    ),
                 ));
             }
         }
@@ -82,7 +101,8 @@ mod tests {
 
     #[test]
     fn names_in_code_are_found() {
-        let text = "//! Acme\n/// On Haas.\nfn is_haas() {}\nconst A: &str = \"acme-mill\";\nstruct FanucMill;\n";
+        let text =
+            "//! Acme\n/// On Haas.\nfn is_haas() {}\nconst A: &str = \"acme-mill\";\nstruct FanucMill;\n";
         assert_eq!(lines("crates/gcheck-rules/src/a.rs", text), [3, 4, 5]);
     }
 

@@ -5,7 +5,7 @@
 use super::Problem;
 use crate::workspace::TextFile;
 
-const MACHINE: &[&str] = &["/work/", "/root/", "/home/", "../shared"];
+const MACHINE: &[&str] = &["/work/", "/root/", "../shared"];
 
 /// Files that state the law.
 const EXCEPTIONS: &[&str] = &["crates/xtask/src/tidy/paths.rs"];
@@ -19,9 +19,17 @@ pub(super) fn problems(file: &TextFile) -> Vec<Problem> {
     for (ix, line) in file.text.lines().enumerate() {
         for path in MACHINE {
             // `a/work/b` is a path from anywhere.
-            let is_start = |at: usize| !line.get(..at).is_some_and(|before| before.ends_with(|c: char| c.is_alphanumeric() || "._-/*".contains(c)));
+            let is_start = |at: usize| {
+                !line.get(..at).is_some_and(|before| {
+                    before.ends_with(|c: char| c.is_alphanumeric() || "._-/*".contains(c))
+                })
+            };
             if line.match_indices(path).any(|(at, _)| path.starts_with('.') || is_start(at)) {
-                problems.push(Problem::new(&file.path, ix + 1, format!("`{path}` exists on one machine only")));
+                problems.push(Problem::new(
+                    &file.path,
+                    ix + 1,
+                    format!("`{path}` exists on one machine only"),
+                ));
             }
         }
     }

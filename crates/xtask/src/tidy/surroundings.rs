@@ -20,7 +20,11 @@ pub(super) fn problems(file: &RustFile<'_>) -> Vec<Problem> {
     let tokens = file.product();
     let mut problems = Vec::new();
     let mut say = |line, what: &str| {
-        problems.push(Problem::new(file.path, line, format!("`{what}` may be used in {} only", FREE.join(", "))));
+        problems.push(Problem::new(
+            file.path,
+            line,
+            format!("`{what}` may be used in {} only", FREE.join(", ")),
+        ));
     };
     for (at, placed) in tokens.iter().enumerate() {
         if let Token::Word(word) = &placed.token
@@ -28,7 +32,9 @@ pub(super) fn problems(file: &RustFile<'_>) -> Vec<Problem> {
         {
             say(placed.line, word);
         }
-        let Some(rest) = tokens.get(at..).filter(|rest| starts_with(rest, &["std", ":", ":"])) else { continue };
+        let Some(rest) = tokens.get(at..).filter(|rest| starts_with(rest, &["std", ":", ":"])) else {
+            continue;
+        };
         for (line, module) in modules(rest.get(3..).unwrap_or_default()) {
             if MODULES.contains(&module) {
                 say(line, &format!("std::{module}"));

@@ -36,10 +36,9 @@ pub(super) struct RustFile<'f> {
 impl<'f> RustFile<'f> {
     /// Reads a file; text that is no sequence of Rust tokens is a problem of its own.
     pub(super) fn new(file: &'f TextFile) -> Result<Self, Problem> {
-        let stream: TokenStream = file
-            .text
-            .parse()
-            .map_err(|e: proc_macro2::LexError| Problem::new(&file.path, e.span().start().line, "is no Rust"))?;
+        let stream: TokenStream = file.text.parse().map_err(|e: proc_macro2::LexError| {
+            Problem::new(&file.path, e.span().start().line, "is no Rust")
+        })?;
         let mut tokens = Vec::new();
         flatten(stream, is_test_file(&file.path), &mut tokens);
         Ok(Self { path: &file.path, text: &file.text, tokens })
@@ -62,9 +61,9 @@ impl<'f> RustFile<'f> {
     }
 }
 
-/// Files under `tests/` or `benches/`, and modules `tests` of a source folder.
+/// Files under `tests/` or `benches/`, and the modules of a source folder that are by name for tests.
 fn is_test_file(path: &str) -> bool {
-    path.split('/').any(|part| matches!(part, "tests" | "benches" | "tests.rs"))
+    path.split('/').any(|part| matches!(part, "tests" | "benches" | "tests.rs" | "testing" | "testing.rs"))
 }
 
 fn flatten(stream: TokenStream, in_test: bool, out: &mut Vec<Placed>) {
@@ -76,7 +75,8 @@ fn flatten(stream: TokenStream, in_test: bool, out: &mut Vec<Placed>) {
         let mut put = |token, in_item| out.push(Placed { line, in_test: in_test || in_item, token });
         match tree {
             TokenTree::Punct(punct) if punct.as_char() == '#' => {
-                let inner = trees.next_if(|next| matches!(next, TokenTree::Punct(p) if p.as_char() == '!')).is_some();
+                let inner =
+                    trees.next_if(|next| matches!(next, TokenTree::Punct(p) if p.as_char() == '!')).is_some();
                 match trees.peek() {
                     Some(TokenTree::Group(attribute)) if attribute.delimiter() == Delimiter::Bracket => {
                         let attribute = attribute.stream();

@@ -1,6 +1,6 @@
 //! Two codes of one modal group in a block.
 
-use gcheck_controls::Code;
+use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::meta::declare_rule;
@@ -22,6 +22,11 @@ declare_rule! {
     /// ```nc,quiet,linuxcnc
     /// G90 G0 X1.
     /// ```
+    /// Codes whose group depends on the set of codes that a lathe is set to:
+    /// ```nc,quiet,fanuc-lathe
+    /// G18 G20 G40 G80 G90 G99
+    /// G90 G1 X10. F0.2
+    /// ```
     rule "two-codes-of-one-group" in "modal" {
         summary: "two codes of one modal group in a block",
         severity: Error,
@@ -32,29 +37,43 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let codes: Vec<(&Word, Code<'_>)> = cx.codes().collect();
-    for (ix, (second, code)) in codes.iter().enumerate() {
-        let earlier = codes.iter().take(ix).find(|(_, other)| other.group_ix() == code.group_ix());
-        // The same code twice is a repetition: harmless, and the business of another rule.
+    for (ix, (second, code)) in cx.codes().enumerate() {
+        let earlier = cx.codes().take(ix).find(|(_, other)| other.group_ix() == code.group_ix());
+        // The same code twice is the business of another rule.
         if let Some((first, other)) = earlier
             && code.group().exclusive
             && other.number() != code.number()
+            && !cx.words_may_be_arguments()
+            && !depends(cx, code)
+            && !depends(cx, other)
         {
-            report.add(finding(cx, (first, *other), (second, *code)));
+            report.add(finding(cx, (first, other), (second, code)));
         }
     }
+}
+
+/// Another set of codes, which a setting chooses, may put the code into another group.
+fn depends(cx: &BlockCx<'_>, code: Code<'_>) -> bool {
+    cx.control().code_list().depends_on_setting(code.number())
 }
 
 fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)) -> Finding {
     let group = second.1.group();
     let number = group.number.as_ref().map(|n| format!(" (group {n})")).unwrap_or_default();
     let (a, b) = (cx.text(first.0), cx.text(second.0));
+    let (does, severity) = match cx.control().block_rules().two_of_a_group {
+        Handling::Refused => ("only one can be active".to_owned(), Severity::Error),
+        Handling::LastWins | Handling::Ignored | Handling::Accepted => {
+            (format!("`{b}`, the last one, counts"), Severity::Warning)
+        }
+    };
     Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` belong to one modal group"))
         .label(format!("{}, the same group", second.1.entry().title))
         .also(cx.range(first.0), first.1.entry().title.as_str())
-        .note(format!("`{a}` and `{b}` both set {}{number}; only one can be active  [{}]", group.title, group.source))
+        .note(format!("`{a}` and `{b}` both set {}{number}; {does}  [{}]", group.title, group.source))
         .help("keep one of the two, or put them in separate blocks")
         .at_most(limit(group.confidence))
+        .at_most(severity)
         .at_most(if second.1.is_user() || first.1.is_user() { Severity::Info } else { Severity::Error })
 }
 
@@ -74,6 +93,19 @@ mod tests {
             &expect![[r#"
                 1 | G90 G1 G0 X1. F100
                   |        ^^ error[two-codes-of-one-group] `G1` and `G0` belong to one modal group
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_control_that_takes_the_last_gives_a_warning() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0 G1 X1. F#1\nG80 G0 X1.\n",
+            &expect![[r#"
+                1 | G0 G1 X1. F#1
+                  |    ^^ warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
             "#]],
         );
     }

@@ -1,7 +1,10 @@
 //! A jump to a sequence number that the program does not have.
 
+use gcheck_controls::{Code, WordEntry, WordKind};
+use gcheck_program::{Jump, Label};
+
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A jump names a sequence number that stands nowhere in the program.
@@ -16,6 +19,12 @@ declare_rule! {
     /// IF [#100 GT 5] GOTO 20
     /// N10 M30
     /// ```
+    /// The blocks of a lathe profile are looked for in the same way.
+    /// ```nc,reported,haas-lathe
+    /// G71 P100 Q200 D0.05 U0.02 W0.005 F0.01
+    /// N100 G0 X1.
+    /// N210 G1 Z-1.
+    /// ```
     /// ## Not reported
     /// A computed target is not known here.
     /// ```nc,quiet,fanuc-mill
@@ -23,6 +32,11 @@ declare_rule! {
     /// IF [#100 GT 5] GOTO 10
     /// GOTO #101
     /// N10 M30
+    /// ```
+    /// The `P` of `M99` names a block of the calling program on some controls.
+    /// ```nc,quiet,fanuc-mill
+    /// O0002
+    /// M99 P100
     /// ```
     rule "jump-target-missing" in "program" {
         summary: "jump to a sequence number that does not exist",
@@ -34,32 +48,41 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if cx.survey.jumps.is_empty() {
+        return;
+    }
+    let index = cx.label_index();
     for jump in &cx.survey.jumps {
         let Some(target) = jump.target else { continue };
-        let program = program_of(cx, jump.range.start);
-        let mut labels = cx.survey.labels.iter().filter(|l| program.contains(&l.range.start));
-        if !labels.any(|l| l.number == target) {
-            report.add(finding(cx, jump, target));
+        let word = cx.target_word(jump.code, WordKind::Label, cx.slice(jump.range.clone()));
+        let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);
+        if !is_elsewhere && index.within(target, &cx.program_around(jump.range.start)).is_empty() {
+            report.add(finding(jump, target, word, index.all(target).first().copied()));
         }
     }
 }
 
-/// Bytes of the program in which an offset lies: from its `O` number to the next.
-fn program_of(cx: &FileCx<'_>, offset: u32) -> std::ops::Range<u32> {
-    let starts = || cx.survey.programs.iter().map(|p| p.range.start);
-    let start = starts().rfind(|s| *s <= offset).unwrap_or(0);
-    let end = starts().find(|s| *s > offset).unwrap_or(u32::MAX);
-    // Blocks in front of the first number belong to the first program.
-    if starts().next() == Some(start) { 0..end } else { start..end }
-}
-
-fn finding(cx: &FileCx<'_>, jump: &gcheck_program::Jump, target: u32) -> Finding {
-    let by = cx.control().code_at(jump.code).map_or_else(|| "GOTO".to_owned(), |code| code.entry().code.clone());
-    let elsewhere = cx.survey.labels.iter().find(|l| l.number == target);
-    let finding = Finding::new(&META, jump.range.clone(), format!("`N{target}` does not exist in this program"))
-        .label(format!("`{by}` looks for `N{target}`"))
-        .note("the control looks for the number when the block runs, and alarms if it is not found")
-        .help(format!("add `N{target}` at the block to go to, or correct the number"));
+fn finding(
+    jump: &Jump,
+    target: u32,
+    word: Option<(Code<'_>, &WordEntry)>,
+    elsewhere: Option<&Label>,
+) -> Finding {
+    let (by, limit) = match word {
+        Some((code, word)) => {
+            (code.entry().code.as_str(), limit(word.confidence.unwrap_or(code.entry().confidence)))
+        }
+        None => ("GOTO", Severity::Error),
+    };
+    let finding = Finding::new(
+        &META,
+        jump.range.clone(),
+        format!("jump target `N{target}` does not exist in this program"),
+    )
+    .label(format!("`{by}` looks for `N{target}`"))
+    .note("the control looks for the number when the block runs, and alarms if it is not found")
+    .help(format!("add `N{target}` at the block to go to, or correct the number"))
+    .at_most(limit);
     match elsewhere {
         Some(label) => finding.also(label.range.clone(), "this one belongs to another program of the file"),
         None => finding,
@@ -81,8 +104,33 @@ mod tests {
             "O1\nGOTO 10\nM30\nO2\nN10 M99\n",
             &expect![[r#"
                 2 | GOTO 10
-                  | ^^^^^^^ error[jump-target-missing] `N10` does not exist in this program
+                  | ^^^^^^^ error[jump-target-missing] jump target `N10` does not exist in this program
             "#]],
         );
+    }
+
+    #[test]
+    fn a_label_behind_the_closing_tape_mark_is_not_read() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "%\nO1\nM97 P10\nM99 P20\nM30\n%\nN10 M99\nN20\n",
+            &expect![[r#"
+            3 | M97 P10
+              |     ^^^ error[jump-target-missing] jump target `N10` does not exist in this program
+            4 | M99 P20
+              |     ^^^ error[jump-target-missing] jump target `N20` does not exist in this program
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_word_that_two_codes_could_read_is_nobodys_target() {
+        check_rule(&RULE, "haas-mill", "G4 P5 M99\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn computed_targets_are_not_judged() {
+        check_rule(&RULE, "haas-lathe", "N1 GOTO [#1+10]\nM97 P#5\nM30\n", &expect![[""]]);
     }
 }

@@ -1,0 +1,139 @@
+//! What a text output ends with: the summary line, the statistics table.
+//!
+//! Knows: sums in words. Must not know: single findings' places or texts.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use crate::shown::one_line;
+use crate::{Report, Summary};
+
+/// Files named when their analysis ended early.
+const NAMED: usize = 3;
+
+/// The sums in one line: `3 errors, 1 warning in 2 files (1,204 lines)`.
+pub fn summary_line(summary: &Summary) -> String {
+    let counts = [
+        (summary.errors, "error", "errors"),
+        (summary.warnings, "warning", "warnings"),
+        (summary.infos, "info", "infos"),
+        (summary.hints, "hint", "hints"),
+    ];
+    let counts: Vec<String> =
+        counts.iter().filter(|(n, ..)| *n > 0).map(|(n, a, b)| count(*n, a, b)).collect();
+    let found = if counts.is_empty() { "no findings".to_owned() } else { counts.join(", ") };
+    let files = count(summary.files, "file", "files");
+    let mut line = format!("{found} in {files} ({})", count(summary.lines, "line", "lines"));
+
+    let mut silent = Vec::new();
+    if summary.suppressed > 0 {
+        silent.push(format!("{} suppressed", number(summary.suppressed)));
+    }
+    if summary.baseline > 0 {
+        silent.push(format!("{} in the baseline", number(summary.baseline)));
+    }
+    if !silent.is_empty() {
+        line = format!("{line}; {}", silent.join(", "));
+    }
+    if !summary.out_of_fuel.is_empty() {
+        let mut names: Vec<String> =
+            summary.out_of_fuel.iter().take(NAMED).map(|path| one_line(path).into_owned()).collect();
+        let more = summary.out_of_fuel.len() - names.len();
+        if more > 0 {
+            names.push(format!("{} more", number(more)));
+        }
+        line = format!("{line}; analysis ended early, out of fuel: {}", names.join(", "));
+    }
+    line
+}
+
+/// Findings per rule, the most frequent first: count, id, what the rule is about. Empty without findings.
+pub fn statistics(report: &Report) -> String {
+    let mut rules: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
+    for (_, finding) in report.findings() {
+        rules.entry(finding.rule.id).or_insert((0, finding.rule.summary)).0 += 1;
+    }
+    let mut rows: Vec<(usize, &str, &str)> =
+        rules.into_iter().map(|(id, (n, about))| (n, id, about)).collect();
+    rows.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| a.1.cmp(b.1)));
+    let digits = rows.first().map_or(0, |(n, ..)| number(*n).len());
+    let id_width = rows.iter().map(|(_, id, _)| id.len()).max().unwrap_or(0);
+    let mut table = String::new();
+    for (n, id, about) in rows {
+        // Writing into a string does not fail.
+        let _ = writeln!(table, "{:>digits$}  {id:<id_width$}  {about}", number(n));
+    }
+    table
+}
+
+/// `1 file`, `2 files`.
+fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{} {}", number(n), if n == 1 { one } else { many })
+}
+
+/// `1,204`.
+pub(crate) fn number(n: usize) -> String {
+    let digits = n.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (at, digit) in digits.char_indices() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file};
+    use expect_test::expect;
+    use gcheck_rules::Finding;
+
+    #[test]
+    fn summaries() {
+        let line = |summary: Summary| summary_line(&summary);
+        let nothing = Summary { files: 2, lines: 1_204, ..Summary::default() };
+        assert_eq!(line(nothing.clone()), "no findings in 2 files (1,204 lines)");
+        let some = Summary { errors: 3, warnings: 1, ..nothing };
+        assert_eq!(line(some.clone()), "3 errors, 1 warning in 2 files (1,204 lines)");
+        let all = Summary { infos: 2, hints: 1, suppressed: 4, baseline: 1_000, ..some.clone() };
+        assert_eq!(
+            line(all),
+            "3 errors, 1 warning, 2 infos, 1 hint in 2 files (1,204 lines); 4 suppressed, 1,000 in the baseline"
+        );
+        let fuel = Summary { out_of_fuel: ["a", "b", "c", "d"].map(str::to_owned).to_vec(), ..some };
+        assert_eq!(
+            line(fuel),
+            "3 errors, 1 warning in 2 files (1,204 lines); analysis ended early, out of fuel: a, b, c, 1 more"
+        );
+        assert_eq!(
+            line(Summary { files: 1, lines: 1, ..Summary::default() }),
+            "no findings in 1 file (1 line)"
+        );
+    }
+
+    #[test]
+    fn statistics_count_by_rule() {
+        let findings = |n: usize, rule| (0..n).map(move |_| Finding::new(rule, 0..0, "m"));
+        let report = Report::new(vec![
+            file("a.nc", "", findings(3, &FEED_MISSING).collect()),
+            file("b.nc", "", findings(1_200, &ARC_OFF_CIRCLE).chain(findings(4, &FEED_MISSING)).collect()),
+        ]);
+        expect![[r#"
+            1,200  arc-end-off-circle  arc end point is not on the circle
+                7  feed-missing        cutting move with no feed rate in effect
+        "#]]
+        .assert_eq(&statistics(&report));
+        assert_eq!(statistics(&Report::new(vec![])), "");
+    }
+
+    #[test]
+    fn numbers_are_grouped() {
+        assert_eq!(
+            [0, 999, 1_000, 12_345, 1_234_567].map(number),
+            ["0", "999", "1,000", "12,345", "1,234,567"]
+        );
+    }
+}

@@ -1,0 +1,246 @@
+//! `json`: one object with everything that is known.
+//!
+//! Knows: version 1 of the object, whose members may grow but not change. Must not know: colours, source text.
+//!
+//! Files and findings stand one a line, so that the output can be compared, searched and written without holding it.
+
+use std::io::{self, Write};
+
+use gcheck_rules::Finding;
+use serde::Serialize;
+
+use crate::report::File;
+use crate::source::Source;
+use crate::{ControlChoice, Fingerprint, Position, Report};
+
+/// Version of the object.
+const VERSION: u32 = 1;
+
+#[derive(Serialize)]
+struct JsonFile<'r> {
+    file: &'r str,
+    control: &'r ControlChoice,
+}
+
+#[derive(Serialize)]
+struct JsonFinding<'r> {
+    rule: &'r str,
+    severity: &'r str,
+    certainty: &'r str,
+    message: &'r str,
+    file: &'r str,
+    range: JsonRange,
+    /// What the range itself contributes.
+    label: Option<&'r str>,
+    labels: Vec<JsonLabel<'r>>,
+    notes: &'r [String],
+    help: Option<&'r str>,
+    alarm: Option<&'r str>,
+    assumptions: &'r [String],
+    fixes: Vec<JsonFix<'r>>,
+    fingerprint: Fingerprint,
+}
+
+#[derive(Serialize)]
+struct JsonRange {
+    start: Position,
+    end: Position,
+}
+
+#[derive(Serialize)]
+struct JsonLabel<'r> {
+    message: &'r str,
+    file: &'r str,
+    /// `null` if the other file's text is not at hand.
+    range: Option<JsonRange>,
+}
+
+#[derive(Serialize)]
+struct JsonFix<'r> {
+    title: &'r str,
+    safe: bool,
+    edits: Vec<JsonEdit<'r>>,
+}
+
+#[derive(Serialize)]
+struct JsonEdit<'r> {
+    file: &'r str,
+    range: JsonRange,
+    text: &'r str,
+}
+
+pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    write!(out, "{{\n\"version\": {VERSION},\n\"files\": [")?;
+    let mut list = List::default();
+    for file in report.files() {
+        list.item(out, &JsonFile { file: &file.path, control: &file.control })?;
+    }
+    list.end(out)?;
+    write!(out, ",\n\"findings\": [")?;
+    let mut list = List::default();
+    for file in report.files() {
+        for (finding, fingerprint) in file.findings.iter().zip(file.fingerprints()) {
+            list.item(out, &json_finding(report, file, finding, fingerprint))?;
+        }
+    }
+    list.end(out)?;
+    write!(out, ",\n\"summary\": ")?;
+    serde_json::to_writer(&mut *out, &report.summary())?;
+    writeln!(out, "\n}}")
+}
+
+/// A list with one item a line.
+#[derive(Default)]
+struct List {
+    begun: bool,
+}
+
+impl List {
+    fn item(&mut self, out: &mut dyn Write, item: &impl Serialize) -> io::Result<()> {
+        out.write_all(if self.begun { b",\n  " } else { b"\n  " })?;
+        self.begun = true;
+        Ok(serde_json::to_writer(out, item)?)
+    }
+
+    fn end(self, out: &mut dyn Write) -> io::Result<()> {
+        out.write_all(if self.begun { b"\n]" } else { b"]" })
+    }
+}
+
+fn json_finding<'r>(
+    report: &'r Report,
+    file: &'r File,
+    finding: &'r Finding,
+    fingerprint: Fingerprint,
+) -> JsonFinding<'r> {
+    let labels = finding.labels.iter().map(|label| {
+        let path = label.file.as_deref().unwrap_or(&file.path);
+        let source = if path == file.path { Some(&file.source) } else { report.source(path) };
+        JsonLabel {
+            message: &label.message,
+            file: path,
+            range: source.map(|source| range(source, &label.range)),
+        }
+    });
+    let fixes = finding.fixes.iter().map(|fix| {
+        let edits = fix.edits.iter();
+        JsonFix {
+            title: &fix.title,
+            safe: fix.safe,
+            edits: edits
+                .map(|edit| JsonEdit {
+                    file: &file.path,
+                    range: range(&file.source, &edit.range),
+                    text: &edit.text,
+                })
+                .collect(),
+        }
+    });
+    JsonFinding {
+        rule: finding.rule.id,
+        severity: finding.severity.name(),
+        certainty: finding.certainty.name(),
+        message: &finding.message,
+        file: &file.path,
+        range: range(&file.source, &finding.range),
+        label: (!finding.label.is_empty()).then_some(finding.label.as_str()),
+        labels: labels.collect(),
+        notes: &finding.notes,
+        help: finding.help.as_deref(),
+        alarm: finding.alarm.as_deref(),
+        assumptions: &finding.assumptions,
+        fixes: fixes.collect(),
+        fingerprint,
+    }
+}
+
+fn range(source: &Source, range: &std::ops::Range<u32>) -> JsonRange {
+    let span = source.span(range);
+    JsonRange { start: span.start, end: span.end }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+    use gcheck_rules::{Edit, Finding, Fix};
+    use serde_json::{Value, json};
+
+    use crate::testing::{FEED_MISSING, everything, on, render, report};
+    use crate::{Format, Report};
+
+    fn parsed(report: &Report) -> Value {
+        serde_json::from_str(&render(report, Format::Json)).unwrap()
+    }
+
+    #[test]
+    fn everything_a_finding_can_say() {
+        expect![[r#"
+            {
+            "version": 1,
+            "files": [
+              {"file":"empty.nc","control":{"name":"acme-mill","source":"detected","because":"(ACME)"}},
+              {"file":"part.nc","control":{"name":"acme-mill","source":"detected","because":"(ACME)"}}
+            ],
+            "findings": [
+              {"rule":"feed-missing","severity":"error","certainty":"always","message":"no feed rate is in effect","file":"part.nc","range":{"start":{"line":4,"column":5,"offset":25},"end":{"line":4,"column":7,"offset":27}},"label":"here","labels":[{"message":"`G90` set here","file":"part.nc","range":{"start":{"line":3,"column":1,"offset":17},"end":{"line":3,"column":4,"offset":20}}},{"message":"called from here","file":"sub/O9 1.nc","range":{"start":{"line":1,"column":1,"offset":0},"end":{"line":1,"column":3,"offset":2}}}],"notes":["the control stops without a feed rate","from the manual:\n  \"feed is modal\""],"help":"write a feed rate, e.g. `F200.`","alarm":"312 FEED","assumptions":["setting 162 is off"],"fixes":[{"title":"add `F200.`","safe":false,"edits":[{"file":"part.nc","range":{"start":{"line":4,"column":10,"offset":30},"end":{"line":4,"column":10,"offset":30}},"text":" F200."}]}],"fingerprint":"149a7a4dd9ecc09d284ba0866a301a1b"},
+              {"rule":"arc-end-off-circle","severity":"info","certainty":"maybe","message":"arc may end off the circle","file":"part.nc","range":{"start":{"line":5,"column":5,"offset":37},"end":{"line":5,"column":16,"offset":48}},"label":null,"labels":[],"notes":[],"help":null,"alarm":null,"assumptions":[],"fixes":[],"fingerprint":"a447bc762e13c1017d57e064941370ba"}
+            ],
+            "summary": {"files":2,"lines":7,"errors":1,"warnings":0,"infos":1,"hints":0,"suppressed":1,"baseline":0,"out_of_fuel":["empty.nc"]}
+            }
+        "#]].assert_eq(&render(&everything(), Format::Json));
+    }
+
+    #[test]
+    fn an_empty_report() {
+        expect![[r#"
+            {
+            "version": 1,
+            "files": [],
+            "findings": [],
+            "summary": {"files":0,"lines":0,"errors":0,"warnings":0,"infos":0,"hints":0,"suppressed":0,"baseline":0,"out_of_fuel":[]}
+            }
+        "#]].assert_eq(&render(&Report::new(vec![]), Format::Json));
+    }
+
+    #[test]
+    fn a_fix_with_two_edits() {
+        let edits = vec![
+            Edit { range: 0..1, text: "G01".to_owned() },
+            Edit { range: 2..2, text: "\"µ\x1A".to_owned() },
+        ];
+        let fix = Fix { title: "write it".to_owned(), safe: true, edits };
+        let value = parsed(&report("G\n1", vec![on("G\n1", "1").fix(fix)]));
+        assert_eq!(
+            value["findings"][0]["fixes"],
+            json!([{ "title": "write it", "safe": true, "edits": [
+                { "file": "part.nc", "text": "G01",
+                  "range": { "start": { "line": 1, "column": 1, "offset": 0 },
+                             "end": { "line": 1, "column": 2, "offset": 1 } } },
+                { "file": "part.nc", "text": "\"µ\u{1A}",
+                  "range": { "start": { "line": 2, "column": 1, "offset": 2 },
+                             "end": { "line": 2, "column": 1, "offset": 2 } } } ] }])
+        );
+    }
+
+    #[test]
+    fn ranges_of_odd_texts() {
+        let range = |text: &str, range| {
+            let value = parsed(&report(text, vec![Finding::new(&FEED_MISSING, range, "m")]));
+            let place = |end: &str| {
+                let place = &value["findings"][0]["range"][end];
+                ["line", "column", "offset"].map(|name| place[name].as_u64().unwrap())
+            };
+            (place("start"), place("end"))
+        };
+        assert_eq!(range("", 0..0), ([1, 1, 0], [1, 1, 0]));
+        assert_eq!(range("G1\n", 3..3), ([2, 1, 3], [2, 1, 3]));
+        assert_eq!(range("G1\r\nG2", 1..6), ([1, 2, 1], [2, 3, 6]));
+        assert_eq!(range("G1\rG2", 3..5), ([2, 1, 3], [2, 3, 5]));
+        assert_eq!(range("(µ日本😀)\tG1", 14..16), ([1, 7, 14], [1, 9, 16]));
+        let long = "µ".repeat(1_000_000);
+        assert_eq!(
+            range(&long, 1_999_998..2_000_000),
+            ([1, 1_000_000, 1_999_998], [1, 1_000_001, 2_000_000])
+        );
+    }
+}

@@ -1,0 +1,175 @@
+//! What a check found in every file: the input of all formats.
+//!
+//! Knows: files in order, findings in order, sums. Must not know: how anything looks.
+
+use std::sync::Arc;
+
+use gcheck_rules::{Finding, RuleMeta, Severity};
+use gcheck_syntax::SourceText;
+use serde::Serialize;
+
+use crate::source::Source;
+use crate::{ControlChoice, Fingerprint, Fingerprinter};
+
+/// What a check found in one file.
+#[derive(Debug, Clone)]
+pub struct FileReport {
+    /// As shown: relative where possible, forward slashes.
+    pub path: String,
+    /// The program. A file without findings may pass an empty text, to let go of a large one early.
+    pub text: Arc<SourceText>,
+    /// The control it was checked for.
+    pub control: ControlChoice,
+    /// What is said about it, with severities as configured and without those suppressed or in the baseline.
+    pub findings: Vec<Finding>,
+    /// Lines read.
+    pub lines: usize,
+    /// Findings that a comment of the program suppressed.
+    pub suppressed: usize,
+    /// Findings that the baseline knows.
+    pub baseline: usize,
+    /// The analysis ended before the program did.
+    pub out_of_fuel: bool,
+}
+
+/// A file that labels point to and that was not itself checked, e.g. a subprogram from a library.
+#[derive(Debug, Clone)]
+pub struct RelatedFile {
+    /// As in [`gcheck_rules::Label::file`].
+    pub path: String,
+    /// The program.
+    pub text: Arc<SourceText>,
+}
+
+/// What a check found in all files.
+///
+/// Files are in the order of their paths and findings in the order of their places, whatever order they came in: the
+/// output is the same for every number of threads.
+#[derive(Debug)]
+pub struct Report {
+    files: Vec<File>,
+    related: Vec<(String, Source)>,
+    rules: Vec<&'static RuleMeta>,
+}
+
+/// A file of the report with its lines.
+#[derive(Debug)]
+pub(crate) struct File {
+    pub(crate) path: String,
+    pub(crate) source: Source,
+    pub(crate) control: ControlChoice,
+    pub(crate) findings: Vec<Finding>,
+    lines: usize,
+    suppressed: usize,
+    baseline: usize,
+    pub(crate) out_of_fuel: bool,
+}
+
+/// Sums over all files.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct Summary {
+    /// Files checked.
+    pub files: usize,
+    /// Lines read.
+    pub lines: usize,
+    /// Findings of severity error.
+    pub errors: usize,
+    /// Findings of severity warning.
+    pub warnings: usize,
+    /// Findings of severity info.
+    pub infos: usize,
+    /// Findings of severity hint.
+    pub hints: usize,
+    /// Findings suppressed by comments.
+    pub suppressed: usize,
+    /// Findings that the baseline knows.
+    pub baseline: usize,
+    /// Paths of the files whose analysis ended early.
+    pub out_of_fuel: Vec<String>,
+}
+
+impl Report {
+    /// A report about files, in any order.
+    pub fn new(files: Vec<FileReport>) -> Self {
+        let mut files: Vec<File> = files.into_iter().map(File::new).collect();
+        files.sort_by(|a, b| a.path.cmp(&b.path));
+        Self { files, related: Vec::new(), rules: Vec::new() }
+    }
+
+    /// With texts of files that labels point to; without its text a file is named, but no line of it is shown.
+    #[must_use]
+    pub fn with_related(mut self, files: Vec<RelatedFile>) -> Self {
+        self.related = files.into_iter().map(|file| (file.path, Source::new(file.text))).collect();
+        self
+    }
+
+    /// With the rules that ran, for the formats that list them; rules of findings are listed anyway.
+    #[must_use]
+    pub fn with_rules(mut self, rules: impl IntoIterator<Item = &'static RuleMeta>) -> Self {
+        self.rules = rules.into_iter().collect();
+        self
+    }
+
+    /// The sums.
+    pub fn summary(&self) -> Summary {
+        let mut sum = Summary { files: self.files.len(), ..Summary::default() };
+        for file in &self.files {
+            sum.lines += file.lines;
+            sum.suppressed += file.suppressed;
+            sum.baseline += file.baseline;
+            if file.out_of_fuel {
+                sum.out_of_fuel.push(file.path.clone());
+            }
+            for finding in &file.findings {
+                match finding.severity {
+                    Severity::Error => sum.errors += 1,
+                    Severity::Warning => sum.warnings += 1,
+                    Severity::Info => sum.infos += 1,
+                    Severity::Hint => sum.hints += 1,
+                }
+            }
+        }
+        sum
+    }
+
+    pub(crate) fn files(&self) -> &[File] {
+        &self.files
+    }
+
+    /// Every finding with its file, in order.
+    pub(crate) fn findings(&self) -> impl Iterator<Item = (&File, &Finding)> {
+        self.files.iter().flat_map(|file| file.findings.iter().map(move |finding| (file, finding)))
+    }
+
+    /// The rules that ran and those of findings, by id.
+    pub(crate) fn rules(&self) -> Vec<&'static RuleMeta> {
+        let mut rules = self.rules.clone();
+        rules.extend(self.findings().map(|(_, finding)| finding.rule));
+        rules.sort_by_key(|rule| rule.id);
+        rules.dedup_by_key(|rule| rule.id);
+        rules
+    }
+
+    /// The text of a file that a label points to.
+    pub(crate) fn source(&self, path: &str) -> Option<&Source> {
+        let checked = self.files.binary_search_by(|file| file.path.as_str().cmp(path)).ok();
+        let checked = checked.and_then(|at| self.files.get(at)).map(|file| &file.source);
+        checked.or_else(|| self.related.iter().find(|(name, _)| name == path).map(|(_, source)| source))
+    }
+}
+
+impl File {
+    fn new(file: FileReport) -> Self {
+        let FileReport { path, text, control, mut findings, lines, suppressed, baseline, out_of_fuel } = file;
+        findings.sort_by(|a, b| {
+            let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
+            key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
+        });
+        Self { path, source: Source::new(text), control, findings, lines, suppressed, baseline, out_of_fuel }
+    }
+
+    /// One for each finding.
+    pub(crate) fn fingerprints(&self) -> Vec<Fingerprint> {
+        Fingerprinter::all(&self.path, self.source.text(), &self.findings)
+    }
+}

@@ -1,0 +1,99 @@
+//! A function that the control does not have.
+
+use std::ops::Range;
+
+use gcheck_program::{BlockFlags, Function, Op};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// An expression calls a function that is not among those of the control.
+    ///
+    /// ## Why it matters
+    /// The control alarms at the block. Functions differ: `POW` and `BIN` are macro functions of some controls only, `EXISTS`
+    /// of others.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// #1=POW[2, 3]
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// #1=SQRT[2**3]
+    /// ```
+    /// ```nc,quiet,fanuc-mill
+    /// #1=BIN[#2]
+    /// ```
+    rule "function-unknown" in "macros" {
+        summary: "function that the control does not have",
+        severity: Warning,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    // A control whose functions nobody listed is not judged.
+    if cx.control().functions().is_empty() {
+        return;
+    }
+    for expr in cx.expressions() {
+        let ops = cx.table().ops(expr);
+        for (ix, op) in ops.iter().enumerate() {
+            if let Op::Call(function, _) = op
+                && !cx.control().functions().iter().any(|f| f.name == function.name())
+                && !ops.iter().take(ix).any(|o| matches!(o, Op::Call(f, _) if f == function))
+            {
+                report.add(finding(cx, expr.range.clone(), *function));
+            }
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, within: Range<u32>, function: Function) -> Finding {
+    let name = function.name();
+    let at = cx.slice(within.clone()).to_ascii_uppercase().find(name).map(|at| within.start + at as u32);
+    let place = at.map_or(within, |at| at..at + name.len() as u32);
+    let known: Vec<&str> = cx.control().functions().iter().map(|f| f.name.as_str()).collect();
+    Finding::new(&META, cx.in_file(place), format!("function `{name}` is not known on this control"))
+        .label("no such function")
+        .note(format!("known functions: {}", known.join(", ")))
+        .help("compute the value with the functions that this control has")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn functions_are_found_in_words_conditions_and_assignments() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X[bin[5] + 1] Y[SIN[30]]\no1 if [BCD[#1] GT 0]\no1 endif\n",
+            &expect![[r#"
+                1 | G0 X[bin[5] + 1] Y[SIN[30]]
+                  |      ^^^ warning[function-unknown] function `BIN` is not known on this control
+                2 | o1 if [BCD[#1] GT 0]
+                  |        ^^^ warning[function-unknown] function `BCD` is not known on this control
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_functions_of_the_control_are_listed() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "#1= EXISTS[#2]\n", &World::default());
+        expect![[r#"
+            function `EXISTS` is not known on this control
+              here: no such function
+              note: known functions: SIN, COS, TAN, ASIN, ACOS, ATAN, SQRT, ABS, ROUND, FIX, FUP, LN, EXP, POW, BIN, BCD
+              help: compute the value with the functions that this control has
+        "#]].assert_eq(&found.first().map(words).unwrap_or_default());
+    }
+}

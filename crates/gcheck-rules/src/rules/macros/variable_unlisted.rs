@@ -1,0 +1,164 @@
+//! A numbered variable that the control does not have.
+
+use std::ops::Range;
+
+use gcheck_controls::{Confidence, Control, Variable, VariableEntry};
+use gcheck_program::{BlockFlags, Function, Op, StatementKind, Target};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A variable lies between or behind the ranges that the control is known to have.
+    ///
+    /// ## Why it matters
+    /// The control alarms where the variable is used. A number out of range is often a slip of the finger.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// #50= 1.
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// #1=#5700
+    /// ```
+    /// ## Not reported
+    /// Where the list of a control is not certain nothing is said; nor is the number of a computed variable known.
+    /// ```nc,quiet,haas-mill
+    /// #100= #[#1+49]
+    /// #9000= 1.
+    /// ```
+    rule "variable-unlisted" in "macros" {
+        summary: "variable that the control does not have",
+        severity: Warning,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    for statement in cx.statements() {
+        if let StatementKind::Assign { target: Target::Variable(number), .. } = statement.kind
+            && let Some(gap) = gap(cx.control(), number)
+        {
+            report.add(finding(cx, statement.range.clone(), number, gap));
+        }
+    }
+    for expr in cx.expressions() {
+        let ops = cx.table().ops(expr);
+        // Asking whether a variable exists is no use of it.
+        if ops.iter().any(|op| matches!(op, Op::Call(Function::Exists, _))) {
+            continue;
+        }
+        for (ix, op) in ops.iter().enumerate() {
+            // `##50` reads the variable too; a number spoken of already is not repeated.
+            if let Op::Variable(number) = op
+                && !ops.iter().take(ix).any(|o| o == op)
+                && let Some(gap) = gap(cx.control(), *number)
+            {
+                report.add(finding(cx, expr.range.clone(), *number, gap));
+            }
+        }
+    }
+}
+
+/// The listed ranges below and above a number that is in none of them, if what lies between is certain to be nothing.
+fn gap(control: &Control, number: u32) -> Option<(Option<&VariableEntry>, Option<&VariableEntry>)> {
+    if matches!(control.variable(number), Variable::Known(_)) {
+        return None;
+    }
+    let ranges = || control.variables().iter().filter_map(|v| Some((v.range?, v)));
+    let below =
+        ranges().filter(|([_, last], _)| *last < number).max_by_key(|([_, last], _)| *last).map(|(_, v)| v);
+    let above = ranges()
+        .filter(|([first, _], _)| *first > number)
+        .min_by_key(|([first, _], _)| *first)
+        .map(|(_, v)| v);
+    // Listing every variable of a program is one thing, the control's own state another: only next to the former is a gap
+    // known to be one.
+    let sure = |v: &VariableEntry| v.confidence == Confidence::Manual;
+    let is_program = |v: &VariableEntry| v.kind != gcheck_controls::VariableKind::System;
+    match (below, above) {
+        (Some(below), Some(above)) => (sure(below) && sure(above) && is_program(below) && is_program(above))
+            .then_some((Some(below), Some(above))),
+        (below, above) => below.or(above).is_some_and(sure).then_some((below, above)),
+    }
+}
+
+fn finding(
+    cx: &BlockCx<'_>,
+    within: Range<u32>,
+    number: u32,
+    (below, above): (Option<&VariableEntry>, Option<&VariableEntry>),
+) -> Finding {
+    let name = format!("#{number}");
+    let at = cx.slice(within.clone()).find(&name).map(|at| within.start + at as u32);
+    let place = at.map_or(within, |at| at..at + name.len() as u32);
+    let describe = |v: &VariableEntry| {
+        v.range.map(|[first, last]| {
+            let numbers =
+                if first == last { format!("`#{first}`") } else { format!("`#{first}` to `#{last}`") };
+            format!("{numbers}: {}  [{}]", v.title, v.source)
+        })
+    };
+    let mut finding =
+        Finding::new(&META, cx.in_file(place), format!("variable `{name}` does not exist on this control"))
+            .label("no such variable")
+            .help("use a variable of another range");
+    for note in below.into_iter().chain(above).filter_map(describe) {
+        finding = finding.note(note);
+    }
+    finding
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn reading_and_writing_are_shown_at_the_variable() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G1 X[#50*2.]\nIF [#250 EQ 1] GOTO 1\n#99=#100\n",
+            &expect![[r#"
+                1 | G1 X[#50*2.]
+                  |      ^^^ warning[variable-unlisted] variable `#50` does not exist on this control
+                3 | #99=#100
+                  | ^^^ warning[variable-unlisted] variable `#99` does not exist on this control
+            "#]],
+        );
+    }
+
+    #[test]
+    fn behind_the_last_range_only_a_known_size_counts() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#5602=1\n#0=2\n",
+            &expect![[r#"
+                1 | #5602=1
+                  | ^^^^^ warning[variable-unlisted] variable `#5602` does not exist on this control
+                2 | #0=2
+                  | ^^ warning[variable-unlisted] variable `#0` does not exist on this control
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "#98000=1\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_ranges_around_are_named() {
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", "#40=1\n", &World::default());
+        expect![[r#"
+            variable `#40` does not exist on this control
+              here: no such variable
+              note: `#1` to `#33`: local variables of one macro level, filled by the arguments of G65  [MACRO-B]
+              note: `#100` to `#149`: common variables, emptied at power-off  [MACRO-B]
+              help: use a variable of another range
+        "#]].assert_eq(&words(&found[0]));
+    }
+}

@@ -1,0 +1,90 @@
+//! A code that wants a block of its own.
+
+use gcheck_controls::Code;
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// A code that must stand alone shares its block with another code.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, or reads the other code's words as its own.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G101 X0. G90
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// N20 G101 X0.
+    /// ```
+    rule "code-must-stand-alone" in "modal" {
+        summary: "code that wants a block of its own shares one",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    for (word, code) in cx.codes().filter(|(_, code)| code.entry().alone) {
+        if let Some(other) =
+            cx.code_words().find(|other| other.range() != word.range() && other.code != word.code)
+            && !cx.block().flags.contains(BlockFlags::ERROR)
+            && !cx.words_may_be_arguments()
+        {
+            report.add(finding(cx, (word, code), other));
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, alone: (&Word, Code<'_>), other: &Word) -> Finding {
+    let entry = alone.1.entry();
+    Finding::new(
+        &META,
+        cx.range(alone.0),
+        format!("`{}` shares its block with `{}`", cx.text(alone.0), cx.text(other)),
+    )
+    .label(format!("{}: wants a block of its own", entry.title))
+    .also(cx.range(other), "another code")
+    .note(format!("`{}` must be the only code of its block  [{}]", entry.code, entry.source))
+    .help("put the other code in a block of its own")
+    .at_most(limit(entry.confidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_lone_code_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G101 X#1\nN10 G101 Y0.\n",
+            &expect![[r#"
+                1 | G90 G101 X#1
+                  |     ^^^^ error[code-must-stand-alone] `G101` shares its block with `G90`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn no_such_code_no_finding() {
+        check_rule(&RULE, "linuxcnc", "G90 G0 X1.\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn words_name_the_code() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G90 G101 X0.\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("there: another code"), "{text}");
+    }
+}

@@ -1,0 +1,96 @@
+//! A sequence number that stands twice in a program.
+
+use gcheck_program::Label;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// The same sequence number stands at two blocks of one program. Told once for the file.
+    ///
+    /// ## Why it matters
+    /// A search for the number, by hand at a restart or by a jump that is added later, finds the wrong block.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// O00001
+    /// N10 T1 M6
+    /// N10 T2 M6
+    /// ```
+    /// ## Not reported
+    /// Different programs of a file may use the same numbers, and where nothing can go to a number it does not matter.
+    /// ```nc,quiet,haas-mill
+    /// O00001
+    /// N10 M30
+    /// O00002
+    /// N10 M99
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// N10 T1 M6
+    /// N10 T2 M6
+    /// ```
+    rule "duplicate-sequence-number" in "program" {
+        summary: "sequence number stands twice in a program",
+        severity: Hint,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if cx.survey.labels.len() < 2 || !cx.has_jumps() {
+        return;
+    }
+    let mut labels: Vec<(u32, u32, &Label)> =
+        cx.survey.labels.iter().map(|l| (cx.program_around(l.range.start).start, l.number, l)).collect();
+    labels.sort_by_key(|(program, number, label)| (*program, *number, label.range.start));
+    let same = |pair: &&[(u32, u32, &Label)]| matches!(pair, [a, b] if (a.0, a.1) == (b.0, b.1));
+    let count = labels.windows(2).filter(same).count();
+    // The second block of the pair that comes first in the text.
+    let first =
+        labels.windows(2).filter(same).min_by_key(|pair| pair.last().map(|(_, _, label)| label.range.start));
+    let Some([(_, _, first), (_, _, second)]) = first else { return };
+    // A jump to the number makes it a matter of its own.
+    if !cx.survey.jumps.iter().any(|j| j.target == Some(second.number)) {
+        report.add(finding(first, second, count));
+    }
+}
+
+fn finding(first: &Label, second: &Label, count: usize) -> Finding {
+    let finding = Finding::new(
+        &META,
+        second.range.clone(),
+        format!("sequence number `N{}` stands twice", second.number),
+    )
+    .label("the same number again")
+    .also(first.range.clone(), "first used here")
+    .help("renumber the blocks, or leave the numbers out where nothing goes to them");
+    if count > 1 { finding.note(format!("{count} blocks of the file repeat a number")) } else { finding }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn only_the_first_pair_of_a_file_is_told() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "O1\nN1 T0101\nN2 T0202\nN2 M1\nN1 M30\n",
+            &expect![[r#"
+            4 | N2 M1
+              | ^^ hint[duplicate-sequence-number] sequence number `N2` stands twice
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_number_that_is_jumped_to_is_another_rules_matter() {
+        check_rule(&RULE, "fanuc-mill", "GOTO 1\nN1\nN1 M30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,122 @@
+//! A call of an O-word subroutine that is not known.
+
+use std::collections::HashSet;
+
+use gcheck_program::{Call, CallKind, OKeyword, OLabel};
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run, Severity};
+
+declare_rule! {
+    /// `CALL` names a subroutine that is neither in the file nor beside it. Told at the first call.
+    ///
+    /// ## Why it matters
+    /// The control looks for the subroutine through the file and its subroutine folders when the call runs, and stops if it
+    /// is not there.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// o100 sub
+    /// o100 endsub
+    /// o101 call
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// Case and blanks do not matter in names, and a computed label is not known here.
+    /// ```nc,quiet,linuxcnc
+    /// o<Drill Hole> sub
+    /// o<Drill Hole> endsub
+    /// o<drillhole> call [1]
+    /// o[#1] call
+    /// M2
+    /// ```
+    rule "o-word-subroutine-missing" in "program" {
+        summary: "called subroutine is not in the file or beside it",
+        severity: Warning,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if !cx.control().syntax().o_words || cx.survey.calls.is_empty() {
+        return;
+    }
+    let subs: HashSet<&OLabel> =
+        cx.survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub).map(|o| &o.label).collect();
+    let programs: HashSet<u32> = cx.survey.programs.iter().filter_map(|p| p.number).collect();
+    let mut told: HashSet<&OLabel> = HashSet::new();
+    for call in &cx.survey.calls {
+        let CallKind::OWord(label) = &call.target else { continue };
+        if told.contains(&label) {
+            continue;
+        }
+        let here = || subs.contains(label);
+        let known = match label {
+            OLabel::Computed => true,
+            OLabel::Number(number) => {
+                here()
+                    || programs.contains(number)
+                    || cx.scene.programs.has_number(*number)
+                    || cx.scene.programs.has_name(&number.to_string())
+            }
+            OLabel::Name(name) => here() || cx.scene.programs.has_name(name),
+        };
+        if !known {
+            told.insert(label);
+            report.add(finding(call, label));
+        }
+    }
+}
+
+fn finding(call: &Call, label: &OLabel) -> Finding {
+    let (name, limit) = match label {
+        OLabel::Number(number) => (format!("o{number}"), Severity::Warning),
+        // A named subroutine usually is a file of its own in the control's folder.
+        OLabel::Name(name) => (format!("o<{name}>"), Severity::Info),
+        OLabel::Computed => (String::new(), Severity::Info),
+    };
+    Finding::new(&META, call.range.clone(), format!("called subroutine `{name}` is not here"))
+        .label("called here")
+        .note("looked for in this file and in the folders that gcheck was given")
+        .assuming("the control's subroutine folders may have it as a file of its own")
+        .help("add the subroutine, correct its name, or name its folder in the configuration")
+        .at_most(limit)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_number_is_expected_here_and_a_name_may_be_a_file() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o7 call\no<tool-probe> call [1] [2]\nM2\n",
+            &expect![[r#"
+            1 | o7 call
+              | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is not here
+            2 | o<tool-probe> call [1] [2]
+              | ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<tool-probe>` is not here
+        "#]],
+        );
+    }
+
+    #[test]
+    fn flow_control_with_the_same_label_is_no_subroutine() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o7 if [1 GT 0]\no7 endif\no7 call\nM2\n",
+            &expect![[r#"
+            3 | o7 call
+              | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is not here
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,160 @@
+//! A program that does not end.
+
+use std::ops::Range;
+
+use gcheck_program::OKeyword;
+
+use crate::meta::declare_rule;
+use crate::sections::Section;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A program has no block that ends it: no `M30` or `M2`, and no `M99` for a subprogram.
+    ///
+    /// ## Why it matters
+    /// The control runs off the end of the program with the spindle and coolant on, alarms, or runs on into the next program
+    /// of the tape. A missing end often means that the file was cut off.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// G0 X10. Y10.
+    /// G0 Z100.
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G0 X10 Y10
+    /// G0 Z100
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// G0 X10. Y10.
+    /// M30
+    /// ```
+    /// On some controls a pair of `%` lines ends the program too, and a file may hold nothing but subroutines.
+    /// ```nc,quiet,linuxcnc
+    /// %
+    /// G0 X10 Y10
+    /// %
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// o<drill> sub
+    /// G0 X#1 Y#2
+    /// o<drill> endsub
+    /// ```
+    rule "program-end-missing" in "program" {
+        summary: "program does not end",
+        severity: Warning,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let survey = cx.survey;
+    let Some(last) = &survey.last_block else { return };
+    let syntax = cx.control().syntax();
+    if syntax.tape_marks_end && survey.tape_marks.len() >= 2 {
+        return;
+    }
+    // A library of subroutines: what a caller runs ends with ENDSUB.
+    if syntax.o_words && survey.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub) {
+        let is_behind = |range: &Range<u32>| range.start > last.start || range.contains(&last.start);
+        if survey.o_words.last().is_some_and(|o| o.keyword == OKeyword::EndSub && is_behind(&o.range)) {
+            return;
+        }
+    }
+    let sections = cx.sections();
+    // Where `O` numbers no programs, the file is one program.
+    let whole = [Section { number: None, range: 0..cx.region.end }];
+    let sections = if cx.keeps_programs_by_number() { sections.as_slice() } else { whole.as_slice() };
+    for section in sections {
+        // In text order, as the sections are.
+        let next = survey.ends.partition_point(|e| e.range.start < section.range.start);
+        let ends = survey.ends.get(next).is_some_and(|e| e.range.start < section.range.end);
+        if ends || !has_code(cx, section) {
+            continue;
+        }
+        let is_last = section.range.contains(&last.start);
+        // A loop by GOTO has its end elsewhere or wants none.
+        let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
+        if !jumps_at_end {
+            report.add(finding(cx, section, is_last.then(|| last.clone())));
+        }
+    }
+}
+
+/// More than the program's number: a block with a `G` or `M` code.
+fn has_code(cx: &FileCx<'_>, section: &Section<'_>) -> bool {
+    let start = section.number.map_or(section.range.start, |n| n.range.end) as usize;
+    let text = cx.source.text().get(start..section.range.end as usize).unwrap_or_default();
+    // Comments may hold anything; it is enough that some line is more than a comment.
+    text.lines().skip(usize::from(section.number.is_some())).any(|line| {
+        let line = line.trim_start();
+        line.starts_with(|c: char| c.is_ascii_alphabetic() || c == '#' || c == '/')
+    })
+}
+
+fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> Finding {
+    let name = section.number.map(|n| format!(" `{}`", cx.slice(n.range.clone()))).unwrap_or_default();
+    let is_at_block = last.is_some();
+    let place = last.or_else(|| section.number.map(|n| n.range.clone())).unwrap_or_default();
+    Finding::new(&META, place, format!("program{name} has no end"))
+        .label(if is_at_block { "the last block" } else { "no `M30`, `M2` or `M99` before the next program" })
+        .note("at the end of the text the control stops with an alarm or with everything still on  [general knowledge]")
+        .help("end the program with `M30`, a subprogram with `M99`; see that the file is complete")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_program_of_a_file_needs_its_end() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM98 P2\nM30\nO2\nG0 X1.\nO3\nM99\n",
+            &expect![[r#"
+            4 | O2
+              | ^^ warning[program-end-missing] program `O2` has no end
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_last_block_is_shown() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "%\nO1\nT0101\nG0 X1.\n(THE END)\n%\n",
+            &expect![[r#"
+            4 | G0 X1.
+              | ^^^^^^ warning[program-end-missing] program `O1` has no end
+        "#]],
+        );
+    }
+
+    #[test]
+    fn jumps_and_ends_under_conditions_are_enough() {
+        check_rule(&RULE, "fanuc-mill", "O1\nN1 G0 X1.\nGOTO 1\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "O1\nN1 G0 X1.\n/M30\nM0\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_subroutine_before_the_main_part_does_not_end_it() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\no1 endsub\nG0 X1\n",
+            &expect![[r#"
+            3 | G0 X1
+              | ^^^^^ warning[program-end-missing] program has no end
+        "#]],
+        );
+    }
+}

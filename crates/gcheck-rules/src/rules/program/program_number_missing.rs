@@ -1,0 +1,87 @@
+//! A program without its `O` number.
+
+use std::ops::Range;
+
+use gcheck_controls::Ends;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// The file is a whole program, but no `O` and number names it.
+    ///
+    /// ## Why it matters
+    /// Controls that keep programs by number either refuse such a file when it is loaded or give it a number of their own,
+    /// which can overwrite another program.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// %
+    /// G90 G54 G0 X0. Y0.
+    /// M30
+    /// %
+    /// ```
+    /// ## Not reported
+    /// A fragment without tape marks or program end, and controls where `O` does not number programs.
+    /// ```nc,quiet,fanuc-mill
+    /// G90 G54 G0 X0. Y0.
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// %
+    /// G90 G54 G0 X0. Y0.
+    /// M30
+    /// %
+    /// ```
+    rule "program-number-missing" in "program" {
+        summary: "program has no number",
+        severity: Info,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let is_whole = cx.survey.tape_marks.len() == 2 && cx.survey.ends.iter().any(|e| e.ends == Ends::Program);
+    if cx.survey.programs.is_empty()
+        && is_whole
+        && cx.keeps_programs_by_number()
+        && let Some(first) = &cx.survey.first_block
+    {
+        report.add(finding(first.clone()));
+    }
+}
+
+fn finding(first: Range<u32>) -> Finding {
+    Finding::new(&META, first, "program has no number")
+        .label("the program begins here without `O` and a number")
+        .note("a control that keeps programs by number refuses the file or numbers it itself when it is loaded  [general knowledge]")
+        .help("put the program's number in a block of its own in front, for example `O1234`")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_block_is_shown() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "%\n(PART)\nG28 U0.\nM30\n%\n",
+            &expect![[r#"
+            3 | G28 U0.
+              | ^^^^^^^ info[program-number-missing] program has no number
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_colon_or_a_sequence_number_in_front_does_not_matter() {
+        check_rule(&RULE, "fanuc-mill", "%\n:0012\nM30\n%\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "%\nN1 O12\nM30\n%\n", &expect![[""]]);
+    }
+}

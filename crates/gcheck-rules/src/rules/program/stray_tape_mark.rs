@@ -1,0 +1,134 @@
+//! A tape mark that is not alone, or text behind the closing one.
+
+use std::ops::Range;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A `%` stands inside the program, shares its line with code, or has code behind it.
+    ///
+    /// ## Why it matters
+    /// `%` ends the tape wherever the control meets it: what follows is not read. A program pasted behind another one is
+    /// silently left out.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// %
+    /// O00001
+    /// M98 P2
+    /// M30
+    /// %
+    /// O00002
+    /// M99
+    /// %
+    /// ```
+    /// ## Not reported
+    /// A comment beside the mark, and blank lines or notes behind the closing one.
+    /// ```nc,quiet,haas-mill
+    /// % (PART 12)
+    /// O00001
+    /// M30
+    /// %
+    /// SETUP: SEE DRAWING
+    /// ```
+    rule "stray-tape-mark" in "program" {
+        summary: "tape mark cuts off code",
+        severity: Info,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let text = cx.source.text();
+    for mark in &cx.survey.tape_marks {
+        if !crate::sections::is_tape_mark_line(text, mark) {
+            let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
+            report.add(inside(at..at + 1));
+        }
+    }
+    let rest = text.get(cx.region.end as usize..).unwrap_or_default();
+    if let (Some(closing), Some(code)) = (cx.survey.tape_marks.last(), first_code(rest)) {
+        report.add(behind(closing.clone(), cx.region.end + code.start..cx.region.end + code.end));
+    }
+}
+
+/// The first line of a text that begins as a block does, leaving out what may be a note.
+fn first_code(text: &str) -> Option<Range<u32>> {
+    for line in text.split(['\n', '\r']) {
+        let block = line.trim();
+        let mut bytes = block.bytes();
+        let letter = bytes.next().is_some_and(|b| {
+            matches!(b.to_ascii_uppercase(), b'G' | b'N' | b'O' | b'T' | b'M' | b'X' | b'Z')
+        });
+        let digits = bytes.take_while(u8::is_ascii_digit).count();
+        let behind = block.get(1 + digits..).unwrap_or_default();
+        if letter && digits > 0 && !behind.starts_with(|c: char| c.is_alphabetic() && c.is_lowercase()) {
+            let start = block.as_ptr() as usize - text.as_ptr() as usize;
+            return Some(start as u32..(start + block.len()) as u32);
+        }
+    }
+    None
+}
+
+fn inside(at: Range<u32>) -> Finding {
+    Finding::new(&META, at, "tape mark `%` stands inside a block")
+        .label("only a line of its own makes it a tape mark")
+        .help("remove it, or put it in a line of its own at the end of the program")
+}
+
+fn behind(closing: Range<u32>, code: Range<u32>) -> Finding {
+    Finding::new(&META, code, "code behind the closing tape mark `%` is not read")
+        .label("the first block that is left out")
+        .also(closing, "the tape ends here")
+        .help("remove the tape mark, or what follows it")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn a_second_program_behind_the_tape_is_shown_by_its_first_block() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "%\nO1\nM30\n%\n\nO2\nM99\n%\n",
+            &expect![[r#"
+            6 | O2
+              | ^^ info[stray-tape-mark] code behind the closing tape mark `%` is not read
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_mark_inside_a_block_is_shown_itself() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "%\nG0 X1 %\nM2\n%\n",
+            &expect![[r#"
+            2 | G0 X1 %
+              |       ^ info[stray-tape-mark] tape mark `%` stands inside a block
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_closing_mark_is_shown() {
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", "%\nO1\nM30\n%\nO2\n", &World::default());
+        expect![[r#"
+            code behind the closing tape mark `%` is not read
+              here: the first block that is left out
+              there: the tape ends here
+              help: remove the tape mark, or what follows it
+        "#]]
+        .assert_eq(&words(&found[0]));
+    }
+}

@@ -1,0 +1,171 @@
+//! A call of a program that is not known.
+
+use std::collections::BTreeSet;
+
+use gcheck_controls::{Code, WordKind};
+use gcheck_program::{Call, CallKind};
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A call names a program that is neither in the file nor beside it. Told at the first call.
+    ///
+    /// ## Why it matters
+    /// If the control's memory does not have the program either, it stops with an alarm at the call.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// M98 P2000
+    /// M30
+    /// O0100
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// Repeats in front of the number, computed numbers, and programs from 8000 up, which machine builders and makers of
+    /// probes put into the control.
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// M98 P30100
+    /// G65 P9810 Z10. F1000.
+    /// M98 P#1
+    /// M30
+    /// O0100
+    /// M99
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// M98 P100
+    /// M2
+    /// O100
+    /// M99
+    /// ```
+    rule "subprogram-missing" in "program" {
+        summary: "called program is not in the file or beside it",
+        severity: Warning,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+/// Numbers that begin with 8 or 9 belong to builders and makers of probes by custom: 8000 to 9999, and longer ones alike.
+fn is_reserved(number: u32) -> bool {
+    let mut head = number;
+    while head >= 10_000 {
+        head /= 10;
+    }
+    head >= 8000
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if cx.survey.calls.is_empty() {
+        return;
+    }
+    let here: BTreeSet<u32> = cx.survey.programs.iter().filter_map(|p| p.number).collect();
+    let mut told: BTreeSet<u32> = BTreeSet::new();
+    for call in &cx.survey.calls {
+        let CallKind::Program(number) = call.target else { continue };
+        if told.contains(&number) {
+            continue;
+        }
+        let Some((code, word)) = cx.target_word(call.code, WordKind::Program, cx.slice(call.range.clone()))
+        else {
+            continue;
+        };
+        if word.elsewhere {
+            continue;
+        }
+        let packed = if word.packed_repeats && number > 9999 { Some(number % 10_000) } else { None };
+        let known = |n: u32| {
+            is_reserved(n)
+                || here.contains(&n)
+                || cx.scene.programs.has_number(n)
+                || cx.scene.programs.has_name(&n.to_string())
+        };
+        if !known(number) && !packed.is_some_and(known) {
+            told.insert(number);
+            report.add(finding(cx, call, code, packed.unwrap_or(number)));
+        }
+    }
+}
+
+fn finding(cx: &FileCx<'_>, call: &Call, code: Code<'_>, number: u32) -> Finding {
+    Finding::new(&META, call.range.clone(), format!("called program `O{number}` is not here"))
+        .label(format!("`{}` calls `O{number}`", code.entry().code))
+        .note("looked for in this file and in the folders that gcheck was given")
+        .assuming(format!("`O{number}` may be in the memory of the control"))
+        .help(format!("add the program `O{number}`, name its folder under `[search]`, or correct the number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn a_file_without_subprograms_may_rely_on_the_control() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM98 P5000 L2\nM30\n",
+            &expect![[r#"
+                2 | M98 P5000 L2
+                  |     ^^^^^ warning[subprogram-missing] called program `O5000` is not here
+            "#]],
+        );
+    }
+
+    #[test]
+    fn each_program_is_told_once() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nM98 P7\nM98 P7\nM98 P90001\nM30\n",
+            &expect![[r#"
+                2 | M98 P7
+                  |     ^^ warning[subprogram-missing] called program `O7` is not here
+            "#]],
+        );
+    }
+
+    #[test]
+    fn repeats_in_front_are_read_only_where_the_control_reads_them() {
+        check_rule(&RULE, "fanuc-mill", "O1\nM98 P50007\nM30\nO7\nM99\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM98 P50007\nM30\nO7\nM99\n",
+            &expect![[r#"
+            2 | M98 P50007
+              |     ^^^^^^ warning[subprogram-missing] called program `O50007` is not here
+        "#]],
+        );
+    }
+
+    #[test]
+    fn programs_beside_the_file_count() {
+        struct Folder;
+        impl crate::Programs for Folder {
+            fn has_number(&self, number: u32) -> bool {
+                number == 77
+            }
+            fn has_name(&self, _: &str) -> bool {
+                false
+            }
+        }
+        let world = World { programs: &Folder, ..World::default() };
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "M98 P77\nM98 P78\n",
+            &world,
+            &expect![[r#"
+                2 | M98 P78
+                  |     ^^^ warning[subprogram-missing] called program `O78` is not here
+            "#]],
+        );
+    }
+}

@@ -1,0 +1,96 @@
+//! One tape mark of two.
+
+use std::ops::Range;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// The file has one `%` line where a pair is usual.
+    ///
+    /// ## Why it matters
+    /// A missing closing mark often means that the end of the file was cut off. Without an opening mark a control that loads
+    /// over a line skips the program as text in front of the tape.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// %
+    /// O0001
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// A pair, or none at all.
+    /// ```nc,quiet,haas-mill
+    /// O00001
+    /// M30
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// %
+    /// G0 X1
+    /// %
+    /// ```
+    rule "tape-mark-missing" in "program" {
+        summary: "one of the two tape marks is missing",
+        severity: Info,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
+    if crate::sections::is_tape_mark_line(cx.source.text(), mark) {
+        report.add(finding(mark.clone(), mark.start < first.start));
+    }
+}
+
+fn finding(mark: Range<u32>, opens: bool) -> Finding {
+    let (missing, place) = if opens { ("closing", "end") } else { ("opening", "beginning") };
+    let label = if opens { "opens the tape" } else { "closes the tape" };
+    Finding::new(&META, mark, format!("{missing} tape mark `%` is missing")).label(label).help(format!(
+        "put a line with `%` at the {place} of the file; see that nothing else is missing there"
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn either_mark_may_be_missing() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "%\nO1\nM30\n",
+            &expect![[r#"
+            1 | %
+              | ^ info[tape-mark-missing] closing tape mark `%` is missing
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM30\n%\n",
+            &expect![[r#"
+            3 | %
+              | ^ info[tape-mark-missing] opening tape mark `%` is missing
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_help_names_the_end_that_lacks_it() {
+        let found = findings(&Selection::only(&RULE), "fanuc-lathe", "%\nO1\nM30\n", &World::default());
+        expect![[r#"
+            closing tape mark `%` is missing
+              here: opens the tape
+              help: put a line with `%` at the end of the file; see that nothing else is missing there
+        "#]]
+        .assert_eq(&words(&found[0]));
+    }
+}

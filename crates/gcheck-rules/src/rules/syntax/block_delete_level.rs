@@ -1,0 +1,142 @@
+//! A block-delete sign in a form that the control does not have.
+
+use std::ops::Range;
+
+use gcheck_controls::Confidence;
+use gcheck_program::BlockFlags;
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// A block-delete sign carries a level (`/2`) or stands inside the block, and the control has no such form.
+    ///
+    /// ## Why it matters
+    /// The control refuses the block, or skips at another switch or from another place than was meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// /2 G0 X1
+    /// G0 X1 / Y2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// / G0 X1
+    /// #1=[#2/3]
+    /// ```
+    /// ```nc,quiet,fanuc-mill
+    /// /2 G0 X1.
+    /// G0 X1. /3 Y2.
+    /// ```
+    rule "block-delete-level" in "syntax" {
+        summary: "form of block delete that the control does not have",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::BLOCK_DELETE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    let syntax = cx.control().syntax();
+    if syntax.block_delete_levels && syntax.block_delete_inside
+        || cx.block().flags.contains(BlockFlags::ERROR)
+    {
+        return;
+    }
+    let text = cx.block_text();
+    let Some((at, level)) = sign(text) else { return };
+    let inside = !text.get(..at).unwrap_or_default().trim_start_matches(['\u{FEFF}', ' ', '\t']).is_empty();
+    let start = cx.block().range.start + at as u32;
+    let range = cx.in_file(start..start + 1 + level as u32);
+    if inside && !syntax.block_delete_inside {
+        report.add(inside_finding(cx, range));
+    } else if level > 0 && !syntax.block_delete_levels {
+        report.add(level_finding(cx, range));
+    }
+}
+
+/// Place of the first `/` outside comments and brackets, and how many digits follow it.
+fn sign(text: &str) -> Option<(usize, usize)> {
+    let mut depth = 0_i32;
+    let at = text.bytes().position(|byte| {
+        match byte {
+            b'(' | b'[' => depth += 1,
+            b')' | b']' => depth -= 1,
+            _ => {}
+        }
+        byte == b'/' && depth == 0
+    })?;
+    let digits = text.bytes().skip(at + 1).take_while(u8::is_ascii_digit).count();
+    Some((at, digits.min(1)))
+}
+
+fn confidence(cx: &BlockCx<'_>) -> Confidence {
+    cx.control().syntax().block_delete_confidence.unwrap_or(Confidence::Assumed)
+}
+
+fn inside_finding(cx: &BlockCx<'_>, range: Range<u32>) -> Finding {
+    Finding::new(&META, range, "block delete inside a block")
+        .label("something stands before the `/`")
+        .note("this control reads `/` at the head of a block only")
+        .help("put `/` first, or write the skipped words in a block of their own")
+        .at_most(limit(confidence(cx)))
+}
+
+fn level_finding(cx: &BlockCx<'_>, range: Range<u32>) -> Finding {
+    Finding::new(&META, range, "block delete with a level")
+        .label("the digit names a switch")
+        .note("this control has one block-delete switch and no levels")
+        .help("write `/` alone")
+        .at_most(limit(confidence(cx)))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn levels_and_places() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "/2 G0 X1\nG0 X1 / Y2\n/ G0 X[#1/2]\n/(a/b) G0 X1\n",
+            &expect![[r#"
+            1 | /2 G0 X1
+              | ^^ error[block-delete-level] block delete with a level
+            2 | G0 X1 / Y2
+              |       ^ error[block-delete-level] block delete inside a block
+        "#]],
+        );
+    }
+
+    #[test]
+    fn weaker_where_it_is_only_assumed() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "/2 G0 X1.\nG0 X#1 / Y2.\n",
+            &expect![[r#"
+            1 | /2 G0 X1.
+              | ^^ warning[block-delete-level] block delete with a level
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "/2 G0 X1.\nG0 X#1 /3 Y2.\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn words_tell_the_form() {
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "/2 G0 X1\n", &World::default());
+        expect![[r#"
+            block delete with a level
+              here: the digit names a switch
+              note: this control has one block-delete switch and no levels
+              help: write `/` alone
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}

@@ -1,0 +1,71 @@
+//! An expression nested beyond all reason.
+
+use gcheck_syntax::{MAX_EXPRESSION_DEPTH, SyntaxError, SyntaxErrorKind};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// Brackets, functions or signs are nested deeper than gcheck reads.
+    ///
+    /// ## Why it matters
+    /// No control evaluates an expression of this depth; most stop at five levels. gcheck does not read the rest of the block.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// #1=-----------------------------------------------------------------------2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// #1=[[[[2]]]]
+    /// ```
+    rule "expression-too-deep" in "syntax" {
+        summary: "expression nested too deeply to be read",
+        severity: Error,
+        tier: Token,
+        since: "0.1.0",
+        run: Run::Token { on: |kind| kind == SyntaxErrorKind::TooDeep, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
+    report.add(finding(cx, error));
+}
+
+fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    Finding::new(&META, cx.in_file(error.range.clone()), "expression is nested too deeply")
+        .label(format!("more than {MAX_EXPRESSION_DEPTH} levels"))
+        .note("the rest of the block was not read")
+        .help("compute it in steps: assign parts of it to variables")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings};
+
+    #[test]
+    fn only_the_level_too_many_is_marked() {
+        let deep = |levels: usize| format!("#1={}2{}", "[".repeat(levels), "]".repeat(levels));
+        for (levels, count) in [(64, 0), (65, 1), (300, 1)] {
+            let found = findings(&Selection::only(&RULE), "haas-mill", &deep(levels), &World::default());
+            assert_eq!(found.len(), count, "{levels}");
+        }
+    }
+
+    #[test]
+    fn signs_count_too() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#1=-----------------------------------------------------------------------2\n",
+            &expect![[r#"
+            1 | #1=-----------------------------------------------------------------------2
+              |                                                                    ^ error[expression-too-deep] expression is nested too deeply
+        "#]],
+        );
+    }
+}

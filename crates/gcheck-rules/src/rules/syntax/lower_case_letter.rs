@@ -1,0 +1,90 @@
+//! Lower-case letters on a control that reads capitals only.
+
+use std::ops::Range;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// Code is written in lower-case letters, which not every control of this kind reads.
+    ///
+    /// ## Why it matters
+    /// An older control refuses the block or does not load the program.
+    ///
+    /// ## Reported
+    /// Once a file.
+    /// ```nc,reported,fanuc-mill
+    /// g0 x1. y2.
+    /// g1 z-1. f100.
+    /// ```
+    /// ## Not reported
+    /// Comments may hold anything.
+    /// ```nc,quiet,fanuc-mill
+    /// G0 X1. (start)
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// g0 x1 y2
+    /// ```
+    rule "lower-case-letter" in "syntax" {
+        summary: "lower-case letters in code",
+        severity: Info,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let Some(block) = &cx.survey.lower_case else { return };
+    if let Some(at) = first_letter(cx.slice(block.clone())) {
+        let start = block.start + at as u32;
+        report.add(finding(start..start + 1));
+    }
+}
+
+/// The first lower-case letter outside comments.
+fn first_letter(block: &str) -> Option<usize> {
+    let mut in_comment = false;
+    block.bytes().position(|byte| {
+        match byte {
+            b'(' => in_comment = true,
+            b')' => in_comment = false,
+            _ => {}
+        }
+        !in_comment && byte.is_ascii_lowercase()
+    })
+}
+
+fn finding(range: Range<u32>) -> Finding {
+    Finding::new(&META, range, "code in lower-case letters")
+        .label("the first one in this file")
+        .note("not every control of this kind reads lower-case letters outside comments")
+        .help("write code in capitals")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn once_a_file_and_not_in_comments() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0 X1. (start)\n(a) G1 x#1 y2. f100.\ng0 x1.\n",
+            &expect![[r#"
+            2 | (a) G1 x#1 y2. f100.
+              |        ^ info[lower-case-letter] code in lower-case letters
+        "#]],
+        );
+    }
+
+    #[test]
+    fn controls_that_read_them() {
+        check_rule(&RULE, "linuxcnc", "g0 x1\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "g0 x1.\n", &expect![[""]]);
+    }
+}

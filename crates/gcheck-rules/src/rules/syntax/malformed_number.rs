@@ -1,0 +1,94 @@
+//! A number with a part too many.
+
+use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A number has a second decimal point, or another number is glued to a value.
+    ///
+    /// ## Why it matters
+    /// The control refuses the block. Which of the two points was meant, it cannot know.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G1 X1.2.5 F10.
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G1 X[#1 + 1]5 F10
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G1 X1.25 F10.
+    /// ```
+    rule "malformed-number" in "syntax" {
+        summary: "malformed number",
+        severity: Error,
+        tier: Token,
+        since: "0.1.0",
+        run: Run::Token { on: |kind| kind == SyntaxErrorKind::MalformedNumber, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
+    report.add(finding(cx, error));
+}
+
+fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    let extra = cx.slice(error.range.clone());
+    let before = cx.slice(cx.block().range.start..error.range.start);
+    let digits = before.trim_end_matches(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+')).len();
+    let number = before.get(digits..).unwrap_or_default();
+    if number.contains('.') {
+        let start = error.range.start - number.len() as u32;
+        return Finding::new(
+            &META,
+            cx.in_file(start..error.range.end),
+            format!("number `{number}{extra}` has two decimal points"),
+        )
+        .label("which of them is meant?")
+        .help("remove one of the points");
+    }
+    Finding::new(
+        &META,
+        cx.in_file(error.range.clone()),
+        format!("number `{extra}` is glued to what stands before it"),
+    )
+    .label("belongs to no address")
+    .help("add the letter before the number, or remove the number")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_whole_number_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G1 X1.2.5 F10.\n",
+            &expect![[r#"
+            1 | G1 X1.2.5 F10.
+              |     ^^^^^ error[malformed-number] number `1.2.5` has two decimal points
+        "#]],
+        );
+    }
+
+    #[test]
+    fn behind_an_expression_only_the_rest_is() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G1 X[#1+1.]5 F10.\n",
+            &expect![[r#"
+            1 | G1 X[#1+1.]5 F10.
+              |            ^ error[malformed-number] number `5` is glued to what stands before it
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,108 @@
+//! A keyword where none can stand.
+
+use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A word of the macro language stands where it has no meaning.
+    ///
+    /// ## Why it matters
+    /// The control refuses the block. `ELSE` and `ENDIF` are the usual ones: many controls have no such statements.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// IF [#1 GT 5.] THEN #1= 5.
+    /// ELSE
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// G0 X1. THEN
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// o100 if [#1 GT 5]
+    /// o100 else
+    /// o100 endif
+    /// ```
+    rule "stray-keyword" in "syntax" {
+        summary: "keyword where none can stand",
+        severity: Error,
+        tier: Token,
+        since: "0.1.0",
+        run: Run::Token { on: |kind| kind == SyntaxErrorKind::StrayKeyword, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
+    report.add(finding(cx, error));
+}
+
+fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    let keyword = cx.slice(error.range.clone());
+    let finding = Finding::new(
+        &META,
+        cx.in_file(error.range.clone()),
+        format!("keyword `{keyword}` cannot stand here"),
+    );
+    let branch = ["ELSE", "ELSEIF", "ENDIF"].iter().any(|k| k.eq_ignore_ascii_case(keyword));
+    match (branch, cx.control().syntax().o_words) {
+        (true, false) => finding
+            .label("this control has no such statement")
+            .note("`IF` decides about its own block only")
+            .help("jump over the blocks with `IF [...] GOTO`"),
+        (true, true) => finding
+            .label("no O number before it")
+            .help(format!("write the O number of its `IF` before `{keyword}`")),
+        (false, _) => finding
+            .label("belongs to no statement or expression")
+            .help("complete the statement, or remove the keyword"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn a_branch_of_another_language() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "ELSE\n",
+            &expect![[r#"
+            1 | ELSE
+              | ^^^^ error[stray-keyword] keyword `ELSE` cannot stand here
+        "#]],
+        );
+    }
+
+    #[test]
+    fn without_its_o_number() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 if [#1 GT 5]\nendif\n",
+            &expect![[r#"
+            2 | endif
+              | ^^^^^ error[stray-keyword] keyword `endif` cannot stand here
+        "#]],
+        );
+    }
+
+    #[test]
+    fn words_depend_on_the_control() {
+        let program = "endif\n";
+        let found = findings(&Selection::only(&RULE), "linuxcnc", program, &World::default());
+        expect![[r#"
+            keyword `endif` cannot stand here
+              here: no O number before it
+              help: write the O number of its `IF` before `endif`
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}

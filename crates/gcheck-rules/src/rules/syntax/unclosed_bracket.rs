@@ -1,0 +1,77 @@
+//! A bracket that is not closed.
+
+use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A `[` has no `]` in its block.
+    ///
+    /// ## Why it matters
+    /// The control cannot read the expression and refuses the block.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// #100= [#1 + [#2 * 3.
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G0 X[#1 + 2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// #100= [#1 + [#2 * 3.]]
+    /// ```
+    rule "unclosed-bracket" in "syntax" {
+        summary: "`[` is not closed",
+        severity: Error,
+        tier: Token,
+        since: "0.1.0",
+        run: Run::Token { on: |kind| kind == SyntaxErrorKind::UnclosedBracket, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
+    report.add(finding(cx, error));
+}
+
+fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    Finding::new(&META, cx.in_file(error.range.clone()), "bracket `[` is not closed")
+        .label("no `]` for this one")
+        .note("an expression ends with its block")
+        .help("add the `]` where the expression ends")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_innermost_open_bracket_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "#100=[#1+[#2*3.\n",
+            &expect![[r#"
+            1 | #100=[#1+[#2*3.
+              |          ^ error[unclosed-bracket] bracket `[` is not closed
+        "#]],
+        );
+    }
+
+    #[test]
+    fn text_of_a_print_statement_counts_brackets_too() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "DPRNT[X#100[53]\nDPRNT[X#100[53]]\n",
+            &expect![[r#"
+            1 | DPRNT[X#100[53]
+              |      ^ error[unclosed-bracket] bracket `[` is not closed
+        "#]],
+        );
+    }
+}

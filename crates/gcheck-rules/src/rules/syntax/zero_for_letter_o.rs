@@ -1,0 +1,104 @@
+//! A zero where the program number has its letter O.
+
+use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Fix, Report, Run};
+
+declare_rule! {
+    /// A block begins with a number of four digits or more whose first is a zero: `01234` for `O1234`.
+    ///
+    /// ## Why it matters
+    /// The control does not find the program under its number, or refuses to load it.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// %
+    /// 01234 (BRACKET)
+    /// ```
+    /// ```nc,reported,fanuc-lathe
+    /// %
+    /// 00020
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// %
+    /// O1234 (BRACKET)
+    /// ```
+    rule "zero-for-letter-o" in "syntax" {
+        summary: "zero instead of the letter O of a program number",
+        severity: Error,
+        tier: Token,
+        since: "0.1.0",
+        run: Run::Token { on: |kind| kind == SyntaxErrorKind::ValueWithoutAddress, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
+    if is_program_number(cx, error) {
+        report.add(finding(cx, error));
+    }
+}
+
+/// Does a number without address look like a program number with a zero for its letter?
+pub(super) fn is_program_number(cx: &BlockCx<'_>, error: &SyntaxError) -> bool {
+    let number = cx.slice(error.range.clone());
+    let before = cx.slice(cx.block().range.start..error.range.start);
+    cx.control().syntax().program_number
+        && (4..=9).contains(&number.len())
+        && number.starts_with('0')
+        && number.bytes().all(|b| b.is_ascii_digit())
+        && before.trim_matches([' ', '\t', '%', '\u{FEFF}']).is_empty()
+        && cx.words().is_empty()
+}
+
+fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    let number = cx.slice(error.range.clone());
+    let meant = format!("O{}", number.get(1..).unwrap_or_default());
+    let start = error.range.start;
+    Finding::new(
+        &META,
+        cx.in_file(error.range.clone()),
+        format!("program number `{number}` begins with a zero, not the letter O"),
+    )
+    .label("this is a number without an address")
+    .help(format!("write `{meant}`"))
+    .fix(Fix::risky(format!("write `{meant}`"), cx.in_file(start..start + 1), "O"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    #[test]
+    fn at_the_head_of_a_program() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "%\n01234 (BRACKET)\nG0 X1.\n",
+            &expect![[r#"
+            2 | 01234 (BRACKET)
+              | ^^^^^ error[zero-for-letter-o] program number `01234` begins with a zero, not the letter O
+        "#]],
+        );
+    }
+
+    #[test]
+    fn other_numbers_are_no_program_numbers() {
+        check_rule(&RULE, "fanuc-mill", "0.5\n05\n0123 X1.\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_zero_becomes_the_letter() {
+        let program = "00020\n";
+        let found = findings(&Selection::only(&RULE), "fanuc-lathe", program, &World::default());
+        expect![[r#"
+            O0020
+        "#]]
+        .assert_eq(&found.iter().map(|f| fixed(program, f)).collect::<String>());
+    }
+}

@@ -1,0 +1,105 @@
+//! An arc with an end point and neither centre nor radius.
+
+use gcheck_controls::{Code, LetterSet, Motion};
+use gcheck_program::{BlockFlags, Word};
+
+use crate::contract::{choice, letters_of};
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// An arc names its end point, but neither its centre nor its radius.
+    ///
+    /// ## Why it matters
+    /// The control does not know the arc. It stops with an alarm, or moves in a straight line through the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G2 X10. Y5. F100.
+    /// ```
+    /// ## Not reported
+    /// A code that only chooses the mode, and an arc whose radius is computed.
+    /// ```nc,quiet,haas-mill
+    /// G2
+    /// G3 X10. Y5. R#100
+    /// ```
+    rule "arc-without-centre" in "words" {
+        summary: "arc without centre or radius",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    for (word, code) in cx.codes().filter(|(_, code)| code.motion() == Motion::Arc) {
+        for items in &code.entry().one_of {
+            let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(letters_of(item)));
+            // Another code of the block may take the axes for itself.
+            if !cx.block().letters.intersects(letters)
+                && let Some(end) = cx.words().iter().find(|w| is_end_point(cx, code, w))
+                && cx.words_are_plain()
+                && !cx.codes().any(|(_, other)| other.entry().takes_axes)
+            {
+                report.add(finding(cx, word, end, code, letters));
+            }
+        }
+    }
+}
+
+fn is_end_point(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> bool {
+    code.reads().contains(word.letter) && cx.control().letter(word.letter).is_some_and(|entry| entry.axis)
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: LetterSet) -> Finding {
+    let entry = code.entry();
+    Finding::new(&META, cx.range(word), format!("arc without centre or radius: `{}`", cx.text(word)))
+        .label(format!("needs {}", choice(letters)))
+        .also(cx.range(end), "the end point alone does not make an arc")
+        .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
+        .help("add the centre or the radius, or write the straight move as a straight move")
+        .at_most(limit(entry.confidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G2 X10. Y5. F100.\nG3 I5.\nG2\nG17 G3 X1. R#1\n",
+            &expect![[r#"
+                1 | G2 X10. Y5. F100.
+                  | ^^ error[arc-without-centre] arc without centre or radius: `G2`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn increments_are_end_points_too() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G02 U10. W-5. F0.1\nG02 U10. W-5. R5. F0.1\n",
+            &expect![[r#"
+                1 | G02 U10. W-5. F0.1
+                  | ^^^ error[arc-without-centre] arc without centre or radius: `G02`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_list_the_choice() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G2 X10. Y5. F100.\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("here: needs `I`, `J`, `K` or `R`"), "{text}");
+    }
+}

@@ -1,0 +1,121 @@
+//! A decimal point on an address that takes whole numbers.
+
+use gcheck_controls::WordKind;
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
+
+declare_rule! {
+    /// A word that takes a whole number is written with a decimal point.
+    ///
+    /// ## Why it matters
+    /// Tool, offset, program and repeat numbers are counts. A control that wants whole numbers stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G43 H1. Z50.
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G43 H1 Z50.
+    /// ```
+    /// A control that reads whole numbers with a point:
+    /// ```nc,quiet,linuxcnc
+    /// T1.0 M6
+    /// ```
+    rule "decimal-point-on-integer" in "words" {
+        summary: "decimal point on an address that takes whole numbers",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::POINT_ON_INTEGER, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    if !cx.words_are_plain() {
+        return;
+    }
+    for word in cx.words().iter().filter(|w| w.shape.point) {
+        let general = cx.control().letter(word.letter);
+        if let Some(facts) = cx.facts(word)
+            && is_whole(facts.kind)
+            // What a word means that no code of the block reads is not known here.
+            && (facts.code.is_some() || general.is_some_and(|entry| entry.free))
+        {
+            report.add(finding(cx, word, &facts));
+        }
+    }
+}
+
+fn is_whole(kind: WordKind) -> bool {
+    matches!(kind, WordKind::Integer | WordKind::Label | WordKind::Program | WordKind::Milliseconds)
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    let text = cx.text(word);
+    // That an address is whole everywhere is better known than what it means with one code.
+    let general =
+        cx.control().letter(word.letter).filter(|entry| is_whole(entry.kind)).map(|entry| entry.confidence);
+    let confidence = general.map_or(facts.confidence, |general| general.max(facts.confidence));
+    let finding = Finding::new(&META, cx.range(word), format!("decimal point on a whole number: `{text}`"))
+        .label(facts.is)
+        .note(format!("`{}` takes a whole number here  [{}]", word.letter, facts.source))
+        .help("write the number without decimal point")
+        .at_most(limit(confidence));
+    match whole(text) {
+        // A time in milliseconds with a point may have been meant as seconds.
+        Some(whole) if facts.kind != WordKind::Milliseconds => {
+            finding.fix(Fix::safe(format!("write `{text}` as `{whole}`"), cx.range(word), whole))
+        }
+        _ => finding,
+    }
+}
+
+/// The word without point, if only zeros follow it.
+fn whole(text: &str) -> Option<&str> {
+    let (whole, decimals) = text.split_once('.')?;
+    (whole.ends_with(|c: char| c.is_ascii_digit()) && decimals.bytes().all(|b| b == b'0')).then_some(whole)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed, words};
+
+    #[test]
+    fn counts_are_whole() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T5. M6\nG43 H#1 Z50.\nG65 P9010 H1.\nG4 P1.5\n",
+            &expect![[r#"
+                1 | T5. M6
+                  | ^^^ error[decimal-point-on-integer] decimal point on a whole number: `T5.`
+                4 | G4 P1.5
+                  |    ^^^^ error[decimal-point-on-integer] decimal point on a whole number: `P1.5`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_time_that_may_be_seconds_keeps_its_point() {
+        check_rule(&RULE, "haas-mill", "G4 P1.5\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "T1.0 M6\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_fix_takes_the_point_away() {
+        let program = "G43 H01. Z50.\n";
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[r#"
+            G43 H01 Z50.
+        "#]]
+        .assert_eq(&fixed(program, &found[0]));
+        assert!(words(&found[0]).starts_with("decimal point on a whole number: `H01.`\n  here: "));
+    }
+}

@@ -1,0 +1,287 @@
+//! A value without decimal point where the control counts least increments.
+
+use gcheck_controls::{Code, Letter, LetterEntry, Motion, Unpointed, WordKind};
+use gcheck_program::Word;
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Edit, FileCx, Finding, Fix, Report, Run, Scene, Severity, limit};
+
+declare_rule! {
+    /// A length, angle or feed has no decimal point, and the control counts such numbers in its smallest steps.
+    ///
+    /// ## Why it matters
+    /// `X10` is then a hundredth of a millimetre, or a thousandth of an inch, and not ten. The tool rapids to the wrong
+    /// place, or feeds a thousand times too slow. A control can be set to read `X10` as ten; the finding says which setting
+    /// it takes for granted. One finding names all such words of a block. When much of a program is written like that, the
+    /// shop runs its controls that way, and there is one finding for the file. Values that only make sense in smallest steps,
+    /// `Z0040000` or `U250` in a roughing cycle, are left alone.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G1 X10 Y2.5 F100.
+    /// ```
+    /// ## Not reported
+    /// Nothing is nothing, with or without a point.
+    /// ```nc,quiet,haas-mill
+    /// G0 X0 Y0
+    /// G1 X10. Y2.5 F100.
+    /// ```
+    /// A control that reads numbers as they are written:
+    /// ```nc,quiet,linuxcnc
+    /// G1 X10 F100
+    /// ```
+    rule "missing-decimal-point" in "words" {
+        summary: "no decimal point where the control counts smallest steps",
+        severity: Warning,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+/// Blocks without point from which a file may count as written without points throughout.
+const HABIT: usize = 10;
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if cx.control().numbers().unpointed == Unpointed::AsWritten {
+        return;
+    }
+    let mut count = 0_usize;
+    for block in &cx.survey.unpointed {
+        cx.reread(block.clone(), |block| count += usize::from(!scaled(block).is_empty()));
+    }
+    // A slip happens here and there; a quarter of all blocks is no slip.
+    let is_habit = count >= HABIT && count * 4 > cx.survey.pointed;
+    let mut is_told = false;
+    for block in &cx.survey.unpointed {
+        cx.reread(block.clone(), |block| {
+            let words = scaled(block);
+            if words.is_empty() {
+                return;
+            }
+            let finding = finding(block, &words);
+            report.add(if is_habit { of_file(finding, count) } else { finding });
+            is_told = true;
+        });
+        if is_habit && is_told {
+            return;
+        }
+    }
+}
+
+/// The block's words whose value the missing point changes.
+fn scaled<'a>(cx: &BlockCx<'a>) -> Vec<&'a Word> {
+    if !cx.words_are_plain() {
+        return Vec::new();
+    }
+    cx.words().iter().filter(|word| is_scaled(cx, word)).collect()
+}
+
+fn is_scaled(cx: &BlockCx<'_>, word: &Word) -> bool {
+    let Some(value) = word.number().filter(|value| *value != 0.0) else { return false };
+    let Some(entry) = cx.control().letter(word.letter).filter(|entry| entry.scaled) else { return false };
+    let Some(facts) = cx.facts(word) else { return false };
+    value.is_finite()
+        && !word.shape.point
+        && matches!(facts.kind, WordKind::Length | WordKind::Angle | WordKind::Feed)
+        && (facts.code.is_some() || means_one_thing(cx, word.letter, entry))
+        && !is_deliberate(word, facts.code, entry)
+        && !matches!(setting(&cx.scene, entry), Setting::AsWritten)
+}
+
+/// Is the value one that nobody would write for whole units? `Z+0040000`, and `U250` for a quarter of a millimetre in a
+/// roughing cycle, are meant in smallest steps.
+fn is_deliberate(word: &Word, code: Option<Code<'_>>, entry: &LetterEntry) -> bool {
+    let (digits, value) = (word.shape.whole_digits, word.number().unwrap_or_default().abs());
+    let is_padded = digits >= 4 && value < 10_f64.powi(i32::from(digits) - 1);
+    let from = match code.map(Code::motion) {
+        Some(Motion::Operation) => 10.0,
+        Some(Motion::Cycle) if !entry.axis && entry.kind != WordKind::Feed => 100.0,
+        _ => 10_000.0,
+    };
+    is_padded || value >= from
+}
+
+/// Without a code in the block, a word belongs to the motion or cycle in effect: do all of them read it as a length?
+fn means_one_thing(cx: &BlockCx<'_>, letter: Letter, entry: &LetterEntry) -> bool {
+    let lasting = cx.control().codes().filter(|code| code.group().modal && code.motion() != Motion::None);
+    let mut words =
+        lasting.flat_map(|code| &code.entry().words).filter(|w| Letter::parse(&w.letter) == Some(letter));
+    entry.axis || words.all(|w| matches!(w.kind, WordKind::Length | WordKind::Angle | WordKind::Feed))
+}
+
+/// What a setting says about numbers without point.
+enum Setting {
+    /// They count as they stand.
+    AsWritten,
+    /// They count least increments; the assumption that this rests on.
+    Assumed(String),
+    /// They count least increments.
+    Certain,
+}
+
+fn setting(scene: &Scene<'_>, entry: &LetterEntry) -> Setting {
+    let numbers = scene.control().numbers();
+    let name = entry.scale_setting.as_deref().or(numbers.unpointed_setting.as_deref());
+    // The data writes the name as people say it: "Setting 162".
+    let number = name.and_then(|name| name.rsplit(' ').next()).unwrap_or_default();
+    let as_written = scene.control().setting(number).and_then(|s| s.as_written.as_deref());
+    match scene.setting(number) {
+        Some((value, _)) if as_written.is_some_and(|w| w.eq_ignore_ascii_case(value)) => Setting::AsWritten,
+        Some((_, Some(assumption))) => Setting::Assumed(assumption),
+        None if numbers.unpointed == Unpointed::ByParameter => Setting::Assumed(
+            "numbers without decimal point count smallest steps; a parameter may say otherwise".to_owned(),
+        ),
+        Some((_, None)) | None => Setting::Certain,
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, words: &[&Word]) -> Finding {
+    let numbers = cx.control().numbers();
+    let texts: Vec<String> = words.iter().map(|word| format!("`{}`", cx.text(word))).collect();
+    let (Some(word), [first, ..]) = (words.first(), texts.as_slice()) else {
+        return Finding::new(&META, cx.block_range(), "decimal point missing");
+    };
+    let named =
+        if texts.len() <= 4 { texts.join(" ") } else { format!("{first} and {} more", texts.len() - 1) };
+    let mut finding = Finding::new(&META, cx.range(word), format!("decimal point missing: {named}"))
+        .label(format!("counts {}", value(cx, word)))
+        .note(format!(
+            "a number without decimal point counts smallest steps on this control  [{}]",
+            numbers.source
+        ))
+        .help("write the decimal point")
+        .at_most(limit(numbers.confidence))
+        .at_most(if numbers.unpointed == Unpointed::ByParameter { Severity::Info } else { Severity::Error });
+    for word in words.iter().skip(1) {
+        finding = finding.also(cx.range(word), format!("counts {}", value(cx, word)));
+    }
+    for word in words {
+        if let Some(entry) = cx.control().letter(word.letter)
+            && let Setting::Assumed(assumption) = setting(&cx.scene, entry)
+            && !finding.assumptions.contains(&assumption)
+        {
+            finding = finding.assuming(assumption);
+        }
+    }
+    let insert = |word: &&Word| {
+        let end = cx.range(word).end;
+        Edit { range: end..end, text: ".".to_owned() }
+    };
+    let title = format!("write a decimal point behind {named}");
+    finding.fix(Fix { title, safe: false, edits: words.iter().map(insert).collect() })
+}
+
+/// The finding of a block, made to speak for the whole file.
+fn of_file(mut finding: Finding, count: usize) -> Finding {
+    finding.message = format!("decimal points missing in {count} blocks of the program");
+    finding.label = format!("the first of them; here a number {}", finding.label);
+    finding.labels.clear();
+    finding.fixes.clear();
+    finding.help = Some(
+        "tell the configuration that the control reads such numbers as written, or write the points"
+            .to_owned(),
+    );
+    finding
+}
+
+/// What the number means: "0.0100 inch or 0.100 mm".
+fn value(cx: &BlockCx<'_>, word: &Word) -> String {
+    let numbers = cx.control().numbers();
+    let number = word.number().unwrap_or_default();
+    match cx.facts(word).map(|facts| facts.kind) {
+        Some(WordKind::Angle) => format!("{:.3} degrees", number * numbers.least_angle),
+        Some(WordKind::Feed) => {
+            format!("{:.4} inch or {:.3} mm a minute", number * numbers.least_inch, number * numbers.least_mm)
+        }
+        _ => format!("{:.4} inch or {:.3} mm", number * numbers.least_inch, number * numbers.least_mm),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, check_rule_in, findings, fixed, words};
+    use crate::{MachineFacts, Selection};
+
+    #[test]
+    fn one_finding_a_block_names_all_words() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G0 X0 Y10 Z-2\nG4 P2\nG65 P9010 A1\nX#1 Y1.\nG43 H1\nG10 L2 P1 X-100\n",
+            &expect![[r#"
+                1 | G0 X0 Y10 Z-2
+                  |       ^^^ warning[missing-decimal-point] decimal point missing: `Y10` `Z-2`
+                6 | G10 L2 P1 X-100
+                  |           ^^^^^ warning[missing-decimal-point] decimal point missing: `X-100`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_setting_reads_numbers_as_written() {
+        let machine = MachineFacts {
+            settings: [("162".to_owned(), "on".to_owned())].into(),
+            ..MachineFacts::default()
+        };
+        let world = World { machine, ..World::default() };
+        // Setting 162 does not speak of R.
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G81 X1 Y1 Z-5 R2 F10.\n",
+            &world,
+            &expect![[r#"
+                1 | G81 X1 Y1 Z-5 R2 F10.
+                  |               ^^ warning[missing-decimal-point] decimal point missing: `R2`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn values_that_only_make_sense_in_steps_are_left_alone() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G71 U250 R500\nG71 P100 Q101 U2 W50 F0.2\nG0 Z+0040000\n",
+            &expect![[r#"
+                2 | G71 P100 Q101 U2 W50 F0.2
+                  |               ^^ warning[missing-decimal-point] decimal point missing: `U2`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_word_of_the_cycle_in_effect_may_be_a_count() {
+        check_rule(&RULE, "fanuc-mill", "X10. Y10. K5\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_program_without_points_gets_one_finding() {
+        let program = "G1 X1\n".repeat(12);
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", &program, &World::default());
+        assert_eq!(found.len(), 1);
+        expect![[r#"
+            decimal points missing in 12 blocks of the program
+              here: the first of them; here a number counts 0.0001 inch or 0.001 mm
+              note: a number without decimal point counts smallest steps on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
+              assuming: setting 3401#0 (numbers without decimal point) is least increment
+              help: tell the configuration that the control reads such numbers as written, or write the points
+        "#]]
+        .assert_eq(&words(&found[0]));
+    }
+
+    #[test]
+    fn the_fix_writes_all_points() {
+        let program = "N10 G1 X10 Y-2 F100\n";
+        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        expect![[r#"
+            N10 G1 X10. Y-2. F100.
+        "#]]
+        .assert_eq(&fixed(program, &found[0]));
+        assert!(!found[0].fixes[0].safe);
+    }
+}

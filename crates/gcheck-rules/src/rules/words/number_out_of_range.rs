@@ -1,0 +1,123 @@
+//! A value outside the range of its word.
+
+use gcheck_controls::{Code, WordEntry, WordKind};
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
+
+declare_rule! {
+    /// A value is outside the range that its word has in this block.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm when it reaches the block: an offset that does not exist, a peck of zero, a mode
+    /// number that no manual lists.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G83 X1. Y1. Z-5. R1. Q0. F100.
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G154 P120
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G154 P99
+    /// G154 P#100
+    /// ```
+    rule "number-out-of-range" in "words" {
+        summary: "value outside the range of its word",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE.union(BlockFlags::OUT_OF_RANGE), check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    let is_bound = |w: &WordEntry| w.min.is_some() || w.max.is_some() || w.above.is_some();
+    let has_bounds = |code: Code<'_>| code.entry().words.iter().any(is_bound);
+    if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE) && !cx.codes().any(|(_, code)| has_bounds(code)) {
+        return;
+    }
+    for word in cx.words() {
+        let Some(value) = word.number() else { continue };
+        // Program and sequence numbers belong to the program's structure.
+        if matches!(word.letter.ascii(), b'N' | b'O') {
+            continue;
+        }
+        let Some(facts) = cx.facts(word) else { continue };
+        let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
+        let high = facts.max.is_some_and(|max| value > max);
+        // A minus sign where none is taken is another rule's.
+        let is_sign = word.shape.minus && !facts.negative;
+        if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
+            report.add(finding(cx, word, &facts, high));
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> Finding {
+    let text = cx.text(word);
+    let side = if high { "large" } else { "small" };
+    let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
+    Finding::new(&META, cx.range(word), format!("value too {side}{of}: `{text}`"))
+        .label(facts.is)
+        .note(format!("`{}`{of} takes {}  [{}]", word.letter, range(facts), facts.source))
+        .help("correct the value")
+        .at_most(limit(facts.confidence))
+}
+
+/// "0 to 99", "1 or more", "more than 0".
+fn range(facts: &WordFacts<'_>) -> String {
+    match (facts.min, facts.above, facts.max) {
+        (Some(min), _, Some(max)) => format!("{min} to {max}"),
+        (Some(min), _, None) => format!("{min} or more"),
+        (None, Some(above), Some(max)) => format!("more than {above}, up to {max}"),
+        (None, Some(above), None) => format!("more than {above}"),
+        (None, None, Some(max)) => format!("{max} or less"),
+        (None, None, None) => "any number".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_code_of_the_block_gives_the_range() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G154 P120\nG154 P#1\nG154 P20\n",
+            &expect![[r#"
+                1 | G154 P120
+                  |      ^^^^ error[number-out-of-range] value too large for `G154`: `P120`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_peck_of_nothing() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G83 X1. Z-5. R1. Q0. F100.\nG2 X1. I1. P2 F100.\n",
+            &expect![[r#"
+                1 | G83 X1. Z-5. R1. Q0. F100.
+                  |                  ^^^ error[number-out-of-range] value too small for `G83`: `Q0.`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_name_the_range() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G154 P120\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("`P` for `G154` takes 1 to 99"), "{text}");
+    }
+}

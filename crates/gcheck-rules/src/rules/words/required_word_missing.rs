@@ -1,0 +1,114 @@
+//! A code without a word that it cannot do without.
+
+use gcheck_controls::{Code, Confidence, Letter, Need, WordEntry};
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// A code stands in a block without a word that it needs there every time.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, or takes zero for the missing value. Words that stay in effect from earlier blocks
+    /// are not meant here.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G4
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G154
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G4 P0.5
+    /// G4 P#1
+    /// ```
+    rule "required-word-missing" in "words" {
+        summary: "code without a word that it needs",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    for (word, code) in cx.codes() {
+        for needed in code.entry().words.iter().filter(|w| w.need == Need::Required) {
+            let stands =
+                Letter::parse(&needed.letter).is_none_or(|letter| cx.block().letters.contains(letter));
+            if !stands && is_certain(cx, word, code) {
+                report.add(finding(cx, word, code, needed));
+            }
+        }
+    }
+}
+
+/// Nothing hides the word: no mistake in form, and the code is no argument of a macro.
+fn is_certain(cx: &BlockCx<'_>, word: &Word, code: Code<'_>) -> bool {
+    !cx.block().flags.contains(BlockFlags::ERROR)
+        && !code.is_user()
+        && (code.entry().any_words || !cx.words_may_be_arguments())
+        // Of one code written twice, the first speaks.
+        && cx.words().iter().find(|w| w.code == word.code).is_some_and(|w| w.range() == word.range())
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, needed: &WordEntry) -> Finding {
+    let (text, letter, entry) = (cx.text(word), &needed.letter, code.entry());
+    let confidence = needed.confidence.unwrap_or(Confidence::Manual).min(entry.confidence);
+    Finding::new(&META, cx.range(word), format!("`{text}` without `{letter}`"))
+        .label(format!("needs `{letter}`: {}", needed.is))
+        .note(format!(
+            "`{}` ({}) needs `{letter}` in its block every time  [{}]",
+            entry.code, entry.title, entry.source
+        ))
+        .help(format!("add `{letter}` to the block"))
+        .at_most(limit(confidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 G4\nG4 P#1\nG4 P\nM61\n",
+            &expect![[r#"
+                1 | G90 G4
+                  |     ^^ error[required-word-missing] `G4` without `P`
+                4 | M61
+                  | ^^^ error[required-word-missing] `M61` without `Q`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn arguments_of_a_macro_need_nothing() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G65 P9010 M198\nG65 A1.\nG4\n",
+            &expect![[r#"
+                2 | G65 A1.
+                  | ^^^ error[required-word-missing] `G65` without `P`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_say_what_is_missing() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G154\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("here: needs `P`: "), "{text}");
+        assert!(text.contains("help: add `P` to the block"), "{text}");
+    }
+}

@@ -1,0 +1,93 @@
+//! A minus sign on a word that takes none.
+
+use gcheck_program::{BlockFlags, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
+
+declare_rule! {
+    /// A word that takes no minus sign has one.
+    ///
+    /// ## Why it matters
+    /// Feeds, speeds, tools and offsets count from zero. The control stops with an alarm, or reads the value as another one.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G1 X1. F-100.
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G1 X-1. F100.
+    /// ```
+    /// An argument of a macro may have any value.
+    /// ```nc,quiet,fanuc-mill
+    /// G65 P9010 F-1. H-2.
+    /// ```
+    rule "sign-not-accepted" in "words" {
+        summary: "minus sign on a word that takes none",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::NEGATIVE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    if !cx.words_are_plain() {
+        return;
+    }
+    for word in cx.words() {
+        if let Some(facts) = cx.facts(word)
+            && word.number().is_some_and(|value| value < 0.0)
+            && !facts.negative
+            && facts.min.is_none_or(|min| min >= 0.0)
+        {
+            report.add(finding(cx, word, &facts));
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    Finding::new(&META, cx.range(word), format!("minus sign on `{}`", cx.text(word)))
+        .label(facts.is)
+        .note(format!("`{}` takes no minus sign  [{}]", word.letter, facts.source))
+        .help("take the sign away, or correct the address")
+        // The sign is a matter of the address, whatever code reads it.
+        .at_most(limit(cx.control().letter(word.letter).map_or(facts.confidence, |entry| entry.confidence)))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn feeds_and_tools_count_from_zero() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G1 X-1. F-100.\nT-1 M6\nG1 F-#1\n",
+            &expect![[r#"
+                1 | G1 X-1. F-100.
+                  |         ^^^^^^ error[sign-not-accepted] minus sign on `F-100.`
+                2 | T-1 M6
+                  | ^^^ error[sign-not-accepted] minus sign on `T-1`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn nothing_below_zero_is_no_sign() {
+        check_rule(&RULE, "linuxcnc", "G1 X-1. F100.\nM3 $-1 S100\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn words_name_the_address() {
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "G1 X1. F-100.\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("note: `F` takes no minus sign"), "{text}");
+    }
+}

@@ -1,0 +1,102 @@
+//! An M code that only the machine builder can explain.
+
+use gcheck_controls::CodeNumber;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// An M code is not in the control's list, and the machine builder adds M codes of his own to this control.
+    ///
+    /// ## Why it matters
+    /// Nothing can be checked about a code of unknown meaning: whether it stops the spindle, opens a door or waits. Declared
+    /// in the configuration, it has a name in hovers and listings, and this rule is quiet. Each code is reported once a file.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// M244
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// M8
+    /// G65 P9010 M244.
+    /// ```
+    /// A control whose M codes are all known: there `unknown-code` speaks.
+    /// ```nc,quiet,linuxcnc
+    /// M244
+    /// ```
+    rule "undeclared-m-code" in "words" {
+        summary: "M code of the machine builder that the configuration does not declare",
+        severity: Info,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    if !cx.control().code_list().builder_m_codes {
+        return;
+    }
+    for (number, range) in &cx.survey.codes {
+        if number.letter() != b'M' || cx.control().code(*number).is_some() {
+            continue;
+        }
+        let mut is_argument = false;
+        cx.reread(cx.line_around(range.clone()), |block| {
+            is_argument |= block.block_range().contains(&range.start) && block.words_may_be_arguments();
+        });
+        if !is_argument {
+            report.add(finding(*number, range.clone()));
+        }
+    }
+}
+
+fn finding(number: CodeNumber, range: std::ops::Range<u32>) -> Finding {
+    Finding::new(&META, range, format!("M code `{number}` is not declared"))
+        .label("a code of the machine builder, if the machine has it")
+        .note("machine builders add M codes of their own to this control; the machine's manual lists them")
+        .help(format!("declare `{number}` under `[codes]` in the configuration"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn each_code_is_reported_once() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "M244\nM8\nM244\nM245\n",
+            &expect![[r#"
+                1 | M244
+                  | ^^^^ info[undeclared-m-code] M code `M244` is not declared
+                4 | M245
+                  | ^^^^ info[undeclared-m-code] M code `M245` is not declared
+            "#]],
+        );
+    }
+
+    #[test]
+    fn arguments_of_a_macro_are_no_codes() {
+        check_rule(&RULE, "fanuc-mill", "G65 P9010 M244. A#1\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "M244\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn words_are_for_the_machinist() {
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", "M244\n", &World::default());
+        expect![[r#"
+            M code `M244` is not declared
+              here: a code of the machine builder, if the machine has it
+              note: machine builders add M codes of their own to this control; the machine's manual lists them
+              help: declare `M244` under `[codes]` in the configuration
+        "#]]
+        .assert_eq(&words(&found[0]));
+    }
+}

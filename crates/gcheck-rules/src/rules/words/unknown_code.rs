@@ -1,0 +1,185 @@
+//! A code that the control does not have.
+
+use gcheck_controls::{CodeNumber, Confidence, Letter, load, names};
+use gcheck_program::{BlockFlags, Value, Word};
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+
+declare_rule! {
+    /// A G or M code is not in the control's list.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm at the block. Most often the program was posted for another control, and then codes
+    /// that both have may mean different things as well.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G154 P2
+    /// ```
+    /// A number that can be no code at all:
+    /// ```nc,reported,haas-mill
+    /// G54.25
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G154 P2
+    /// ```
+    /// M codes where the machine builder adds his own; `undeclared-m-code` lists them.
+    /// ```nc,quiet,fanuc-mill
+    /// M244
+    /// ```
+    rule "unknown-code" in "words" {
+        summary: "code that the control does not have",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::UNKNOWN_CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    if cx.block().flags.contains(BlockFlags::ERROR) || cx.words_may_be_arguments() {
+        return;
+    }
+    let builder = cx.control().code_list().builder_m_codes;
+    for word in cx.code_words() {
+        let is_m = word.letter == Letter::of('M');
+        if !word.code.is_some() && matches!(word.value, Value::Number(_)) && !(is_m && builder) {
+            report.add(finding(cx, word));
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
+    let text = cx.text(word);
+    let list = cx.control().code_list();
+    let is_g = word.letter == Letter::of('G');
+    let number = word
+        .number()
+        .filter(|_| word.shape.decimals < 2)
+        .and_then(|n| CodeNumber::from_value(word.letter.ascii(), n));
+    let finding = Finding::new(&META, cx.range(word), format!("unknown code `{text}`"));
+    let Some(number) = number else {
+        return finding
+            .label("no control has a code of this form")
+            .note("a code is a number from 0, with one decimal at most")
+            .help("correct the number");
+    };
+    let control = cx.control();
+    let finding = finding
+        .note(format!("{} has no `{number}`  [{}]", control.title(), list.source))
+        .at_most(limit(if is_g { list.g_codes } else { list.m_codes }));
+    let finding = if cx.scene.control_is_guessed {
+        finding
+            .assuming(format!("the program is written for {}", control.title()))
+            .at_most(limit(Confidence::Assumed))
+    } else {
+        finding
+    };
+    if list.depends_on_setting(number) {
+        return finding
+            .label("not in the set of codes that is assumed")
+            .note("another setting of the control chooses a set of codes that has it")
+            .help("check which set of codes the machine is set to")
+            .at_most(Severity::Info);
+    }
+    let elsewhere = elsewhere(cx, number);
+    match elsewhere.first() {
+        Some((title, meaning)) => finding
+            .label(format!("on {title}: {meaning}"))
+            .help("write what this control has for it, or choose the control that the program is written for")
+            .note(format!("a code of the shop's own can be declared under `[codes]`: `{number}`")),
+        None => finding
+            .label("no such code")
+            .help(format!("correct the code, or declare `{number}` under `[codes]` if it is the shop's own")),
+    }
+}
+
+/// Controls that are known to have the code, with its meaning there.
+fn elsewhere(cx: &BlockCx<'_>, number: CodeNumber) -> Vec<(String, String)> {
+    let others =
+        names().iter().filter(|name| **name != cx.control().name()).filter_map(|name| load(name).ok());
+    let known = others.filter_map(|control| {
+        let entry = control.code(number)?.entry();
+        let meaning = (entry.confidence == Confidence::Manual).then(|| entry.title.clone())?;
+        Some((control.machine() != cx.control().machine(), control.title().to_owned(), meaning))
+    });
+    let mut known: Vec<_> = known.collect();
+    // A code of the same kind of machine explains more.
+    known.sort_by_key(|(other_machine, ..)| *other_machine);
+    known.into_iter().map(|(_, title, meaning)| (title, meaning)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+    use gcheck_controls::{CodeNumber, UserCode};
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn each_unknown_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G54.25 G154 P2\nM200\nG#1 X1\n",
+            &expect![[r#"
+                1 | G54.25 G154 P2
+                  | ^^^^^^ error[unknown-code] unknown code `G54.25`
+                1 | G54.25 G154 P2
+                  |        ^^^^ error[unknown-code] unknown code `G154`
+                2 | M200
+                  | ^^^^ warning[unknown-code] unknown code `M200`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn builders_and_macros_have_codes_of_their_own() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "M244\nG65 P9010 M99.5\nG301 X1.\n",
+            &expect![[r#"
+                3 | G301 X1.
+                  | ^^^^ warning[unknown-code] unknown code `G301`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn another_set_of_codes_may_have_it() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G91 G1 X1.\n",
+            &expect![[r#"
+                1 | G91 G1 X1.
+                  | ^^^ info[unknown-code] unknown code `G91`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_declared_code_is_known() {
+        let user = UserCode { number: CodeNumber::g(154), title: "our offsets".to_owned(), alias: None };
+        let control = gcheck_controls::load("linuxcnc").unwrap().with_user_codes(&[user]);
+        assert!(control.code(CodeNumber::g(154)).unwrap().is_user());
+    }
+
+    #[test]
+    fn the_control_that_has_the_code_is_named() {
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "G154 P2\n", &World::default());
+        expect![[r#"
+            unknown code `G154`
+              here: on Haas mill (classic control and NGC): extra work offsets P1 to P99
+              note: LinuxCNC has no `G154`  [LCNC-SRC; RS274-2.9]
+              note: a code of the shop's own can be declared under `[codes]`: `G154`
+              help: write what this control has for it, or choose the control that the program is written for
+        "#]]
+        .assert_eq(&words(&found[0]));
+    }
+}

@@ -1,0 +1,112 @@
+//! Words that a code does not take together.
+
+use gcheck_controls::Code;
+use gcheck_program::{BlockFlags, Word};
+
+use crate::contract::letters_of;
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// Two words of a block say the same thing in different ways, and the code takes only one of them.
+    ///
+    /// ## Why it matters
+    /// A radius and a centre may contradict each other. The control stops with an alarm, or follows one of the two.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G2 X10. Y0. I5. R5. F100.
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G2 X10. Y0. I5. J0. F100.
+    /// ```
+    rule "words-exclude-each-other" in "words" {
+        summary: "words that a code does not take together",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    for (_, code) in cx.codes() {
+        for items in &code.entry().not_together {
+            let mut standing = items.iter().filter_map(|item| cx.first_of(letters_of(item)));
+            if let Some(one) = standing.next()
+                && let Some(other) = standing.next()
+                && cx.words_are_plain()
+            {
+                let (first, second) =
+                    if one.range().start < other.range().start { (one, other) } else { (other, one) };
+                report.add(finding(cx, code, first, second));
+            }
+        }
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Finding {
+    let entry = code.entry();
+    let (a, b) = (first.letter, second.letter);
+    Finding::new(&META, cx.range(second), format!("`{a}` and `{b}` together with `{}`", cx.written(code)))
+        .label(meaning(code, second))
+        .also(cx.range(first), meaning(code, first))
+        .note(format!(
+            "`{}` ({}) takes `{a}` or `{b}`, not both  [{}]",
+            entry.code, entry.title, entry.source
+        ))
+        .help(format!("keep `{a}` or `{b}`"))
+        .at_most(limit(entry.confidence))
+}
+
+fn meaning<'a>(code: Code<'a>, word: &Word) -> &'a str {
+    let mut words = code.entry().words.iter();
+    words
+        .find(|w| gcheck_controls::Letter::parse(&w.letter) == Some(word.letter))
+        .map_or("", |w| w.is.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn radius_and_centre() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G2 X10. Y0. R#1 I5. F100.\nG2 X10. I5. J0.\nM66 P1 E0 L0\n",
+            &expect![[r#"
+                1 | G2 X10. Y0. R#1 I5. F100.
+                  |                 ^^^ error[words-exclude-each-other] `R` and `I` together with `G2`
+                3 | M66 P1 E0 L0
+                  |        ^^ error[words-exclude-each-other] `P` and `E` together with `M66`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn another_control_another_pair() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G83 Z-1. Q0.1 I0.2 F0.1\nG83 Z-1. I0.2 J0.1 K0.05 F0.1\n",
+            &expect![[r#"
+                1 | G83 Z-1. Q0.1 I0.2 F0.1
+                  |               ^^^^ error[words-exclude-each-other] `Q` and `I` together with `G83`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_name_both() {
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "G2 X10. I5. R5.\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("takes `I` or `R`, not both"), "{text}");
+    }
+}

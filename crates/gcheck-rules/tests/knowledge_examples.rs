@@ -1,0 +1,54 @@
+//! The knowledge base judged by the rules: every code's example is a block that its own control takes.
+
+use gcheck_controls::Control;
+use gcheck_program::Dialect;
+use gcheck_rules::{Job, MachineFacts, NoPrograms, Scene, Selection, Severity, Tier, all, check};
+use gcheck_syntax::SourceText;
+
+/// Rules that look at one block. Programs and labels that an example names do not exist, so rules about whole programs
+/// have nothing to say here.
+fn rules_about_blocks() -> Selection {
+    let mut selection = Selection::none();
+    for rule in
+        all().iter().filter(|r| r.meta.recommended && matches!(r.meta.tier, Tier::Token | Tier::Block))
+    {
+        let known = selection.enable(rule.meta.id);
+        assert!(known.is_ok(), "a rule is known by its id");
+    }
+    selection
+}
+
+/// Findings on a program, as lines.
+fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<String> {
+    let dialect = Dialect::new(control);
+    let machine = MachineFacts::default();
+    let scene =
+        Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+    let source = SourceText::from(program);
+    let outcome = check(&Job { source: &source, scene, selection, suppressions: false });
+    let at_least_info = outcome.findings.iter().filter(|f| f.severity >= Severity::Info);
+    at_least_info.map(|f| format!("{}[{}] {}", f.severity, f.rule.id, f.message)).collect()
+}
+
+#[test]
+fn examples_of_codes_give_no_finding() {
+    let selection = rules_about_blocks();
+    let mut wrong = Vec::new();
+    for name in gcheck_controls::names() {
+        let control = gcheck_controls::load(name).unwrap();
+        for code in control.codes() {
+            let entry = code.entry();
+            let mut program = entry.setup.join("\n");
+            program.push('\n');
+            program.push_str(&entry.example);
+            program.push('\n');
+            let found = findings(&control, &selection, &program);
+            wrong.extend(
+                found.iter().map(|f| {
+                    format!("{name} {}: `{}`: {f}", entry.code, program.trim().replace('\n', " | "))
+                }),
+            );
+        }
+    }
+    assert!(wrong.is_empty(), "{} findings:\n{}", wrong.len(), wrong.join("\n"));
+}

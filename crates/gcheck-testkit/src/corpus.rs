@@ -1,0 +1,58 @@
+//! The real-program corpus: programs that nobody of the project wrote, for measuring only.
+//!
+//! Knows: where to find it and how its index reads. Must not know: what is measured. Nothing of it is ever copied into the
+//! project.
+
+use std::path::{Path, PathBuf};
+use std::{env, fs};
+
+/// One program of the corpus.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CorpusProgram {
+    /// Path inside the corpus, with forward slashes.
+    pub name: String,
+    /// Path on disk.
+    pub path: PathBuf,
+    /// The control that the index guesses, by our names where we have it.
+    pub control: String,
+}
+
+/// The folder of the corpus.
+///
+/// `GCHECK_CORPUS` names it. Without that, a `corpus` folder with an `index.tsv` that stands next to the checkout, directly
+/// or one folder down, is taken.
+pub fn folder() -> Option<PathBuf> {
+    if let Some(named) = env::var_os("GCHECK_CORPUS") {
+        return Some(PathBuf::from(named)).filter(|f| f.join("index.tsv").is_file());
+    }
+    let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2)?;
+    let mut beside: Vec<PathBuf> =
+        fs::read_dir(checkout.parent()?).ok()?.flatten().map(|entry| entry.path()).collect();
+    beside.sort();
+    let candidates = beside.into_iter().flat_map(|folder| [folder.clone(), folder.join("corpus")]);
+    candidates.into_iter().find(|f| f.ends_with("corpus") && f.join("index.tsv").is_file())
+}
+
+/// The programs of the corpus (not its expected outputs and tool tables), in the order of the index.
+///
+/// `None`, with a line on standard error that says so, where there is no corpus.
+#[expect(clippy::print_stderr, reason = "a test that is skipped must say so where people look")]
+pub fn programs() -> Option<Vec<CorpusProgram>> {
+    let Some(folder) = folder() else {
+        eprintln!("skipped: no real-program corpus here (GCHECK_CORPUS)");
+        return None;
+    };
+    let index = fs::read_to_string(folder.join("index.tsv")).ok()?;
+    let program = |line: &str| {
+        let columns: Vec<&str> = line.split('\t').collect();
+        match columns.as_slice() {
+            [name, _, _, _, _, "program", control, ..] => Some(CorpusProgram {
+                name: (*name).to_owned(),
+                path: folder.join(name),
+                control: (*control).to_owned(),
+            }),
+            _ => None,
+        }
+    };
+    Some(index.lines().filter_map(program).collect())
+}

@@ -1,0 +1,80 @@
+//! Throughput of the front end, called directly: tokens, blocks, trees.
+//!
+//! Knows: which functions the path of the data runs through. Must not know: the command line.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use gcheck_program::{Dialect, lower};
+use gcheck_syntax::{count_tokens, cut, parse};
+use gcheck_testkit::inputs;
+
+use super::row::{Limit, Row};
+
+/// Fewer lines than the command-line rows use: throughput does not depend on length.
+const LINES: usize = 200_000;
+const RUNS: usize = 7;
+
+/// The control on whose behalf text is read.
+pub(super) const CONTROL: &str = "generic-mill";
+
+/// Measures.
+pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
+    let control = gcheck_controls::load(CONTROL)?;
+    let dialect = Dialect::new(&control);
+    let surfacing = inputs::surfacing(LINES);
+    let macros = inputs::macros(LINES);
+    let throughput = |name: &str, text: &str, limit, work: &dyn Fn(&str)| {
+        let seconds = best(|| work(text));
+        #[expect(clippy::cast_precision_loss, reason = "a few million bytes")]
+        let megabytes = text.len() as f64 / 1e6;
+        Row {
+            name: name.to_owned(),
+            measured: Some(megabytes / seconds),
+            limit: Limit::AtLeast(limit),
+            unit: "MB/s",
+        }
+    };
+    let tokens = |text: &str| {
+        black_box(count_tokens(text, false));
+    };
+    let blocks = |text: &str| {
+        for chunk in cut(text) {
+            black_box(lower(text.get(chunk).unwrap_or_default(), &dialect));
+        }
+    };
+    let mut rows = vec![
+        throughput("tokens, surfacing", &surfacing, 240.0, &tokens),
+        throughput("tokens and blocks, surfacing", &surfacing, 120.0, &blocks),
+        throughput("tokens and blocks, macros", &macros, 40.0, &blocks),
+    ];
+    for (name, text) in [("tree of one chunk, surfacing", &surfacing), ("tree of one chunk, macros", &macros)]
+    {
+        // The slowest of the first chunks, because a user waits for whichever is being edited. The limit leaves one
+        // millisecond of the five that a keystroke may take in a large file.
+        let slowest = cut(text)
+            .into_iter()
+            .take(40)
+            .map(|chunk| {
+                let chunk = text.get(chunk).unwrap_or_default();
+                best(|| {
+                    black_box(parse(chunk, dialect.profile()));
+                })
+            })
+            .fold(0.0, f64::max);
+        let measured = Some(slowest * 1e3);
+        rows.push(Row { name: name.to_owned(), measured, limit: Limit::AtMost(4.0), unit: "ms" });
+    }
+    Ok(rows)
+}
+
+/// Seconds of the fastest of several runs: the one that was disturbed least.
+fn best(mut work: impl FnMut()) -> f64 {
+    (0..RUNS)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_secs_f64()
+        })
+        .fold(f64::INFINITY, f64::min)
+}
