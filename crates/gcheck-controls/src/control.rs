@@ -75,7 +75,7 @@ pub(crate) struct CodeFacts {
 }
 
 /// A code that the user's configuration declares: a shop's M code or an alias of a macro.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct UserCode {
     /// The code.
     pub number: CodeNumber,

@@ -22,7 +22,7 @@ pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use letter_set::{Letter, LetterSet};
-pub use loader::{LoadError, load, names};
+pub use loader::{LoadError, fallback, load, names};
 pub use schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FunctionEntry, Handling, Hint,
     LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules, Reference, Semicolon, SettingEntry,

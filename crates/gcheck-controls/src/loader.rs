@@ -60,6 +60,17 @@ pub fn names() -> &'static [&'static str] {
     &NAMES
 }
 
+static FALLBACK: LazyLock<&'static str> = LazyLock::new(|| {
+    let is_fallback = |name: &&&'static str| source(name).and_then(control_file).is_ok_and(|c| c.fallback);
+    // A test proves that one control says so; without it the first would do.
+    names().iter().find(is_fallback).or_else(|| names().first()).copied().unwrap_or_default()
+});
+
+/// The control for a program that shows nothing of its own: a common dialect about which little is taken for granted.
+pub fn fallback() -> &'static str {
+    &FALLBACK
+}
+
 /// The control of a name, loaded once per process.
 ///
 /// # Errors

@@ -14,6 +14,9 @@ pub(crate) struct ControlFile {
     /// A base control that is never chosen by a user (`haas`, `fanuc`).
     #[serde(default, rename = "abstract")]
     pub(crate) is_abstract: bool,
+    /// Taken for a program that shows nothing of its control: exactly one control says so.
+    #[serde(default)]
+    pub(crate) fallback: bool,
     #[serde(default)]
     pub(crate) base: Option<String>,
     #[serde(default)]

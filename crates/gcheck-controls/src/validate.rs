@@ -205,6 +205,13 @@ impl Problems<'_> {
 #[cfg(test)]
 mod tests {
     #[test]
+    fn one_control_is_the_fallback() {
+        let fallbacks = crate::loader::all_control_files().filter(|c| c.fallback).count();
+        assert_eq!(fallbacks, 1);
+        assert!(crate::names().contains(&crate::fallback()));
+    }
+
+    #[test]
     fn every_control_is_consistent() {
         let mut wrong = Vec::new();
         for name in crate::names() {

@@ -25,6 +25,9 @@ pub fn summary_line(summary: &Summary) -> String {
     let files = count(summary.files, "file", "files");
     let mut line = format!("{found} in {files} ({})", count(summary.lines, "line", "lines"));
 
+    if summary.omitted > 0 {
+        line = format!("{line}; {} of them counted but not shown", number(summary.omitted));
+    }
     let mut silent = Vec::new();
     if summary.suppressed > 0 {
         silent.push(format!("{} suppressed", number(summary.suppressed)));
@@ -50,8 +53,10 @@ pub fn summary_line(summary: &Summary) -> String {
 /// Findings per rule, the most frequent first: count, id, what the rule is about. Empty without findings.
 pub fn statistics(report: &Report) -> String {
     let mut rules: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
-    for (_, finding) in report.findings() {
-        rules.entry(finding.rule.id).or_insert((0, finding.rule.summary)).0 += 1;
+    let kept = report.findings().map(|(_, finding)| (finding.rule, 1));
+    let omitted = report.files().iter().flat_map(|file| file.omitted.iter().map(|(rule, _, count)| (*rule, *count)));
+    for (rule, count) in kept.chain(omitted) {
+        rules.entry(rule.id).or_insert((0, rule.summary)).0 += count;
     }
     let mut rows: Vec<(usize, &str, &str)> =
         rules.into_iter().map(|(id, (n, about))| (n, id, about)).collect();

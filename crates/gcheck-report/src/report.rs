@@ -22,6 +22,8 @@ pub struct FileReport {
     pub control: ControlChoice,
     /// What is said about it, with severities as configured and without those suppressed or in the baseline.
     pub findings: Vec<Finding>,
+    /// Findings beyond those kept, by rule and severity: counted, not shown.
+    pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
     /// Lines read.
     pub lines: usize,
     /// Findings that a comment of the program suppressed.
@@ -59,6 +61,7 @@ pub(crate) struct File {
     pub(crate) source: Source,
     pub(crate) control: ControlChoice,
     pub(crate) findings: Vec<Finding>,
+    pub(crate) omitted: Vec<(&'static RuleMeta, Severity, usize)>,
     lines: usize,
     suppressed: usize,
     baseline: usize,
@@ -80,6 +83,8 @@ pub struct Summary {
     pub infos: usize,
     /// Findings of severity hint.
     pub hints: usize,
+    /// Of all these, findings that are counted and not shown: a file keeps a bounded number.
+    pub omitted: usize,
     /// Findings suppressed by comments.
     pub suppressed: usize,
     /// Findings that the baseline knows.
@@ -120,12 +125,15 @@ impl Report {
             if file.out_of_fuel {
                 sum.out_of_fuel.push(file.path.clone());
             }
-            for finding in &file.findings {
-                match finding.severity {
-                    Severity::Error => sum.errors += 1,
-                    Severity::Warning => sum.warnings += 1,
-                    Severity::Info => sum.infos += 1,
-                    Severity::Hint => sum.hints += 1,
+            sum.omitted += file.omitted.iter().map(|(_, _, count)| count).sum::<usize>();
+            let kept = file.findings.iter().map(|finding| (finding.severity, 1));
+            let omitted = file.omitted.iter().map(|(_, severity, count)| (*severity, *count));
+            for (severity, count) in kept.chain(omitted) {
+                match severity {
+                    Severity::Error => sum.errors += count,
+                    Severity::Warning => sum.warnings += count,
+                    Severity::Info => sum.infos += count,
+                    Severity::Hint => sum.hints += count,
                 }
             }
         }
@@ -160,12 +168,12 @@ impl Report {
 
 impl File {
     fn new(file: FileReport) -> Self {
-        let FileReport { path, text, control, mut findings, lines, suppressed, baseline, out_of_fuel } = file;
+        let FileReport { path, text, control, mut findings, omitted, lines, suppressed, baseline, out_of_fuel } = file;
         findings.sort_by(|a, b| {
             let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
             key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
         });
-        Self { path, source: Source::new(text), control, findings, lines, suppressed, baseline, out_of_fuel }
+        Self { path, source: Source::new(text), control, findings, omitted, lines, suppressed, baseline, out_of_fuel }
     }
 
     /// One for each finding.

@@ -47,6 +47,7 @@ pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport
             because: Some("(ACME)".to_owned()),
         },
         findings,
+        omitted: Vec::new(),
         lines,
         suppressed: 0,
         baseline: 0,

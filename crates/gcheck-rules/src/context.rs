@@ -138,7 +138,7 @@ pub fn limit(confidence: Confidence) -> Severity {
 ///
 /// Rules may compare every word with every other. There are 32 addresses, so a block with more words than this repeats them
 /// all and is reported for that; a line of a million characters must not cost a million squared.
-pub const MAX_WORDS: usize = 256;
+pub(crate) const MAX_WORDS: usize = 256;
 
 /// One block, as a rule of the token or block tier sees it.
 pub struct BlockCx<'a> {
@@ -192,7 +192,8 @@ impl<'a> BlockCx<'a> {
         self.table
     }
 
-    /// The block's words in text order, statements not included; the first [`MAX_WORDS`] of them.
+    /// The block's words in text order, statements not included; the first 256 of them, which is more
+    /// than a block can use.
     pub fn words(&self) -> &'a [Word] {
         let words = self.table.words(self.block);
         words.get(..MAX_WORDS).unwrap_or(words)

@@ -85,12 +85,12 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         };
         if !known(number) && !packed.is_some_and(known) {
             told.insert(number);
-            report.add(finding(cx, call, code, packed.unwrap_or(number)));
+            report.add(finding(call, code, packed.unwrap_or(number)));
         }
     }
 }
 
-fn finding(cx: &FileCx<'_>, call: &Call, code: Code<'_>, number: u32) -> Finding {
+fn finding(call: &Call, code: Code<'_>, number: u32) -> Finding {
     Finding::new(&META, call.range.clone(), format!("called program `O{number}` is not here"))
         .label(format!("`{}` calls `O{number}`", code.entry().code))
         .note("looked for in this file and in the folders that gcheck was given")

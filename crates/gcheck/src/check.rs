@@ -1,0 +1,191 @@
+//! `gcheck check`: from paths to a report and an exit code.
+//!
+//! Knows: the order of the work, what runs in parallel, what ends in which exit code. Must not know: rules or formats.
+
+mod job;
+mod progress;
+mod settings_page;
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gcheck_report::{FileReport, Format, Report, Summary};
+use gcheck_rules::Selection;
+use rayon::prelude::*;
+
+use crate::args::{CheckOptions, FailOn, Global};
+use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control};
+use crate::discovery::{self, Found};
+use crate::{Problem, output, paths, reading};
+use job::{Bench, Target};
+use progress::Progress;
+
+/// Standard input among the paths.
+const STANDARD_INPUT: &str = "-";
+
+/// Runs the command; the exit code is its result.
+pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem> {
+    if let Some(name) = &global.control {
+        validate_control(name).map_err(Problem::new)?;
+    }
+    let wishes = RuleWishes {
+        select: options.select.clone(),
+        ignore: options.ignore.clone(),
+        extend_select: options.extend_select.clone(),
+    };
+    for selector in wishes.select.iter().chain(&wishes.ignore).chain(&wishes.extend_select) {
+        Selection::none().enable(selector).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    }
+    let mut configs = Configs::new(&global.config, global.isolated)?;
+    let (targets, mut problems) = targets(options, &mut configs);
+    if options.show_files {
+        let names: String = targets.iter().map(|target| format!("{}\n", target.shown)).collect();
+        output::print(&names)?;
+        return Ok(finish(&problems, 0));
+    }
+    let bench = Bench::new(global, options, wishes);
+    if options.show_settings {
+        output::print(&settings_page::page(&bench, &targets, &mut problems))?;
+        return Ok(finish(&problems, 0));
+    }
+    let reports = check_all(&bench, &targets, global, options, &mut problems)?;
+    let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
+    write(global, options, &report)?;
+    let summary = report.summary();
+    Ok(finish(&problems, u8::from(fails(&summary, options))))
+}
+
+/// Says the problems, each once, and gives the exit code.
+fn finish(problems: &[Problem], code: u8) -> u8 {
+    let mut problems: Vec<&Problem> = problems.iter().collect();
+    problems.sort();
+    problems.dedup();
+    for problem in &problems {
+        crate::report(problem);
+    }
+    if problems.is_empty() { code } else { crate::FAILED }
+}
+
+/// What is to be checked, each file with its configuration.
+fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<Problem>) {
+    let is_standard_input = |path: &PathBuf| path.as_os_str() == STANDARD_INPUT;
+    let given: Vec<PathBuf> = options.paths.iter().filter(|path| !is_standard_input(path)).cloned().collect();
+    let Found { files, mut problems } = discovery::find(&given, configs);
+    let mut targets = Vec::with_capacity(files.len() + 1);
+    let mut add = |path: PathBuf, is_standard_input| match configs.of_file(&path) {
+        Ok(config) => targets.push(Target { shown: paths::shown(&path), path, is_standard_input, config }),
+        Err(problem) => problems.push(problem),
+    };
+    if options.paths.iter().any(is_standard_input) {
+        add(options.stdin_filename.clone().unwrap_or_else(|| PathBuf::from("stdin")), true);
+    }
+    for file in files {
+        add(file, false);
+    }
+    (targets, problems)
+}
+
+/// Checks the files, several at a time; the order of the results is that of the files.
+fn check_all(
+    bench: &Bench<'_>,
+    targets: &[Target],
+    global: &Global,
+    options: &CheckOptions,
+    problems: &mut Vec<Problem>,
+) -> Result<Vec<FileReport>, Problem> {
+    let progress = Progress::new(targets.len(), global.quiet);
+    let work = || -> Vec<Result<FileReport, Problem>> {
+        targets.par_iter().map(|target| progress.counting(|| job::guarded(bench, target))).collect()
+    };
+    let results = match (options.jobs, targets.len()) {
+        // Threads cost more than one file takes.
+        (_, 0 | 1) => targets.iter().map(|target| job::guarded(bench, target)).collect(),
+        (None, _) => work(),
+        (Some(jobs), _) => rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.max(1))
+            .build()
+            .map_err(|error| Problem::new(format!("cannot start {jobs} threads: {error}")))?
+            .install(work),
+    };
+    progress.end();
+    let mut reports = Vec::with_capacity(results.len());
+    for result in results {
+        match result {
+            Ok(report) => reports.push(report),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    Ok(reports)
+}
+
+fn fails(summary: &Summary, options: &CheckOptions) -> bool {
+    let at_or_above = match options.fail_on {
+        FailOn::Error => summary.errors,
+        FailOn::Warning => summary.errors + summary.warnings,
+        FailOn::Info => summary.errors + summary.warnings + summary.infos,
+        FailOn::Never => 0,
+    };
+    at_or_above > 0 || options.max_warnings.is_some_and(|most| summary.warnings > most)
+}
+
+/// Findings to standard output or the file; what is for people to read besides, where it does not disturb.
+fn write(global: &Global, options: &CheckOptions, report: &Report) -> Result<(), Problem> {
+    let format = options.output_format;
+    if format.is_text() && !global.quiet {
+        say(&gcheck_report::control_lines(report).join("\n"));
+    }
+    match &options.output_file {
+        Some(file) => {
+            output::to_file(file, |out| gcheck_report::write(report, format, gcheck_report::Colour::Plain, out))?;
+        }
+        None => {
+            let colour = output::colour(global.color);
+            output::to_stdout(|out| gcheck_report::write(report, format, colour, out))?;
+        }
+    }
+    let mut closing = String::new();
+    if options.statistics {
+        closing.push_str(&gcheck_report::statistics(report));
+    }
+    if !global.quiet {
+        closing.push_str(&closing_line(report));
+    }
+    // Only the format for people has room for a closing line; a parser reads the others.
+    if format == Format::Full && options.output_file.is_none() {
+        output::print(&closing)?;
+    } else if format.is_text() || options.statistics {
+        say(&closing);
+    }
+    Ok(())
+}
+
+fn closing_line(report: &Report) -> String {
+    let summary = report.summary();
+    if summary.files == 0 {
+        return "no programs found\n".to_owned();
+    }
+    format!("{}\n", gcheck_report::summary_line(&summary))
+}
+
+/// Says something beside the findings, on standard error.
+fn say(text: &str) {
+    let text = text.trim_end();
+    if !text.is_empty() {
+        // With standard error gone there is nobody left to tell.
+        let _ = writeln!(std::io::stderr(), "{text}");
+    }
+}
+
+/// Reads a target.
+fn read(target: &Target) -> Result<gcheck_syntax::SourceText, Problem> {
+    if target.is_standard_input { reading::standard_input(&target.path) } else { reading::file(&target.path) }
+}
+
+/// The configuration's choice of control with the file that makes it.
+fn configured<'c>(control: Option<&'c str>, from: Option<&'c Path>) -> Option<(&'c str, Option<&'c Path>)> {
+    control.map(|name| (name, from))
+}
+
+/// A configuration shared by the files it rules over.
+type SharedConfig = Arc<Config>;

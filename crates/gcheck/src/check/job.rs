@@ -1,0 +1,125 @@
+//! Checking one file.
+//!
+//! Knows: how configuration, control and rules come together for a file. Must not know: other files, output.
+
+use std::any::Any;
+use std::collections::HashMap;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use gcheck_controls::{Control, UserCode};
+use gcheck_program::Dialect;
+use gcheck_report::{ControlChoice, ControlSource, FileReport};
+use gcheck_rules::{Job, Scene, Selection, check};
+use gcheck_syntax::SourceText;
+
+use super::{SharedConfig, configured, read};
+use crate::Problem;
+use crate::args::{CheckOptions, Global};
+use crate::config::{FileSettings, RuleWishes, unknown_rule};
+use crate::control_choice::choose;
+use crate::programs::{ProgramFolders, Reachable};
+
+/// A file that is to be checked.
+#[derive(Debug)]
+pub(super) struct Target {
+    pub(super) path: PathBuf,
+    /// As messages call it.
+    pub(super) shown: String,
+    pub(super) is_standard_input: bool,
+    pub(super) config: SharedConfig,
+}
+
+/// What all files of a run share.
+pub(super) struct Bench<'o> {
+    pub(super) control: Option<&'o str>,
+    pub(super) wishes: RuleWishes,
+    suppressions: bool,
+    folders: ProgramFolders,
+    /// Controls with the codes that configurations add to them.
+    controls: Mutex<HashMap<(String, Vec<UserCode>), Arc<Control>>>,
+}
+
+impl<'o> Bench<'o> {
+    pub(super) fn new(global: &'o Global, options: &CheckOptions, wishes: RuleWishes) -> Self {
+        Self {
+            control: global.control.as_deref(),
+            wishes,
+            suppressions: !options.no_suppressions,
+            folders: ProgramFolders::default(),
+            controls: Mutex::default(),
+        }
+    }
+
+    /// A control with a shop's own codes; made once for each set of codes.
+    fn control_of(&self, name: &str, codes: &[UserCode]) -> Result<Arc<Control>, Problem> {
+        let plain = gcheck_controls::load(name).map_err(|error| Problem::new(error.to_string()))?;
+        if codes.is_empty() {
+            return Ok(plain);
+        }
+        let key = (name.to_owned(), codes.to_vec());
+        let mut controls = self.controls.lock().unwrap_or_else(PoisonError::into_inner);
+        Ok(Arc::clone(controls.entry(key).or_insert_with(|| Arc::new(plain.with_user_codes(codes)))))
+    }
+}
+
+/// What is in force for a file, and the file.
+pub(super) struct Prepared {
+    pub(super) source: SourceText,
+    pub(super) settings: FileSettings,
+    pub(super) choice: ControlChoice,
+    pub(super) selection: Selection,
+}
+
+/// Reads a file and finds out what is in force for it.
+pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Problem> {
+    let source = read(target)?;
+    let settings = target.config.settings(&target.path);
+    let from = configured(settings.control.as_deref(), settings.control_from.as_deref());
+    let choice = choose(&target.path, &source, bench.control, from)?;
+    let selection = settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    Ok(Prepared { source, settings, choice, selection })
+}
+
+/// Checks a file; a panic is contained, so that the other files are still checked.
+pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
+    panic::catch_unwind(AssertUnwindSafe(|| check_file(bench, target))).unwrap_or_else(|payload| {
+        let what = words(payload.as_ref());
+        Err(Problem::with_file(&target.path, format!("a mistake of gcheck itself: {what}"))
+            .help("please report it with the program, or as much of it as you can show"))
+    })
+}
+
+fn words(payload: &(dyn Any + Send)) -> String {
+    let text = payload.downcast_ref::<String>().map(String::as_str);
+    text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("it stopped without a word").to_owned()
+}
+
+fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
+    let Prepared { source, settings, choice, selection } = prepare(bench, target)?;
+    let control = bench.control_of(&choice.name, &settings.codes)?;
+    let dialect = Dialect::new(&control);
+    let own = target.path.parent().map(PathBuf::from).unwrap_or_default();
+    let programs = Reachable { folders: &bench.folders, paths: std::iter::once(own).chain(settings.search).collect() };
+    let scene = Scene {
+        dialect: &dialect,
+        machine: &settings.machine,
+        programs: &programs,
+        control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
+    };
+    let outcome = check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions });
+    // A program without findings is never shown: let go of its text before the last file is read.
+    let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
+    Ok(FileReport {
+        path: target.shown.clone(),
+        text: Arc::new(text),
+        control: choice,
+        findings: outcome.findings,
+        omitted: outcome.omitted,
+        lines: outcome.lines,
+        suppressed: outcome.suppressed,
+        baseline: 0,
+        out_of_fuel: false,
+    })
+}

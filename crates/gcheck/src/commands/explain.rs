@@ -1,0 +1,175 @@
+//! `gcheck explain`: a rule, or a code as a control reads it.
+//!
+//! Knows: how an entry of the knowledge base and a rule's documentation read on a terminal. Must not know: any code or rule.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use gcheck_controls::{Code, CodeNumber, Confidence, Control, Need, WordEntry, WordKind};
+use gcheck_rules::RuleMeta;
+
+use super::{chosen_control, columns};
+use crate::args::{ExplainOptions, Global};
+use crate::nearest::nearest;
+use crate::{Problem, output};
+
+/// Prints the page of a rule or code.
+pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Problem> {
+    let subject = options.subject.trim();
+    if let Some(rule) = gcheck_rules::by_id(subject) {
+        return output::print(&of_rule(rule.meta));
+    }
+    if let Some(number) = CodeNumber::parse(subject) {
+        return explain_code(global, number);
+    }
+    let rules = gcheck_rules::all().iter().map(|rule| rule.meta.id);
+    let near = nearest(subject, rules).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+    let problem = Problem::new(format!("`{subject}` is no rule and no code{near}"));
+    Err(problem.help("`gcheck rules` and `gcheck codes` list them"))
+}
+
+fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
+    let having: Vec<Arc<Control>> = gcheck_controls::names()
+        .iter()
+        .filter_map(|name| gcheck_controls::load(name).ok())
+        .filter(|control| control.code(number).is_some())
+        .collect();
+    let others = |own: &str| -> Vec<&str> { having.iter().map(|c| c.name()).filter(|name| *name != own).collect() };
+    let chosen = chosen_control(global)?;
+    let control = match &chosen {
+        Some(control) => control,
+        // Nobody named a control: the best founded entry explains most.
+        None => having
+            .iter()
+            .max_by_key(|control| {
+                let entry = control.code(number).map(Code::entry);
+                (entry.map(|e| e.confidence), entry.is_some_and(|e| e.hover.is_some()))
+            })
+            .ok_or_else(|| Problem::new(format!("no control that gcheck knows has `{number}`")))?,
+    };
+    let Some(code) = control.code(number) else {
+        let problem = Problem::new(format!("{} has no `{number}`", control.title()));
+        let others = others(control.name());
+        return Err(if others.is_empty() { problem } else { problem.help(format!("it is a code of {}", others.join(", "))) });
+    };
+    let mut page = of_code(control, code);
+    let others = others(control.name());
+    if !others.is_empty() {
+        let how = if chosen.is_some() { "" } else { "; choose with --control" };
+        let _ = writeln!(page, "Also a code of {}{how}.", others.join(", "));
+    }
+    output::print(&page)
+}
+
+fn of_rule(meta: &RuleMeta) -> String {
+    let on = if meta.recommended { "on by default" } else { "off by default" };
+    format!(
+        "{}: {}\n\nseverity {}, {on}, group {}, since {}\n\n{}",
+        meta.id,
+        meta.summary,
+        meta.severity,
+        meta.group,
+        meta.since,
+        meta.docs()
+    )
+}
+
+fn of_code(control: &Control, code: Code<'_>) -> String {
+    let entry = code.entry();
+    let mut page = format!("{}: {}\non {}\n\n{}\n", entry.code, entry.title, control.title(), entry.summary);
+    let mut line = |title: &str, text: String| {
+        if !text.is_empty() {
+            // Writing to a string cannot fail.
+            let _ = write!(page, "\n{title}: {text}");
+        }
+    };
+    let group = code.group();
+    let number = group.number.as_ref().map(|n| format!(" (group {n})")).unwrap_or_default();
+    let default = if group.default.as_deref() == Some(&entry.code) { ", active at power-on" } else { "" };
+    let stays = if group.modal { "stays in effect" } else { "for its own block" };
+    line("group", format!("{}{number}, {stays}{default}", group.title));
+    line("requires", entry.requires.join(", "));
+    line("recommends", entry.recommends.join(", "));
+    line("not while it is active", references(control, &entry.forbids));
+    line("not in the same block", references(control, &entry.conflicts));
+    line("ends", references(control, &entry.cancels));
+    line("ended by", references(control, &entry.cancelled_by));
+    line("needs the option", entry.option.clone().unwrap_or_default());
+    page.push('\n');
+    if !entry.words.is_empty() {
+        let _ = write!(page, "\nWords\n{}", words(&entry.words));
+    }
+    if let Some(hover) = &entry.hover {
+        let _ = write!(page, "\n{}\n", hover.trim());
+    }
+    if !entry.alarms.is_empty() {
+        page.push_str("\nAlarms\n");
+        for alarm in &entry.alarms {
+            let number = alarm.number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
+            let _ = writeln!(page, "  {number}{}{}", alarm.text, unverified(alarm.confidence));
+        }
+    }
+    page.push_str("\nExample\n");
+    for block in entry.setup.iter().chain([&entry.example]) {
+        let _ = writeln!(page, "  {block}");
+    }
+    let _ = writeln!(page, "\nSource: {}{}", entry.source, unverified(entry.confidence));
+    page
+}
+
+/// Codes as they are, groups by what they decide.
+fn references(control: &Control, items: &[String]) -> String {
+    let name = |item: &String| match item.strip_prefix('@') {
+        Some(id) => control.group_by_id(id).map_or_else(|| id.to_owned(), |ix| format!("all of {}", control.group(ix).title)),
+        None => item.clone(),
+    };
+    items.iter().map(name).collect::<Vec<_>>().join(", ")
+}
+
+fn words(words: &[WordEntry]) -> String {
+    let row = |word: &WordEntry| {
+        let need = match word.need {
+            Need::Required => "required".to_owned(),
+            Need::Modal => "here or earlier".to_owned(),
+            Need::Optional => word.default.as_ref().map_or_else(|| "optional".to_owned(), |d| format!("optional, else {d}")),
+            Need::Conditional => word.when.clone().unwrap_or_else(|| "sometimes".to_owned()),
+        };
+        let range = match (word.min, word.max, word.above) {
+            (Some(min), Some(max), _) => format!(", {min} to {max}"),
+            (Some(min), None, _) => format!(", from {min}"),
+            (None, Some(max), _) => format!(", up to {max}"),
+            (None, None, Some(above)) => format!(", above {above}"),
+            (None, None, None) => String::new(),
+        };
+        let is = format!("{}{}", word.is, word.confidence.map_or("", unverified));
+        vec![format!("  {}", word.letter), format!("{}{range}", kind(word.kind)), need, is]
+    };
+    columns(&words.iter().map(row).collect::<Vec<_>>())
+}
+
+fn kind(kind: WordKind) -> &'static str {
+    match kind {
+        WordKind::Length => "length",
+        WordKind::Angle => "degrees",
+        WordKind::Direction => "direction number",
+        WordKind::Integer => "whole number",
+        WordKind::Real => "number",
+        WordKind::Feed => "feed rate",
+        WordKind::Speed => "spindle speed",
+        WordKind::SecondsOrMilliseconds => "seconds with a decimal point, milliseconds without",
+        WordKind::Seconds => "seconds",
+        WordKind::Milliseconds => "milliseconds",
+        WordKind::Label => "sequence number",
+        WordKind::Program => "program number",
+        WordKind::Ratio => "factor",
+        WordKind::Flag => "presence counts",
+    }
+}
+
+fn unverified(confidence: Confidence) -> &'static str {
+    match confidence {
+        Confidence::Manual => "",
+        Confidence::Observed => " (seen on real programs)",
+        Confidence::Assumed => " (unverified)",
+    }
+}

@@ -1,0 +1,50 @@
+//! `gcheck rules`: the list of rules.
+//!
+//! Knows: what a list of rules shows. Must not know: any rule.
+
+use serde::Serialize;
+
+use super::{columns, json};
+use crate::args::{ListFormat, ListOptions};
+use crate::{Problem, output};
+
+/// A rule in JSON.
+#[derive(Debug, Serialize)]
+struct Row {
+    id: &'static str,
+    group: &'static str,
+    summary: &'static str,
+    severity: &'static str,
+    recommended: bool,
+    tier: &'static str,
+    since: &'static str,
+    aliases: &'static [&'static str],
+}
+
+/// Prints the list.
+pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
+    let row = |rule: &&gcheck_rules::RuleEntry| {
+        let meta = rule.meta;
+        Row {
+            id: meta.id,
+            group: meta.group,
+            summary: meta.summary,
+            severity: meta.severity.name(),
+            recommended: meta.recommended,
+            tier: meta.tier.name(),
+            since: meta.since,
+            aliases: meta.aliases,
+        }
+    };
+    let rows: Vec<Row> = gcheck_rules::all().iter().map(row).collect();
+    match options.output_format {
+        ListFormat::Json => output::print(&json(&rows)?),
+        ListFormat::Text => {
+            let row = |r: &Row| {
+                let severity = if r.recommended { r.severity.to_owned() } else { format!("({})", r.severity) };
+                vec![r.id.to_owned(), r.group.to_owned(), severity, r.summary.to_owned()]
+            };
+            output::print(&columns(&rows.iter().map(row).collect::<Vec<_>>()))
+        }
+    }
+}

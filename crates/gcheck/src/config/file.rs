@@ -1,0 +1,349 @@
+//! The shape of `gcheck.toml`: every key, its type, its meaning. The JSON schema is made from these structs.
+//!
+//! Knows: keys and types. Must not know: files, inheritance between configurations, whether a name exists (see
+//! [`super::validate`]).
+//!
+//! Keys that only the execution of programs needs are accepted and checked, so that a configuration is written once.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use gcheck_rules::Severity;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{self, MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use super::Placed;
+
+/// Configuration of gcheck: `gcheck.toml` or `.gcheck.toml` in the folder of the programs or above it.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[schemars(title = "gcheck.toml")]
+pub struct ConfigFile {
+    /// Another configuration that this one builds on; a path from this file's folder. What stands here wins.
+    pub extend: Option<Placed<String>>,
+    /// The control that runs the programs. `gcheck controls` lists the names. Without it the control is detected.
+    pub control: Option<Placed<String>>,
+    /// The machine: axes, travels, limits.
+    pub machine: MachineTable,
+    /// The control's own numbered settings, values as its page words them: `162 = false`, `34 = 6.0`, `40 = "diameter"`.
+    pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
+    /// Macro variables known before a program starts: `"#3100" = 2.5`. Accepted; used when programs are executed.
+    pub variables: BTreeMap<Placed<String>, f64>,
+    /// Work offsets: `G54 = { X = -400.0, Y = -200.0 }`. Accepted; used when programs are executed.
+    pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
+    /// Tools by number, or `table = "tool.tbl"`. Accepted; used when programs are executed.
+    pub tools: ToolsTable,
+    /// Codes of the shop: M codes of the builder, aliases of macros.
+    pub codes: BTreeMap<Placed<String>, CodeTable>,
+    /// Where called programs live.
+    pub search: SearchTable,
+    /// Which rules run, and how severe they are.
+    pub rules: RulesTable,
+    /// Rules that are off for some files: `"legacy/**" = ["style"]`. Patterns count from this file's folder; one without
+    /// a slash fits file names in any folder.
+    pub per_file_ignores: BTreeMap<Placed<String>, Vec<Placed<String>>>,
+    /// Differences for some files, the later ones over the earlier.
+    pub overrides: Vec<OverrideTable>,
+    /// Which files of a folder are read.
+    pub files: FilesTable,
+}
+
+/// What differs for the files that fit a pattern.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
+#[schemars(rename = "Override")]
+pub struct OverrideTable {
+    /// Patterns as in `per-file-ignores`.
+    #[schemars(required)]
+    pub files: Vec<Placed<String>>,
+    /// As above.
+    pub control: Option<Placed<String>>,
+    /// As above.
+    pub machine: MachineTable,
+    /// As above.
+    pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
+    /// As above.
+    pub variables: BTreeMap<Placed<String>, f64>,
+    /// As above.
+    pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
+    /// As above.
+    pub tools: ToolsTable,
+    /// As above.
+    pub codes: BTreeMap<Placed<String>, CodeTable>,
+    /// As above.
+    pub search: SearchTable,
+    /// As above.
+    pub rules: RulesTable,
+}
+
+/// `[machine]`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "Machine")]
+pub struct MachineTable {
+    /// The machine's name, for people.
+    pub name: Option<String>,
+    /// Axes the machine has: `["X", "Y", "Z", "A"]`.
+    pub axes: Option<Vec<Placed<String>>>,
+    /// Unit of every length in this file, and the one active at power-on. No G20 or G21 reinterprets it.
+    pub units: Option<Units>,
+    /// Ends of travel by axis, in machine coordinates: `travel.X = [-762.0, 0.0]`. Accepted; used when programs are executed.
+    pub travel: BTreeMap<Placed<String>, Placed<[f64; 2]>>,
+    /// Highest spindle speed, in 1/min. Accepted; used when programs are executed.
+    pub max_rpm: Option<Placed<f64>>,
+    /// Highest feed rate. Accepted; used when programs are executed.
+    pub max_feed: Option<Placed<f64>>,
+    /// Rapid traverse. Accepted; used when programs are executed.
+    pub rapid: Option<Placed<f64>>,
+    /// Duration of a tool change. Accepted; used when programs are executed.
+    pub tool_change_seconds: Option<Placed<f64>>,
+    /// Where the rotary axes sit. Accepted; used when programs are executed.
+    pub rotary: Option<Rotary>,
+    /// Rotary axes from the machine outward; as written in `axes` without it. Accepted; used when programs are executed.
+    pub rotary_order: Option<Vec<Placed<String>>>,
+    /// Sense of rotation by axis, 1 or -1. Accepted; used when programs are executed.
+    pub rotary_sign: BTreeMap<Placed<String>, Placed<i8>>,
+    /// From the pivot of a tilting head to the spindle nose. Accepted; used when programs are executed.
+    pub pivot_length: Option<Placed<f64>>,
+    /// Length of a new bar, for a lathe with a bar feeder. Accepted; used when programs are executed.
+    pub bar_length: Option<Placed<f64>>,
+    /// Bars in the feeder. Accepted; used when programs are executed.
+    pub bars: Option<u32>,
+}
+
+/// Unit of lengths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Units {
+    /// Millimetres.
+    Mm,
+    /// Inches.
+    Inch,
+}
+
+/// Where the rotary axes sit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rotary {
+    /// Both turn the tool.
+    HeadHead,
+    /// One turns the tool, one the part.
+    HeadTable,
+    /// Both turn the part.
+    TableTable,
+}
+
+/// A code of the shop.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "Code")]
+pub struct CodeTable {
+    /// What it does, in a few words.
+    pub title: Option<String>,
+    /// Modal group; user codes form one of their own.
+    pub group: Option<String>,
+    /// The program that it calls: `"O9010"`.
+    pub alias: Option<Placed<String>>,
+}
+
+/// `[search]`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "Search")]
+pub struct SearchTable {
+    /// Folders with called programs; paths from this file's folder. The folder of the calling file is always searched.
+    pub paths: Vec<Placed<String>>,
+}
+
+/// `[files]`.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "Files")]
+pub struct FilesTable {
+    /// Patterns of the files that are read from a folder, in place of the usual extensions.
+    pub include: Option<Vec<Placed<String>>>,
+    /// Patterns of files and folders that are passed over. A file named on the command line is read all the same.
+    pub exclude: Vec<Placed<String>>,
+}
+
+/// `[rules]`: `select`, `ignore`, `extend-select`, and severities by rule or group.
+#[derive(Debug, Clone, Default, JsonSchema)]
+#[schemars(rename = "Rules", rename_all = "kebab-case")]
+pub struct RulesTable {
+    /// Rules, groups and sets that run, in place of `["recommended"]`.
+    pub select: Option<Vec<Placed<String>>>,
+    /// Rules, groups and sets that do not run.
+    #[schemars(with = "Option<Vec<String>>")]
+    pub ignore: Vec<Placed<String>>,
+    /// Rules, groups and sets that run as well.
+    #[schemars(with = "Option<Vec<String>>")]
+    pub extend_select: Vec<Placed<String>>,
+    /// A rule or group that runs with this severity, or is `"off"`.
+    #[schemars(flatten)]
+    pub severities: BTreeMap<Placed<String>, Level>,
+}
+
+/// Severity of a rule in a configuration.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// The rule does not run.
+    Off,
+    /// Style.
+    Hint,
+    /// Worth knowing.
+    Info,
+    /// A likely crash, scrap or trap.
+    Warning,
+    /// The control alarms, or the move is certainly wrong.
+    Error,
+}
+
+impl Level {
+    /// The severity, `None` when off.
+    pub fn severity(self) -> Option<Severity> {
+        match self {
+            Self::Off => None,
+            Self::Hint => Some(Severity::Hint),
+            Self::Info => Some(Severity::Info),
+            Self::Warning => Some(Severity::Warning),
+            Self::Error => Some(Severity::Error),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for RulesTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(RulesVisitor)
+    }
+}
+
+/// By hand, because `flatten` loses where the keys stand.
+struct RulesVisitor;
+
+impl<'de> Visitor<'de> for RulesVisitor {
+    type Value = RulesTable;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<RulesTable, A::Error> {
+        let mut table = RulesTable::default();
+        while let Some(key) = map.next_key::<Placed<String>>()? {
+            match key.value.as_str() {
+                "select" => table.select = Some(map.next_value()?),
+                "ignore" => table.ignore = map.next_value()?,
+                "extend-select" => table.extend_select = map.next_value()?,
+                _ => {
+                    table.severities.insert(key, map.next_value()?);
+                }
+            }
+        }
+        Ok(table)
+    }
+}
+
+/// `[tools]`.
+#[derive(Debug, Clone, Default, JsonSchema)]
+#[schemars(rename = "Tools")]
+pub struct ToolsTable {
+    /// A tool table on disk: LinuxCNC's, or CSV; a path from this file's folder.
+    pub table: Option<Placed<String>>,
+    /// Tools by number.
+    #[schemars(flatten)]
+    pub tools: BTreeMap<Placed<String>, ToolTable>,
+}
+
+/// A tool.
+#[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+#[schemars(rename = "Tool")]
+pub struct ToolTable {
+    /// Length offset.
+    pub length: Option<f64>,
+    /// Diameter.
+    pub diameter: Option<f64>,
+    /// Radius at the corner of the tip.
+    pub corner_radius: Option<f64>,
+}
+
+impl<'de> Deserialize<'de> for ToolsTable {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(ToolsVisitor)
+    }
+}
+
+/// By hand, because `flatten` loses where the keys stand.
+struct ToolsVisitor;
+
+impl<'de> Visitor<'de> for ToolsVisitor {
+    type Value = ToolsTable;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ToolsTable, A::Error> {
+        let mut table = ToolsTable::default();
+        while let Some(key) = map.next_key::<Placed<String>>()? {
+            if key.value == "table" {
+                table.table = Some(map.next_value()?);
+            } else {
+                table.tools.insert(key, map.next_value()?);
+            }
+        }
+        Ok(table)
+    }
+}
+
+/// A setting's value in the words of its page: `false` is `off`, `6.0` is `6`, text is lower case.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Scalar(pub String);
+
+impl<'de> Deserialize<'de> for Scalar {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ScalarVisitor)
+    }
+}
+
+struct ScalarVisitor;
+
+impl Visitor<'_> for ScalarVisitor {
+    type Value = Scalar;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("`true`, `false`, a number or a text")
+    }
+
+    fn visit_bool<E: de::Error>(self, value: bool) -> Result<Scalar, E> {
+        Ok(Scalar(if value { "on" } else { "off" }.to_owned()))
+    }
+
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<Scalar, E> {
+        Ok(Scalar(value.to_string()))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<Scalar, E> {
+        Ok(Scalar(value.to_string()))
+    }
+
+    fn visit_str<E: de::Error>(self, value: &str) -> Result<Scalar, E> {
+        Ok(Scalar(value.trim().to_lowercase()))
+    }
+}
+
+impl JsonSchema for Scalar {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "SettingValue".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": ["boolean", "number", "string"] })
+    }
+}

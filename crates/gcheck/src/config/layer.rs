@@ -1,0 +1,106 @@
+//! One configuration text, read and checked: patterns compiled, codes parsed, paths resolved.
+//!
+//! Knows: what a text says by itself. Must not know: which programs it rules over, or other layers.
+
+use std::path::{Path, PathBuf};
+
+use gcheck_controls::UserCode;
+
+use super::file::{FilesTable, OverrideTable, RulesTable, SearchTable};
+use super::{ConfigFile, MachineTable, PathPattern, Placed, validate};
+use crate::Problem;
+
+/// A configuration text that has been checked.
+#[derive(Debug)]
+pub struct Layer {
+    /// The file; none for `--config KEY=VALUE`.
+    pub path: Option<PathBuf>,
+    /// As written.
+    pub file: ConfigFile,
+    /// What holds for every program.
+    pub(super) base: Facts,
+    /// What holds for some.
+    pub(super) overrides: Vec<(Vec<PathPattern>, Facts)>,
+    pub(super) per_file_ignores: Vec<(PathPattern, Vec<String>)>,
+    pub(super) include: Option<Vec<PathPattern>>,
+    pub(super) exclude: Vec<PathPattern>,
+}
+
+/// What a layer, or an override in it, says about programs.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Facts {
+    pub(super) control: Option<String>,
+    pub(super) machine: MachineTable,
+    pub(super) settings: Vec<(String, String)>,
+    pub(super) codes: Vec<UserCode>,
+    pub(super) search: Vec<PathBuf>,
+    pub(super) rules: RulesTable,
+}
+
+/// Where a text came from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Text<'t> {
+    /// What messages call it.
+    pub(super) name: &'t str,
+    pub(super) text: &'t str,
+    /// The folder from which its paths count.
+    pub(super) folder: &'t Path,
+}
+
+impl Text<'_> {
+    pub(super) fn problem<T>(&self, placed: &Placed<T>, message: impl Into<String>) -> Problem {
+        Problem::at(self.name, self.text, &placed.range, message)
+    }
+
+    fn patterns(&self, patterns: &[Placed<String>]) -> Result<Vec<PathPattern>, Problem> {
+        patterns.iter().map(|pattern| self.pattern(pattern)).collect()
+    }
+
+    fn pattern(&self, pattern: &Placed<String>) -> Result<PathPattern, Problem> {
+        PathPattern::new(self.folder, &pattern.value)
+            .map_err(|reason| self.problem(pattern, format!("`{}` is no pattern: {reason}", pattern.value)))
+    }
+
+    fn search(&self, table: &SearchTable) -> Vec<PathBuf> {
+        table.paths.iter().map(|path| crate::paths::absolute(&self.folder.join(&path.value))).collect()
+    }
+}
+
+impl Layer {
+    pub(super) fn new(path: Option<PathBuf>, file: ConfigFile, text: Text<'_>) -> Result<Self, Problem> {
+        let facts = validate::Checked::new(text, file.control.as_ref())?;
+        let base = Facts {
+            control: file.control.as_ref().map(|c| c.value.clone()),
+            machine: facts.machine(&file.machine)?,
+            settings: facts.settings(&file.settings)?,
+            codes: facts.codes(&file.codes)?,
+            search: text.search(&file.search),
+            rules: facts.rules(&file.rules)?,
+        };
+        facts.execution(&file.variables, &file.offsets, &file.tools)?;
+        let overrides = file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
+        let mut per_file_ignores = Vec::new();
+        for (pattern, selectors) in &file.per_file_ignores {
+            facts.selectors(selectors)?;
+            per_file_ignores.push((text.pattern(pattern)?, selectors.iter().map(|s| s.value.clone()).collect()));
+        }
+        let FilesTable { include, exclude } = &file.files;
+        let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
+        let exclude = text.patterns(exclude)?;
+        Ok(Self { path, base, overrides, per_file_ignores, include, exclude, file })
+    }
+}
+
+fn overriding(text: Text<'_>, file: &ConfigFile, table: &OverrideTable) -> Result<(Vec<PathPattern>, Facts), Problem> {
+    let facts = validate::Checked::new(text, table.control.as_ref().or(file.control.as_ref()))?;
+    facts.execution(&table.variables, &table.offsets, &table.tools)?;
+    let own = Facts {
+        control: table.control.as_ref().map(|c| c.value.clone()),
+        machine: facts.machine(&table.machine)?,
+        settings: facts.settings(&table.settings)?,
+        codes: facts.codes(&table.codes)?,
+        search: text.search(&table.search),
+        rules: facts.rules(&table.rules)?,
+    };
+    Ok((text.patterns(&table.files)?, own))
+}

@@ -1,0 +1,102 @@
+//! Which files are checked: those named, and the programs in folders.
+//!
+//! Knows: file names of programs, ignore files, the `[files]` table. Must not know: what is in a file.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use ignore::WalkBuilder;
+
+use crate::config::Configs;
+use crate::{Problem, paths};
+
+/// Extensions of part programs, lower case.
+const EXTENSIONS: [&str; 11] = ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
+
+/// What was found.
+#[derive(Debug, Default)]
+pub(crate) struct Found {
+    /// Programs, in the order of the paths given and sorted within a folder, each once.
+    pub(crate) files: Vec<PathBuf>,
+    /// What could not be looked at.
+    pub(crate) problems: Vec<Problem>,
+}
+
+/// Is this the name of a part program: `part.nc`, `O1234`?
+pub(crate) fn is_program_name(path: &Path) -> bool {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    match extension {
+        Some(extension) => EXTENSIONS.contains(&extension.as_str()),
+        None => path.file_name().is_some_and(|name| {
+            let name = name.to_string_lossy();
+            let digits = name.strip_prefix(['O', 'o']).unwrap_or_default();
+            !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
+        }),
+    }
+}
+
+/// Looks at each path: a file is taken whatever its name, a folder is walked.
+pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
+    let mut found = Found::default();
+    let mut seen = BTreeSet::new();
+    for path in given {
+        if path.is_dir() {
+            walk(path, configs, &mut found, &mut seen);
+        } else if path.exists() {
+            add(path.clone(), &mut found, &mut seen);
+        } else {
+            found.problems.push(Problem::with_file(path, "no such file or folder"));
+        }
+    }
+    found
+}
+
+fn add(path: PathBuf, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
+    if seen.insert(paths::absolute(&path)) {
+        found.files.push(path);
+    }
+}
+
+fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
+    let mut builder = WalkBuilder::new(folder);
+    // Links are not followed, so a loop of them is never entered.
+    builder.follow_links(false).require_git(false).add_custom_ignore_filename(".gcheckignore");
+    let mut programs = Vec::new();
+    for entry in builder.build() {
+        match entry {
+            Ok(entry) if entry.file_type().is_some_and(|t| t.is_file() || (t.is_symlink() && entry.path().is_file())) => {
+                let path = entry.into_path();
+                match configs.of_file(&path) {
+                    Ok(config) if config.wants(&path, is_program_name(&path)) => programs.push(path),
+                    Ok(_) => {}
+                    // A broken configuration is reported once, by the file that needs it.
+                    Err(problem) if is_program_name(&path) => found.problems.push(problem),
+                    Err(_) => {}
+                }
+            }
+            Ok(_) => {}
+            Err(error) => found.problems.push(Problem::new(format!("cannot look into a folder: {error}"))),
+        }
+    }
+    programs.sort();
+    for path in programs {
+        add(path, found, seen);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::is_program_name;
+
+    #[test]
+    fn programs_are_known_by_extension_or_number() {
+        for name in ["a.nc", "A.NC", "b.Gcode", "O1234", "o7", "x/O0001"] {
+            assert!(is_program_name(Path::new(name)), "{name}");
+        }
+        for name in ["a.txt", "O", "OK", "O12a", "nc", ".nc", "1234"] {
+            assert!(!is_program_name(Path::new(name)), "{name}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! The command line of gcheck: arguments, files, configuration, choice of control.
+//!
+//! Knows: the file system, the environment, the terminal, exit codes. Must not know: how anything is computed or rendered;
+//! that is `gcheck-rules` and `gcheck-report`.
+//!
+//! Exit codes: 0 nothing at or above `--fail-on`, 1 findings, 2 the work could not be done (usage, configuration, files).
+
+pub mod args;
+mod check;
+mod commands;
+pub mod config;
+mod control_choice;
+mod discovery;
+mod output;
+mod paths;
+mod problem;
+mod nearest;
+mod programs;
+mod reading;
+
+use std::io::Write as _;
+use std::process::ExitCode;
+
+use clap::Parser as _;
+
+pub use problem::Problem;
+
+use args::{Arguments, Command};
+
+/// The work could not be done.
+const FAILED: u8 = 2;
+
+/// Runs the program with the arguments of the process.
+pub fn main() -> ExitCode {
+    // Usage errors end the process here, with exit code 2.
+    let arguments = Arguments::parse();
+    match run(&arguments) {
+        Ok(code) => ExitCode::from(code),
+        Err(problem) => {
+            report(&problem);
+            ExitCode::from(FAILED)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<u8, Problem> {
+    match &arguments.command {
+        Command::Check(options) => check::run(&arguments.global, options),
+        Command::Explain(options) => commands::explain::run(&arguments.global, options),
+        Command::Rules(options) => commands::rules::run(options),
+        Command::Codes(options) => commands::codes::run(&arguments.global, options),
+        Command::Controls(options) => commands::controls::run(options),
+        Command::Init => commands::init::run(&arguments.global),
+        Command::Schema => output::print(&config::schema()),
+        Command::Completions { shell } => commands::completions::run(*shell),
+    }
+}
+
+/// Says a problem on standard error, where it can be said.
+fn report(problem: &Problem) {
+    // With standard error gone there is nobody left to tell.
+    let _ = writeln!(std::io::stderr(), "error: {problem}");
+}

@@ -1,0 +1,70 @@
+//! Where output goes: standard output, a file that is replaced whole, colours or none.
+//!
+//! Knows: terminals, environment variables about colour, temporary files. Must not know: what is written.
+
+use std::fs::{self, File};
+use std::io::{self, IsTerminal as _, Write};
+use std::path::{Path, PathBuf};
+use std::{env, process};
+
+use gcheck_report::Colour;
+
+use crate::Problem;
+use crate::args::When;
+use crate::problem::io_reason;
+
+/// Whether standard output gets colours.
+pub(crate) fn colour(when: When) -> Colour {
+    let is_set = |name: &str| env::var_os(name).is_some_and(|value| !value.is_empty() && value != "0");
+    let colours = match when {
+        When::Always => true,
+        When::Never => false,
+        When::Auto if is_set("CLICOLOR_FORCE") => true,
+        When::Auto => {
+            let refused = env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+            !refused && env::var_os("TERM").is_none_or(|term| term != "dumb") && io::stdout().is_terminal()
+        }
+    };
+    if colours { Colour::Ansi } else { Colour::Plain }
+}
+
+/// Prints a text and ends well.
+pub(crate) fn print(text: &str) -> Result<u8, Problem> {
+    to_stdout(|out| out.write_all(text.as_bytes()))?;
+    Ok(0)
+}
+
+/// Writes to standard output. A reader that went away (`| head`) is no error.
+pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    let mut out = io::stdout().lock();
+    match write(&mut out).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Problem::new(format!("cannot write to standard output: {}", io_reason(&error))))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Writes a file whole or not at all: to a temporary file beside it, which then takes its name.
+pub(crate) fn to_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+    let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
+    if path.is_dir() {
+        return Err(Problem::with_file(path, "cannot write: is a folder"));
+    }
+    let temporary = beside(path);
+    let written = File::create(&temporary).and_then(|mut file| {
+        write(&mut file)?;
+        file.sync_all()
+    });
+    written.and_then(|()| fs::rename(&temporary, path)).map_err(|error| {
+        // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
+        let _ = fs::remove_file(&temporary);
+        problem(&error)
+    })
+}
+
+/// A name in the same folder, so that the rename stays on one file system.
+fn beside(path: &Path) -> PathBuf {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!(".{name}.{}.tmp", process::id()))
+}

@@ -1,0 +1,117 @@
+//! What went wrong that is no finding: a message, its place, the line that holds it.
+//!
+//! Knows: how such a message is laid out. Must not know: where it is printed, or what becomes of the run.
+
+use std::fmt;
+use std::ops::Range;
+use std::path::Path;
+
+/// Something that keeps a file, a configuration or the whole run from being done. One of these is one message.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Problem {
+    place: Option<String>,
+    message: String,
+    excerpt: Option<Excerpt>,
+    help: Option<String>,
+}
+
+/// A line of a file with a part of it marked.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Excerpt {
+    line: usize,
+    text: String,
+    /// Characters before the mark, and in it.
+    before: usize,
+    marked: usize,
+}
+
+/// Longer lines are cut: what is wrong with them rarely needs more.
+const SHOWN: usize = 160;
+
+impl Problem {
+    /// A problem of the run as a whole.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { place: None, message: message.into(), excerpt: None, help: None }
+    }
+
+    /// A problem with a file.
+    pub fn with_file(path: &Path, message: impl Into<String>) -> Self {
+        Self { place: Some(path.display().to_string()), ..Self::new(message) }
+    }
+
+    /// A problem at some bytes of a text; `name` is what the text is called.
+    pub fn at(name: &str, text: &str, range: &Range<usize>, message: impl Into<String>) -> Self {
+        let start = range.start.min(text.len());
+        let head = text.get(..start).unwrap_or_default();
+        let line_start = head.rfind('\n').map_or(0, |at| at + 1);
+        let rest = text.get(line_start..).unwrap_or_default();
+        let line = rest.split(['\n', '\r']).next().unwrap_or_default();
+        let number = head.bytes().filter(|b| *b == b'\n').count() + 1;
+        let before = text.get(line_start..start).unwrap_or_default().chars().count();
+        let end = range.end.clamp(start, (line_start + line.len()).max(start));
+        let marked = text.get(start..end).unwrap_or_default().chars().count().max(1);
+        // A tab would push the mark away from what it marks.
+        let shown: String = line.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let excerpt = Excerpt { line: number, text: shown, before, marked };
+        Self {
+            place: Some(format!("{name}:{number}:{}", before + 1)),
+            excerpt: (before < SHOWN).then_some(excerpt),
+            ..Self::new(message)
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<String>) -> Self {
+        self.help = Some(text.into());
+        self
+    }
+
+    /// The message without its place.
+    pub fn message(&self) -> &str {
+        &self.message
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{place}: ")?;
+        }
+        f.write_str(&self.message)?;
+        if let Some(Excerpt { line, text, before, marked }) = &self.excerpt {
+            let margin = " ".repeat(line.to_string().len());
+            let marked = (*marked).min(SHOWN - before);
+            write!(f, "\n{margin} |\n{line} | {text}\n{margin} | {}{}", " ".repeat(*before), "^".repeat(marked))?;
+        }
+        if let Some(help) = &self.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The reason of an input or output error without Rust's "(os error 2)".
+pub fn io_reason(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or(&text);
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Problem;
+
+    #[test]
+    fn the_place_is_counted_from_one_in_characters() {
+        let text = "a = 1\nµb = 2\r\n";
+        let problem = Problem::at("x.toml", text, &(8..9), "strange").help("do");
+        assert_eq!(problem.to_string(), "x.toml:2:2: strange\n  |\n2 | µb = 2\n  |  ^\n  help: do");
+    }
+
+    #[test]
+    fn a_place_outside_the_text_is_its_end() {
+        assert_eq!(Problem::at("x", "ab", &(9..12), "cut off").to_string(), "x:1:3: cut off\n  |\n1 | ab\n  |   ^");
+    }
+}

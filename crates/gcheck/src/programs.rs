@@ -1,0 +1,114 @@
+//! Programs beside the one that is checked: what `M98`, `G65` and O-words may call.
+//!
+//! Knows: folders, how a file shows the program numbers it holds. Must not know: calls. A folder is looked through when the
+//! first call asks, and once; a folder too large to be looked through is said to have everything, so that nothing false is
+//! reported.
+
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use gcheck_rules::Programs;
+
+use crate::discovery::is_program_name;
+use crate::paths;
+
+/// Files of one folder that are looked into.
+const MAX_FILES: usize = 5_000;
+/// Bytes of one folder that are looked through.
+const MAX_BYTES: u64 = 64 << 20;
+
+/// What folders hold, by absolute path; shared by all files of a run.
+#[derive(Debug, Default)]
+pub(crate) struct ProgramFolders {
+    known: Mutex<HashMap<PathBuf, Arc<Folder>>>,
+}
+
+/// The programs of one folder.
+#[derive(Debug, Default)]
+struct Folder {
+    numbers: HashSet<u32>,
+    /// Stems of file names, lower case.
+    names: HashSet<String>,
+    /// Too large to be looked through.
+    is_partial: bool,
+}
+
+/// The programs that one file can call.
+pub(crate) struct Reachable<'f> {
+    pub(crate) folders: &'f ProgramFolders,
+    /// The file's own folder, then those of the search path.
+    pub(crate) paths: Vec<PathBuf>,
+}
+
+impl Programs for Reachable<'_> {
+    fn has_number(&self, number: u32) -> bool {
+        self.paths.iter().any(|path| {
+            let folder = self.folders.of(path);
+            folder.is_partial || folder.numbers.contains(&number)
+        })
+    }
+
+    fn has_name(&self, name: &str) -> bool {
+        self.paths.iter().any(|path| {
+            let folder = self.folders.of(path);
+            folder.is_partial || folder.names.contains(name)
+        })
+    }
+}
+
+impl ProgramFolders {
+    fn of(&self, path: &Path) -> Arc<Folder> {
+        let path = paths::absolute(path);
+        // A panic while the map was locked cannot have left it half-written: entries are inserted whole.
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(known.entry(path).or_insert_with_key(|path| Arc::new(Folder::read(path))))
+    }
+}
+
+impl Folder {
+    /// What cannot be read is not there: the check of the file itself says what is wrong with it.
+    fn read(path: &Path) -> Self {
+        let mut folder = Self::default();
+        let Ok(entries) = fs::read_dir(path) else { return folder };
+        let mut bytes = 0;
+        let programs = entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path) && path.is_file());
+        for (count, path) in programs.enumerate() {
+            if let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) {
+                folder.numbers.extend(stem.strip_prefix('o').and_then(|digits| digits.parse::<u32>().ok()));
+                folder.names.insert(stem);
+            }
+            bytes += path.metadata().map_or(0, |data| data.len());
+            if count >= MAX_FILES || bytes > MAX_BYTES {
+                folder.is_partial = true;
+                return folder;
+            }
+            if let Ok(content) = fs::read(&path) {
+                folder.numbers.extend(numbers_in(&content));
+            }
+        }
+        folder
+    }
+}
+
+/// Numbers of `O1234` and `:1234` at the heads of lines.
+fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
+    content.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
+        let line = line.trim_ascii_start();
+        let digits = line.strip_prefix(b"O").or_else(|| line.strip_prefix(b"o")).or_else(|| line.strip_prefix(b":"))?;
+        let end = digits.iter().position(|b| !b.is_ascii_digit()).unwrap_or(digits.len());
+        std::str::from_utf8(digits.get(..end)?).ok()?.parse().ok()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::numbers_in;
+
+    #[test]
+    fn numbers_stand_at_the_heads_of_lines() {
+        let numbers: Vec<u32> = numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\n").collect();
+        assert_eq!(numbers, [100, 200, 300]);
+    }
+}
