@@ -1,6 +1,6 @@
 //! From the embedded data files to a [`Control`]: parsing, inheritance, indexes.
 //!
-//! Knows: TOML, bases, `removed`. Must not know: what the facts mean (see [`crate::validate`] for consistency).
+//! Knows: the embedded files (JSON, made from the TOML by the build script), bases, `removed`. Must not know: what the facts mean (see [`crate::validate`] for consistency).
 
 use std::collections::HashMap;
 use std::fmt;
@@ -103,7 +103,7 @@ fn control_file(source: &Source) -> Result<ControlFile, LoadError> {
 
 fn parse_file<T: serde::de::DeserializeOwned>(source: &Source, file: &str) -> Result<Option<T>, LoadError> {
     let Some((_, text)) = source.files.iter().find(|(name, _)| *name == file) else { return Ok(None) };
-    toml::from_str(text)
+    serde_json::from_str(text)
         .map(Some)
         .map_err(|e| LoadError::Data { file: format!("{}/{file}", source.name), message: e.to_string() })
 }
@@ -257,4 +257,36 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         }
     }
     Ok(control)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+    use std::path::Path;
+
+    use super::{
+        AlarmsFile, CodesFile, ControlFile, GroupsFile, LettersFile, SettingsFile, VariablesFile,
+    };
+
+    /// The embedded form has lost its line numbers; this is where an author of data learns the line.
+    #[test]
+    fn every_data_file_is_as_the_schema_wants_it() {
+        let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
+        let folders = fs::read_dir(data).unwrap().map(|folder| folder.unwrap().path()).filter(|path| path.is_dir());
+        for file in folders.flat_map(|folder| fs::read_dir(folder).unwrap().map(|file| file.unwrap().path())) {
+            let text = fs::read_to_string(&file).unwrap();
+            let name = file.file_name().unwrap().to_str().unwrap();
+            let read = match name {
+                "control.toml" => toml::from_str::<ControlFile>(&text).map(|_| ()),
+                "groups.toml" => toml::from_str::<GroupsFile>(&text).map(|_| ()),
+                "codes-g.toml" | "codes-m.toml" => toml::from_str::<CodesFile>(&text).map(|_| ()),
+                "letters.toml" => toml::from_str::<LettersFile>(&text).map(|_| ()),
+                "variables.toml" => toml::from_str::<VariablesFile>(&text).map(|_| ()),
+                "settings.toml" => toml::from_str::<SettingsFile>(&text).map(|_| ()),
+                "alarms.toml" => toml::from_str::<AlarmsFile>(&text).map(|_| ()),
+                _ => panic!("{}: a file that nobody reads", file.display()),
+            };
+            read.unwrap_or_else(|error| panic!("{}: {error}", file.display()));
+        }
+    }
 }

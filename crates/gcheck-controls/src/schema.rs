@@ -453,6 +453,9 @@ pub struct WordEntry {
     /// For `need = "conditional"`: when, in words.
     #[serde(default)]
     pub when: Option<String>,
+    /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
+    #[serde(default)]
+    pub instead: Vec<String>,
     /// Smallest value.
     #[serde(default)]
     pub min: Option<f64>,

@@ -129,7 +129,8 @@ impl Problems<'_> {
                 self.say(code, format!("word `{}` is conditional but does not say when", word.letter));
             }
         }
-        let combined = entry.one_of.iter().chain(&entry.not_together).flatten();
+        let instead = entry.words.iter().map(|word| &word.instead);
+        let combined = entry.one_of.iter().chain(&entry.not_together).chain(instead).flatten();
         for letter in combined.flat_map(|item| item.bytes()).filter_map(Letter::new) {
             if !seen.contains(letter) && !entry.any_words {
                 self.say(code, format!("combines `{letter}`, which is not among its words"));

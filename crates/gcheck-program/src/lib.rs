@@ -17,4 +17,6 @@ pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
 pub use lower::{Dialect, lower, lower_tree, profile};
 pub use number::NumberShape;
 pub use statement::{OKeyword, OLabel, Statement, StatementKind, Target};
-pub use survey::{Call, CallKind, EndMark, Jump, Label, Loop, OWord, ProgramNumber, Survey, code_region};
+pub use survey::{
+    Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, code_region,
+};

@@ -6,7 +6,9 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, CodeNumber, Control, Letter, LetterSet, Semicolon, WordKind};
+use gcheck_controls::{
+    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, Need, Semicolon, WordEntry, WordKind,
+};
 use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
@@ -27,6 +29,8 @@ pub struct Dialect<'c> {
     lower_case: bool,
     /// By code index: does the code name a label or program?
     refers: Vec<bool>,
+    /// By code index: words that must have been given by the time the code runs, each with those that do instead.
+    lasting: Vec<Vec<(Letter, LetterSet)>>,
 }
 
 /// What [`BlockFlags`] need to know about an address when no code says otherwise.
@@ -84,6 +88,7 @@ impl<'c> Dialect<'c> {
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
             lower_case: control.syntax().lower_case,
+            lasting: control.codes().map(|code| lasting_words(code.entry())).collect(),
             refers: control
                 .codes()
                 .map(|code| {
@@ -103,6 +108,11 @@ impl<'c> Dialect<'c> {
         self.profile
     }
 
+    /// Words that must have been given by the time the code runs, each with those that do instead.
+    pub(crate) fn lasting(&self, code: CodeIx) -> &[(Letter, LetterSet)] {
+        self.lasting.get(code.index()).map_or(&[], Vec::as_slice)
+    }
+
     /// Does the code name a label or a program in one of its words?
     pub(crate) fn refers(&self, code: CodeIx) -> bool {
         self.refers.get(code.index()).copied().unwrap_or(false)
@@ -111,6 +121,19 @@ impl<'c> Dialect<'c> {
     fn letter(&self, letter: Letter) -> &LetterFacts {
         self.letters.get(letter.index()).unwrap_or(&LetterFacts::UNKNOWN)
     }
+}
+
+/// Words of a code whose earlier value stays in effect. Feed and speed are left out: they are set by themselves, and whether
+/// they are is a question of the whole path.
+fn lasting_words(entry: &CodeEntry) -> Vec<(Letter, LetterSet)> {
+    let lasts = |word: &&WordEntry| {
+        word.need == Need::Modal && !matches!(word.kind, WordKind::Feed | WordKind::Speed)
+    };
+    let letters = |word: &WordEntry| {
+        let instead = word.instead.iter().filter_map(|letter| Letter::parse(letter)).collect();
+        Some((Letter::parse(&word.letter)?, instead))
+    };
+    entry.words.iter().filter(lasts).filter_map(letters).collect()
 }
 
 /// The syntax profile of a control.

@@ -122,6 +122,17 @@ pub struct EndMark {
     pub range: Range<u32>,
 }
 
+/// A code that relies on an earlier value of a word which no earlier block gives.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NeverGiven {
+    /// The code.
+    pub code: CodeIx,
+    /// The word's address.
+    pub letter: Letter,
+    /// Bytes of the file: the code's word.
+    pub range: Range<u32>,
+}
+
 /// Everything collected from the chunks of one file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Survey {
@@ -161,6 +172,8 @@ pub struct Survey {
     pub pointed: usize,
     /// A block has a mistake in form.
     pub has_mistakes: bool,
+    /// Codes that rely on an earlier value which no block before them gives, in text order.
+    pub never_given: Vec<NeverGiven>,
     /// How many blocks there are.
     pub blocks: usize,
     /// What `codes` and `assigned` hold, for the question "seen before?".
@@ -175,7 +188,8 @@ impl Survey {
                 break;
             }
             self.blocks += 1;
-            let is_pointed = block.letters.intersects(dialect.control().axes()) && !block.flags.contains(BlockFlags::UNPOINTED);
+            let is_pointed = block.letters.intersects(dialect.control().axes())
+                && !block.flags.contains(BlockFlags::UNPOINTED);
             self.pointed += usize::from(is_pointed);
             if block.flags.contains(BlockFlags::LONG_NUMBER) {
                 self.long_numbers.push(shift(&block.range, base));
@@ -183,7 +197,6 @@ impl Survey {
             if block.flags.contains(BlockFlags::UNPOINTED) {
                 self.unpointed.push(shift(&block.range, base));
             }
-            self.letters = self.letters.or(block.letters);
             if block.flags.contains(BlockFlags::TAPE_MARK) {
                 self.tape_marks.push(shift(&block.range, base));
             }
@@ -201,6 +214,7 @@ impl Survey {
             if block.flags.intersects(interesting) {
                 self.add_block(table, ix, block, base, dialect);
             }
+            self.letters = self.letters.or(block.letters);
         }
     }
 
@@ -285,6 +299,13 @@ impl Survey {
             }
             let Some(code) = dialect.control().code_at(word.code) else { continue };
             let entry = code.entry();
+            let given = self.letters.or(block.letters);
+            for (letter, instead) in dialect.lasting(word.code) {
+                if !given.contains(*letter) && !given.intersects(*instead) {
+                    let range = shift(&word.range(), base);
+                    self.never_given.push(NeverGiven { code: word.code, letter: *letter, range });
+                }
+            }
             if let Some(ends) = entry.ends {
                 let conditional = block.delete > 0
                     || table

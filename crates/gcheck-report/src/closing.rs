@@ -54,7 +54,8 @@ pub fn summary_line(summary: &Summary) -> String {
 pub fn statistics(report: &Report) -> String {
     let mut rules: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
     let kept = report.findings().map(|(_, finding)| (finding.rule, 1));
-    let omitted = report.files().iter().flat_map(|file| file.omitted.iter().map(|(rule, _, count)| (*rule, *count)));
+    let omitted =
+        report.files().iter().flat_map(|file| file.omitted.iter().map(|(rule, _, count)| (*rule, *count)));
     for (rule, count) in kept.chain(omitted) {
         rules.entry(rule.id).or_insert((0, rule.summary)).0 += count;
     }

@@ -168,12 +168,32 @@ impl Report {
 
 impl File {
     fn new(file: FileReport) -> Self {
-        let FileReport { path, text, control, mut findings, omitted, lines, suppressed, baseline, out_of_fuel } = file;
+        let FileReport {
+            path,
+            text,
+            control,
+            mut findings,
+            omitted,
+            lines,
+            suppressed,
+            baseline,
+            out_of_fuel,
+        } = file;
         findings.sort_by(|a, b| {
             let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
             key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
         });
-        Self { path, source: Source::new(text), control, findings, omitted, lines, suppressed, baseline, out_of_fuel }
+        Self {
+            path,
+            source: Source::new(text),
+            control,
+            findings,
+            omitted,
+            lines,
+            suppressed,
+            baseline,
+            out_of_fuel,
+        }
     }
 
     /// One for each finding.

@@ -137,7 +137,9 @@ fn write(global: &Global, options: &CheckOptions, report: &Report) -> Result<(),
     }
     match &options.output_file {
         Some(file) => {
-            output::to_file(file, |out| gcheck_report::write(report, format, gcheck_report::Colour::Plain, out))?;
+            output::to_file(file, |out| {
+                gcheck_report::write(report, format, gcheck_report::Colour::Plain, out)
+            })?;
         }
         None => {
             let colour = output::colour(global.color);

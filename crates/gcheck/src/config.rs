@@ -15,8 +15,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 pub use file::{
-    CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar, SearchTable, ToolTable,
-    ToolsTable, Units,
+    CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar,
+    SearchTable, ToolTable, ToolsTable, Units,
 };
 pub use layer::Layer;
 pub use pattern::PathPattern;
@@ -89,7 +89,9 @@ impl Configs {
         }
         let source = match file {
             Some(_) if isolated => {
-                return Err(Problem::new("`--isolated` means no configuration file, and `--config` names one"));
+                return Err(Problem::new(
+                    "`--isolated` means no configuration file, and `--config` names one",
+                ));
             }
             Some(file) => {
                 let mut config = read::file_with_bases(Path::new(file))?;
@@ -118,7 +120,10 @@ impl Configs {
             return known.clone();
         }
         let found = folder.ancestors().find_map(|ancestor| {
-            FILE_NAMES.iter().map(|name| ancestor.join(name)).find(|candidate| candidate.symlink_metadata().is_ok())
+            FILE_NAMES
+                .iter()
+                .map(|name| ancestor.join(name))
+                .find(|candidate| candidate.symlink_metadata().is_ok())
         });
         let config = match found {
             Some(file) => match self.by_file.get(&file) {

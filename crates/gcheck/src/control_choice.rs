@@ -44,7 +44,10 @@ fn named_in_comment(path: &Path, source: &SourceText) -> Result<Option<(String, 
     for line in text.split_inclusive(['\n', '\r']).take(HEAD_LINES) {
         if let Some((before, directive)) = line.split_once("gcheck:") {
             let directive = directive.trim_start();
-            let name = directive.strip_prefix("control").map(str::trim_start).and_then(|rest| rest.strip_prefix('='));
+            let name = directive
+                .strip_prefix("control")
+                .map(str::trim_start)
+                .and_then(|rest| rest.strip_prefix('='));
             if let Some(rest) = name.map(str::trim_start) {
                 let end = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '-')).unwrap_or(rest.len());
                 let name = rest.get(..end).unwrap_or_default();
@@ -71,7 +74,11 @@ mod tests {
 
     use super::choose;
 
-    fn choice(text: &str, option: Option<&str>, configured: Option<&str>) -> (String, ControlSource, Option<String>) {
+    fn choice(
+        text: &str,
+        option: Option<&str>,
+        configured: Option<&str>,
+    ) -> (String, ControlSource, Option<String>) {
         let source = SourceText::from(text);
         let choice = choose(Path::new("a.nc"), &source, option, configured.map(|name| (name, None))).unwrap();
         (choice.name, choice.source, choice.because)
@@ -87,13 +94,19 @@ mod tests {
         );
         assert_eq!(choice("G0\n", None, Some("fanuc-mill")).1, ControlSource::Configuration);
         assert_eq!(choice("G0\n", None, None).1, ControlSource::Default);
-        assert_eq!(choice("; gcheck: control = linuxcnc\n", None, None).2.as_deref(), Some("; gcheck: control = linuxcnc"));
+        assert_eq!(
+            choice("; gcheck: control = linuxcnc\n", None, None).2.as_deref(),
+            Some("; gcheck: control = linuxcnc")
+        );
     }
 
     #[test]
     fn an_unknown_name_in_a_comment_is_refused_at_its_place() {
         let source = SourceText::from("%\n(gcheck: control=linuxcn)\n");
         let problem = choose(Path::new("a.nc"), &source, None, None).unwrap_err().to_string();
-        assert!(problem.starts_with("a.nc:2:18: no control is called `linuxcn`; did you mean `linuxcnc`?"), "{problem}");
+        assert!(
+            problem.starts_with("a.nc:2:18: no control is called `linuxcn`; did you mean `linuxcnc`?"),
+            "{problem}"
+        );
     }
 }

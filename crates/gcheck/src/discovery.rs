@@ -64,7 +64,11 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
     let mut programs = Vec::new();
     for entry in builder.build() {
         match entry {
-            Ok(entry) if entry.file_type().is_some_and(|t| t.is_file() || (t.is_symlink() && entry.path().is_file())) => {
+            Ok(entry)
+                if entry
+                    .file_type()
+                    .is_some_and(|t| t.is_file() || (t.is_symlink() && entry.path().is_file())) =>
+            {
                 let path = entry.into_path();
                 match configs.of_file(&path) {
                     Ok(config) if config.wants(&path, is_program_name(&path)) => programs.push(path),

@@ -11,10 +11,10 @@ mod commands;
 pub mod config;
 mod control_choice;
 mod discovery;
+mod nearest;
 mod output;
 mod paths;
 mod problem;
-mod nearest;
 mod programs;
 mod reading;
 

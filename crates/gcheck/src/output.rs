@@ -46,7 +46,10 @@ pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
 }
 
 /// Writes a file whole or not at all: to a temporary file beside it, which then takes its name.
-pub(crate) fn to_file(path: &Path, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
+pub(crate) fn to_file(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Problem> {
     let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
     if path.is_dir() {
         return Err(Problem::with_file(path, "cannot write: is a folder"));

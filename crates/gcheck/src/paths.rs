@@ -5,7 +5,7 @@
 use std::path::{Component, Path, PathBuf};
 
 /// The path from the root, without `.` and `..`; links are not followed.
-pub fn absolute(path: &Path) -> PathBuf {
+pub(crate) fn absolute(path: &Path) -> PathBuf {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut clean = PathBuf::new();
     for component in path.components() {
@@ -21,14 +21,18 @@ pub fn absolute(path: &Path) -> PathBuf {
 }
 
 /// The path as shown: without a leading `./`, with slashes on every system.
-pub fn shown(path: &Path) -> String {
+pub(crate) fn shown(path: &Path) -> String {
     let path = path.strip_prefix(".").ok().filter(|rest| !rest.as_os_str().is_empty()).unwrap_or(path);
     let text = path.to_string_lossy();
-    if std::path::MAIN_SEPARATOR == '/' { text.into_owned() } else { text.replace(std::path::MAIN_SEPARATOR, "/") }
+    if std::path::MAIN_SEPARATOR == '/' {
+        text.into_owned()
+    } else {
+        text.replace(std::path::MAIN_SEPARATOR, "/")
+    }
 }
 
 /// The path from the current folder where it lies in it, else as it is.
-pub fn shown_from_here(path: &Path) -> String {
+pub(crate) fn shown_from_here(path: &Path) -> String {
     let here = absolute(Path::new("."));
     let absolute = absolute(path);
     absolute.strip_prefix(&here).map_or_else(|_| shown(path), shown)

@@ -82,7 +82,12 @@ impl fmt::Display for Problem {
         if let Some(Excerpt { line, text, before, marked }) = &self.excerpt {
             let margin = " ".repeat(line.to_string().len());
             let marked = (*marked).min(SHOWN - before);
-            write!(f, "\n{margin} |\n{line} | {text}\n{margin} | {}{}", " ".repeat(*before), "^".repeat(marked))?;
+            write!(
+                f,
+                "\n{margin} |\n{line} | {text}\n{margin} | {}{}",
+                " ".repeat(*before),
+                "^".repeat(marked)
+            )?;
         }
         if let Some(help) = &self.help {
             write!(f, "\n  help: {help}")?;
@@ -92,7 +97,7 @@ impl fmt::Display for Problem {
 }
 
 /// The reason of an input or output error without Rust's "(os error 2)".
-pub fn io_reason(error: &std::io::Error) -> String {
+pub(crate) fn io_reason(error: &std::io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or(&text);
     let mut letters = text.chars();
@@ -112,6 +117,9 @@ mod tests {
 
     #[test]
     fn a_place_outside_the_text_is_its_end() {
-        assert_eq!(Problem::at("x", "ab", &(9..12), "cut off").to_string(), "x:1:3: cut off\n  |\n1 | ab\n  |   ^");
+        assert_eq!(
+            Problem::at("x", "ab", &(9..12), "cut off").to_string(),
+            "x:1:3: cut off\n  |\n1 | ab\n  |   ^"
+        );
     }
 }

@@ -73,7 +73,10 @@ impl Folder {
         let mut folder = Self::default();
         let Ok(entries) = fs::read_dir(path) else { return folder };
         let mut bytes = 0;
-        let programs = entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path) && path.is_file());
+        let programs = entries
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| is_program_name(path) && path.is_file());
         for (count, path) in programs.enumerate() {
             if let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) {
                 folder.numbers.extend(stem.strip_prefix('o').and_then(|digits| digits.parse::<u32>().ok()));
@@ -96,7 +99,10 @@ impl Folder {
 fn numbers_in(content: &[u8]) -> impl Iterator<Item = u32> {
     content.split(|b| matches!(b, b'\n' | b'\r')).filter_map(|line| {
         let line = line.trim_ascii_start();
-        let digits = line.strip_prefix(b"O").or_else(|| line.strip_prefix(b"o")).or_else(|| line.strip_prefix(b":"))?;
+        let digits = line
+            .strip_prefix(b"O")
+            .or_else(|| line.strip_prefix(b"o"))
+            .or_else(|| line.strip_prefix(b":"))?;
         let end = digits.iter().position(|b| !b.is_ascii_digit()).unwrap_or(digits.len());
         std::str::from_utf8(digits.get(..end)?).ok()?.parse().ok()
     })
@@ -108,7 +114,8 @@ mod tests {
 
     #[test]
     fn numbers_stand_at_the_heads_of_lines() {
-        let numbers: Vec<u32> = numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\n").collect();
+        let numbers: Vec<u32> =
+            numbers_in(b"%\r\nO0100 (A)\nG0 O5\n :200\no300 sub\nO<name> call\n").collect();
         assert_eq!(numbers, [100, 200, 300]);
     }
 }

@@ -16,17 +16,17 @@ const SAMPLE: usize = 64 << 10;
 
 /// Reads a program.
 pub(crate) fn file(path: &Path) -> Result<SourceText, Problem> {
-    let bytes = fs::read(path).map_err(|error| Problem::with_file(path, format!("cannot read: {}", io_reason(&error))))?;
+    let bytes = fs::read(path)
+        .map_err(|error| Problem::with_file(path, format!("cannot read: {}", io_reason(&error))))?;
     text(path, bytes)
 }
 
 /// Reads standard input, called `name`.
 pub(crate) fn standard_input(name: &Path) -> Result<SourceText, Problem> {
     let mut bytes = Vec::new();
-    io::stdin()
-        .lock()
-        .read_to_end(&mut bytes)
-        .map_err(|error| Problem::with_file(name, format!("cannot read standard input: {}", io_reason(&error))))?;
+    io::stdin().lock().read_to_end(&mut bytes).map_err(|error| {
+        Problem::with_file(name, format!("cannot read standard input: {}", io_reason(&error)))
+    })?;
     text(name, bytes)
 }
 

@@ -87,7 +87,7 @@ fn all() -> anyhow::Result<Generated> {
 fn from_product() -> anyhow::Result<Generated> {
     let mut files = rule_pages::generate();
     files.extend(control_pages::generate()?);
-    files.extend(schema::generate()?);
+    files.extend(schema::generate());
     Ok(files)
 }
 

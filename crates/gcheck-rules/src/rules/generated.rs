@@ -79,6 +79,7 @@ pub(crate) mod syntax {
 pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod decimal_point_on_integer;
+    pub(crate) mod lasting_word_never_given;
     pub(crate) mod missing_decimal_point;
     pub(crate) mod number_out_of_range;
     pub(crate) mod required_word_missing;
@@ -159,6 +160,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::zero_for_letter_o::RULE,
     &words::arc_without_centre::RULE,
     &words::decimal_point_on_integer::RULE,
+    &words::lasting_word_never_given::RULE,
     &words::missing_decimal_point::RULE,
     &words::number_out_of_range::RULE,
     &words::required_word_missing::RULE,

@@ -78,7 +78,8 @@ pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Pr
     let settings = target.config.settings(&target.path);
     let from = configured(settings.control.as_deref(), settings.control_from.as_deref());
     let choice = choose(&target.path, &source, bench.control, from)?;
-    let selection = settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    let selection =
+        settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     Ok(Prepared { source, settings, choice, selection })
 }
 
@@ -101,14 +102,16 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
     let control = bench.control_of(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let own = target.path.parent().map(PathBuf::from).unwrap_or_default();
-    let programs = Reachable { folders: &bench.folders, paths: std::iter::once(own).chain(settings.search).collect() };
+    let programs =
+        Reachable { folders: &bench.folders, paths: std::iter::once(own).chain(settings.search).collect() };
     let scene = Scene {
         dialect: &dialect,
         machine: &settings.machine,
         programs: &programs,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
-    let outcome = check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions });
+    let outcome =
+        check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions });
     // A program without findings is never shown: let go of its text before the last file is read.
     let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
     Ok(FileReport {

@@ -45,7 +45,9 @@ fn of_file(target: &Target, prepared: &Prepared) -> String {
     }
     let rules: Vec<String> = selection
         .rules()
-        .map(|(rule, severity)| severity.map_or_else(|| rule.meta.id.to_owned(), |s| format!("{}={s}", rule.meta.id)))
+        .map(|(rule, severity)| {
+            severity.map_or_else(|| rule.meta.id.to_owned(), |s| format!("{}={s}", rule.meta.id))
+        })
         .collect();
     let _ = writeln!(out, "  rules ({}): {}", rules.len(), rules.join(", "));
     out

@@ -24,7 +24,8 @@ struct Row<'c> {
 pub(crate) fn run(global: &Global, options: &ListOptions) -> Result<u8, Problem> {
     let control = match chosen_control(global)? {
         Some(control) => control,
-        None => gcheck_controls::load(gcheck_controls::fallback()).map_err(|error| Problem::new(error.to_string()))?,
+        None => gcheck_controls::load(gcheck_controls::fallback())
+            .map_err(|error| Problem::new(error.to_string()))?,
     };
     let rows: Vec<Row<'_>> = control
         .codes()

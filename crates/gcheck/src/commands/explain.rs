@@ -34,7 +34,8 @@ fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
         .filter_map(|name| gcheck_controls::load(name).ok())
         .filter(|control| control.code(number).is_some())
         .collect();
-    let others = |own: &str| -> Vec<&str> { having.iter().map(|c| c.name()).filter(|name| *name != own).collect() };
+    let others =
+        |own: &str| -> Vec<&str> { having.iter().map(|c| c.name()).filter(|name| *name != own).collect() };
     let chosen = chosen_control(global)?;
     let control = match &chosen {
         Some(control) => control,
@@ -50,7 +51,11 @@ fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
     let Some(code) = control.code(number) else {
         let problem = Problem::new(format!("{} has no `{number}`", control.title()));
         let others = others(control.name());
-        return Err(if others.is_empty() { problem } else { problem.help(format!("it is a code of {}", others.join(", "))) });
+        return Err(if others.is_empty() {
+            problem
+        } else {
+            problem.help(format!("it is a code of {}", others.join(", ")))
+        });
     };
     let mut page = of_code(control, code);
     let others = others(control.name());
@@ -120,7 +125,9 @@ fn of_code(control: &Control, code: Code<'_>) -> String {
 /// Codes as they are, groups by what they decide.
 fn references(control: &Control, items: &[String]) -> String {
     let name = |item: &String| match item.strip_prefix('@') {
-        Some(id) => control.group_by_id(id).map_or_else(|| id.to_owned(), |ix| format!("all of {}", control.group(ix).title)),
+        Some(id) => control
+            .group_by_id(id)
+            .map_or_else(|| id.to_owned(), |ix| format!("all of {}", control.group(ix).title)),
         None => item.clone(),
     };
     items.iter().map(name).collect::<Vec<_>>().join(", ")
@@ -131,7 +138,9 @@ fn words(words: &[WordEntry]) -> String {
         let need = match word.need {
             Need::Required => "required".to_owned(),
             Need::Modal => "here or earlier".to_owned(),
-            Need::Optional => word.default.as_ref().map_or_else(|| "optional".to_owned(), |d| format!("optional, else {d}")),
+            Need::Optional => {
+                word.default.as_ref().map_or_else(|| "optional".to_owned(), |d| format!("optional, else {d}"))
+            }
             Need::Conditional => word.when.clone().unwrap_or_else(|| "sometimes".to_owned()),
         };
         let range = match (word.min, word.max, word.above) {

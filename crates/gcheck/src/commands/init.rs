@@ -24,7 +24,9 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
         }
         None => {
             let (control, programs) = most_common_control()?;
-            let why = control.as_ref().map_or_else(String::new, |_| format!("  # detected from {programs} of the programs here"));
+            let why = control
+                .as_ref()
+                .map_or_else(String::new, |_| format!("  # detected from {programs} of the programs here"));
             (control, why)
         }
     };

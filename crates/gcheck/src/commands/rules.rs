@@ -41,7 +41,8 @@ pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
         ListFormat::Json => output::print(&json(&rows)?),
         ListFormat::Text => {
             let row = |r: &Row| {
-                let severity = if r.recommended { r.severity.to_owned() } else { format!("({})", r.severity) };
+                let severity =
+                    if r.recommended { r.severity.to_owned() } else { format!("({})", r.severity) };
                 vec![r.id.to_owned(), r.group.to_owned(), severity, r.summary.to_owned()]
             };
             output::print(&columns(&rows.iter().map(row).collect::<Vec<_>>()))

@@ -78,11 +78,13 @@ impl Layer {
             rules: facts.rules(&file.rules)?,
         };
         facts.execution(&file.variables, &file.offsets, &file.tools)?;
-        let overrides = file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
+        let overrides =
+            file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
         let mut per_file_ignores = Vec::new();
         for (pattern, selectors) in &file.per_file_ignores {
             facts.selectors(selectors)?;
-            per_file_ignores.push((text.pattern(pattern)?, selectors.iter().map(|s| s.value.clone()).collect()));
+            per_file_ignores
+                .push((text.pattern(pattern)?, selectors.iter().map(|s| s.value.clone()).collect()));
         }
         let FilesTable { include, exclude } = &file.files;
         let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
@@ -91,7 +93,11 @@ impl Layer {
     }
 }
 
-fn overriding(text: Text<'_>, file: &ConfigFile, table: &OverrideTable) -> Result<(Vec<PathPattern>, Facts), Problem> {
+fn overriding(
+    text: Text<'_>,
+    file: &ConfigFile,
+    table: &OverrideTable,
+) -> Result<(Vec<PathPattern>, Facts), Problem> {
     let facts = validate::Checked::new(text, table.control.as_ref().or(file.control.as_ref()))?;
     facts.execution(&table.variables, &table.offsets, &table.tools)?;
     let own = Facts {

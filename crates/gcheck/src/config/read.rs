@@ -44,8 +44,9 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
     if path.is_dir() {
         return Err(Problem::with_file(path, "is a folder, not a configuration file"));
     }
-    let bytes = fs::read(path)
-        .map_err(|error| Problem::with_file(path, format!("cannot read the configuration: {}", io_reason(&error))))?;
+    let bytes = fs::read(path).map_err(|error| {
+        Problem::with_file(path, format!("cannot read the configuration: {}", io_reason(&error)))
+    })?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Problem::with_file(path, "is no configuration: it holds bytes that are no UTF-8"))?;
     let name = paths::shown_from_here(path);
@@ -102,7 +103,11 @@ fn parse(name: &str, text: &str) -> Result<ConfigFile, Problem> {
 fn in_words(message: &str) -> String {
     if let Some((what, name, known)) = misspelt(message) {
         let near = did_you_mean(name, known.iter().copied());
-        let list = if near.is_empty() && !known.is_empty() { format!("; known are {}", known.join(", ")) } else { near };
+        let list = if near.is_empty() && !known.is_empty() {
+            format!("; known are {}", known.join(", "))
+        } else {
+            near
+        };
         return format!("unknown {what} `{name}`{list}");
     }
     let mut words = message.lines().next().unwrap_or_default().to_owned();
@@ -154,15 +159,33 @@ mod tests {
     fn messages_point_at_the_place_and_suggest() {
         check("contrl = \"x\"\n", "gcheck.toml:1:1: unknown key `contrl`; did you mean `control`?");
         check("[machine]\nmax-rpm = 1\n", "gcheck.toml:2:1: unknown key `max-rpm`; did you mean `max_rpm`?");
-        check("[machine]\nunits = \"inches\"\n", "gcheck.toml:2:9: unknown value `inches`; did you mean `inch`?");
-        check("[machine]\nmax_rpm = \"fast\"\n", "gcheck.toml:2:11: wrong type: text \"fast\", expected a number");
+        check(
+            "[machine]\nunits = \"inches\"\n",
+            "gcheck.toml:2:9: unknown value `inches`; did you mean `inch`?",
+        );
+        check(
+            "[machine]\nmax_rpm = \"fast\"\n",
+            "gcheck.toml:2:11: wrong type: text \"fast\", expected a number",
+        );
         check("control = 5\n", "gcheck.toml:1:11: wrong type: number `5`, expected a text");
         check("[rules]\nselect = \"all\"\n", "gcheck.toml:2:10: wrong type: text \"all\", expected a list");
-        check("[rules]\nunknown-code = \"loud\"\n", "gcheck.toml:2:16: unknown value `loud`; known are off, hint, info, warning, error");
+        check(
+            "[rules]\nunknown-code = \"loud\"\n",
+            "gcheck.toml:2:16: unknown value `loud`; known are off, hint, info, warning, error",
+        );
         check("machine = 3\n", "gcheck.toml:1:11: wrong type: number `3`, expected a table");
-        check("[settings]\n34 = [1]\n", "gcheck.toml:2:6: wrong type: list, expected `true`, `false`, a number or a text");
-        check("[tools]\n1 = { lenght = 5 }\n", "gcheck.toml:2:7: unknown key `lenght`; did you mean `length`?");
-        check("[[overrides]]\nfile = [\"a\"]\n", "gcheck.toml:2:1: unknown key `file`; did you mean `files`?");
+        check(
+            "[settings]\n34 = [1]\n",
+            "gcheck.toml:2:6: wrong type: list, expected `true`, `false`, a number or a text",
+        );
+        check(
+            "[tools]\n1 = { lenght = 5 }\n",
+            "gcheck.toml:2:7: unknown key `lenght`; did you mean `length`?",
+        );
+        check(
+            "[[overrides]]\nfile = [\"a\"]\n",
+            "gcheck.toml:2:1: unknown key `file`; did you mean `files`?",
+        );
     }
 
     #[test]
@@ -173,7 +196,10 @@ mod tests {
         let layer = inline("machine.axes=[\"X\", \"Z\"]").unwrap();
         assert_eq!(layer.file.machine.axes.unwrap().len(), 2);
         let problem = inline("contrl=x").unwrap_err().to_string();
-        assert!(problem.starts_with("--config:1:1: unknown key `contrl`; did you mean `control`?"), "{problem}");
+        assert!(
+            problem.starts_with("--config:1:1: unknown key `contrl`; did you mean `control`?"),
+            "{problem}"
+        );
         assert!(inline("=").unwrap_err().to_string().starts_with("--config:1:1: "));
     }
 }

@@ -143,7 +143,8 @@ fn apply(selection: &mut Selection, table: &RulesTable) -> Result<(), UnknownRul
         selection.disable(&selector.value)?;
     }
     let is_rule = |name: &str| gcheck_rules::by_id(name).is_some();
-    let (rules, groups): (Vec<_>, Vec<_>) = table.severities.iter().partition(|(name, _)| is_rule(&name.value));
+    let (rules, groups): (Vec<_>, Vec<_>) =
+        table.severities.iter().partition(|(name, _)| is_rule(&name.value));
     for (name, level) in groups.into_iter().chain(rules) {
         match level.severity() {
             Some(severity) => selection.set_severity(&name.value, severity)?,

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use gcheck_controls::{CodeNumber, Control, Letter, UserCode};
 use gcheck_rules::Selection;
 
+use super::Placed;
 use super::file::{CodeTable, MachineTable, RulesTable, Scalar, ToolsTable};
 use super::layer::Text;
-use super::Placed;
 use crate::Problem;
 use crate::nearest::did_you_mean;
 
@@ -29,7 +29,8 @@ pub(super) struct Checked<'t> {
 impl<'t> Checked<'t> {
     pub(super) fn new(text: Text<'t>, control: Option<&Placed<String>>) -> Result<Self, Problem> {
         let control = control.map(|name| {
-            gcheck_controls::load(&name.value).map_err(|error| text.problem(name, unknown_control(&name.value, &error)))
+            gcheck_controls::load(&name.value)
+                .map_err(|error| text.problem(name, unknown_control(&name.value, &error)))
         });
         Ok(Self { text, control: control.transpose()? })
     }
@@ -87,9 +88,12 @@ impl<'t> Checked<'t> {
         settings: &BTreeMap<Placed<String>, Placed<Scalar>>,
     ) -> Result<Vec<(String, String)>, Problem> {
         for (number, value) in settings {
-            let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else { continue };
+            let Some(entry) = self.control.as_ref().and_then(|control| control.setting(&number.value)) else {
+                continue;
+            };
             let listed: Vec<&str> = entry.values.iter().map(String::as_str).collect();
-            let is_open = listed.iter().any(|v| KINDS_OF_VALUES.contains(v)) || listed.iter().any(|v| v.contains(' '));
+            let is_open =
+                listed.iter().any(|v| KINDS_OF_VALUES.contains(v)) || listed.iter().any(|v| v.contains(' '));
             if !is_open && !listed.contains(&value.value.0.as_str()) {
                 let near = did_you_mean(&value.value.0, listed.iter().copied());
                 return Err(self.text.problem(
@@ -101,12 +105,16 @@ impl<'t> Checked<'t> {
         Ok(settings.iter().map(|(number, value)| (number.value.clone(), value.value.0.clone())).collect())
     }
 
-    pub(super) fn codes(&self, codes: &BTreeMap<Placed<String>, CodeTable>) -> Result<Vec<UserCode>, Problem> {
+    pub(super) fn codes(
+        &self,
+        codes: &BTreeMap<Placed<String>, CodeTable>,
+    ) -> Result<Vec<UserCode>, Problem> {
         codes
             .iter()
             .map(|(name, table)| {
-                let number = CodeNumber::parse(&name.value.to_ascii_uppercase())
-                    .ok_or_else(|| self.text.problem(name, format!("`{}` is no code; write `M51` or `G150`", name.value)))?;
+                let number = CodeNumber::parse(&name.value.to_ascii_uppercase()).ok_or_else(|| {
+                    self.text.problem(name, format!("`{}` is no code; write `M51` or `G150`", name.value))
+                })?;
                 if let Some(alias) = &table.alias
                     && !is_program(&alias.value)
                 {
@@ -114,8 +122,13 @@ impl<'t> Checked<'t> {
                     return Err(self.text.problem(alias, message));
                 }
                 let alias = table.alias.as_ref().map(|a| a.value.clone());
-                let title = table.title.clone().or_else(|| alias.as_ref().map(|program| format!("calls {program}")));
-                Ok(UserCode { number, title: title.unwrap_or_else(|| "a code of this shop".to_owned()), alias })
+                let title =
+                    table.title.clone().or_else(|| alias.as_ref().map(|program| format!("calls {program}")));
+                Ok(UserCode {
+                    number,
+                    title: title.unwrap_or_else(|| "a code of this shop".to_owned()),
+                    alias,
+                })
             })
             .collect()
     }
@@ -137,7 +150,10 @@ impl<'t> Checked<'t> {
     }
 
     /// Each names a rule, a group or a set.
-    pub(super) fn selectors<'s>(&self, selectors: impl IntoIterator<Item = &'s Placed<String>>) -> Result<(), Problem> {
+    pub(super) fn selectors<'s>(
+        &self,
+        selectors: impl IntoIterator<Item = &'s Placed<String>>,
+    ) -> Result<(), Problem> {
         let mut selection = Selection::none();
         for selector in selectors {
             if let Err(unknown) = selection.enable(&selector.value) {
@@ -164,9 +180,13 @@ impl<'t> Checked<'t> {
         }
         for (name, axes) in offsets {
             let code = name.value.split_whitespace().next().and_then(CodeNumber::parse);
-            let exists = code.is_some_and(|number| self.control.as_ref().is_none_or(|c| c.code(number).is_some()));
+            let exists =
+                code.is_some_and(|number| self.control.as_ref().is_none_or(|c| c.code(number).is_some()));
             if !exists {
-                let of = self.control.as_ref().map_or_else(String::new, |control| format!(" of {}", control.name()));
+                let of = self
+                    .control
+                    .as_ref()
+                    .map_or_else(String::new, |control| format!(" of {}", control.name()));
                 let message = format!("`{}` is no work offset{of}; write `G54` or \"G154 P1\"", name.value);
                 return Err(self.text.problem(name, message));
             }

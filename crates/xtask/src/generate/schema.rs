@@ -2,10 +2,11 @@
 //!
 //! Knows: where the schema stands. Must not know: any key of the configuration.
 
+use std::path::PathBuf;
+
 use super::Generated;
 
-/// The schema, as soon as the binary crate offers `gcheck::config::schema()` in its library.
-#[expect(clippy::unnecessary_wraps, reason = "the signature of generators that can fail")]
-pub(super) fn generate() -> anyhow::Result<Generated> {
-    Ok(Vec::new())
+/// The schema, as `gcheck schema` prints it.
+pub(super) fn generate() -> Generated {
+    vec![(PathBuf::from("docs/gcheck.schema.json"), gcheck::config::schema())]
 }

@@ -1,0 +1,111 @@
+//! A code that relies on an earlier value which nothing gave.
+
+use gcheck_controls::{Code, Ends, Letter};
+use gcheck_program::{NeverGiven, OKeyword};
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A code needs a word that may stand in an earlier block, and no block before it has the word.
+    ///
+    /// ## Why it matters
+    /// The control takes whatever the last program left behind: another tool's length, another hole's peck. On an empty
+    /// control it alarms.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G43 Z1.
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// G99 G83 Z-20. R2. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// H1
+    /// G43 Z1.
+    /// M30
+    /// ```
+    /// The words that a subprogram relies on are given by its caller.
+    /// ```nc,quiet,fanuc-mill
+    /// O100
+    /// G83 Z-20. R2. F100.
+    /// M99
+    /// ```
+    rule "lasting-word-never-given" in "words" {
+        summary: "code relies on a word that no earlier block gives",
+        severity: Warning,
+        tier: Program,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let survey = cx.survey;
+    // What may be called takes its caller's words with it.
+    let may_be_called = survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
+        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
+    if may_be_called || survey.has_mistakes {
+        return;
+    }
+    for missing in &survey.never_given {
+        if let Some(code) = cx.control().code_at(missing.code)
+            && is_first(cx, missing)
+        {
+            report.add(finding(cx, missing, code));
+        }
+    }
+}
+
+/// Told where it is missed first; what comes later misses the same.
+fn is_first(cx: &FileCx<'_>, missing: &NeverGiven) -> bool {
+    let same = |other: &&NeverGiven| other.code == missing.code && other.letter == missing.letter;
+    cx.survey.never_given.iter().find(same) == Some(missing)
+}
+
+fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
+    let (entry, letter) = (code.entry(), missing.letter);
+    let word = entry.words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
+    let is = word.map_or("", |word| word.is.as_str());
+    let written = cx.slice(missing.range.clone());
+    Finding::new(
+        &META,
+        missing.range.clone(),
+        format!("`{written}` without `{letter}`, which no earlier block gives"),
+    )
+    .label(format!("takes {is} from what was active before the program"))
+    .note(format!("`{}` ({}) uses the last `{letter}`  [{}]", entry.code, entry.title, entry.source))
+    .help(format!("add `{letter}` to the block"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_block_that_misses_the_word_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 Z1.\nG83 Z-1. R.1 F5.\nG43 Z2.\nM30\n",
+            &expect![[r#"
+            2 | G43 Z1.
+              | ^^^ warning[lasting-word-never-given] `G43` without `H`, which no earlier block gives
+            3 | G83 Z-1. R.1 F5.
+              | ^^^ warning[lasting-word-never-given] `G83` without `Q`, which no earlier block gives
+        "#]],
+        );
+    }
+
+    #[test]
+    fn other_words_may_do_instead() {
+        check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 I.2 J.05 K.1 F5.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 Q#5 F5.\nG80\nG83 Z-1. R.1\nM30\n", &expect![[""]]);
+    }
+}

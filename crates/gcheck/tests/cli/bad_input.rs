@@ -1,0 +1,227 @@
+//! Bad input: each gives one clear message with its place and the right exit code, and the other files are still checked.
+
+use std::fmt::Write as _;
+use std::time::{Duration, Instant};
+
+use expect_test::{Expect, expect};
+
+use crate::shop::{BAD, GOOD, Shop};
+
+/// Longer than any of these may take in a debug build on a busy machine; hangs and quadratic work take far longer.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Checks what is said when `part.nc` has this content, beside a file with a finding.
+fn check_content(content: &[u8], expected: &Expect) {
+    let shop = Shop::with(&[("other.nc", BAD)]);
+    shop.file("part.nc", content);
+    expected.assert_eq(&shop.gcheck("check part.nc other.nc --control haas-mill --output-format concise --quiet").to_string());
+}
+
+/// Checks what is said when `gcheck.toml` has this content, beside a folder with a sound one.
+fn check_configuration(content: &str, expected: &Expect) {
+    let shop = Shop::with(&[
+        ("shop/gcheck.toml", content),
+        ("shop/a.nc", BAD),
+        ("shop/b.nc", BAD),
+        ("sound/gcheck.toml", "control = \"haas-mill\"\n"),
+        ("sound/a.nc", BAD),
+    ]);
+    expected.assert_eq(&shop.gcheck("check shop sound --output-format concise --quiet").to_string());
+}
+
+/// Checks what is said about arguments, in a folder with one good program.
+fn check_arguments(arguments: &str, expected: &Expect) {
+    let shop = Shop::with(&[("part.nc", GOOD)]);
+    expected.assert_eq(&shop.gcheck(arguments).to_string());
+}
+
+#[test]
+fn a_missing_file() {
+    let shop = Shop::with(&[("other.nc", BAD)]);
+    let run = shop.gcheck("check missing.nc other.nc --control haas-mill --output-format concise --quiet");
+    expect![[]].assert_eq(&run.to_string());
+}
+
+#[test]
+fn an_unreadable_file() {
+    let shop = Shop::with(&[("other.nc", BAD), ("part.nc", GOOD)]);
+    if !shop.permissions_count("an_unreadable_file") {
+        return;
+    }
+    shop.chmod("part.nc", 0);
+    let run = shop.gcheck("check part.nc other.nc --control haas-mill --output-format concise --quiet");
+    assert_eq!(run.code, 2);
+    assert_eq!(run.stderr, "error: part.nc: cannot read: permission denied\n");
+    assert_eq!(run.rules(), ["unknown-code"]);
+}
+
+#[test]
+fn a_folder_with_the_name_of_a_file_is_walked() {
+    let shop = Shop::with(&[("part.nc/inner.nc", BAD)]);
+    for arguments in ["check part.nc", "check"] {
+        let run = shop.gcheck(&format!("{arguments} --control haas-mill --output-format concise --quiet"));
+        assert_eq!(run.findings(), ["part.nc/inner.nc:3:1: error[unknown-code]"], "{arguments}");
+        assert_eq!(run.code, 1);
+    }
+}
+
+#[test]
+fn a_folder_without_programs() {
+    check_arguments("check --config=files.include=[\"*.none\"]", &expect![[]]);
+}
+
+#[test]
+fn a_binary() {
+    let noise: Vec<u8> = (0..4_000_u32).map(|n| (n.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    check_content(&noise, &expect![[]]);
+}
+
+#[test]
+fn utf_16() {
+    let text: Vec<u8> = std::iter::once(0xFEFF).chain(GOOD.encode_utf16()).flat_map(u16::to_le_bytes).collect();
+    check_content(&text, &expect![[]]);
+    // Without a byte order mark every second byte is NUL.
+    let text: Vec<u8> = GOOD.encode_utf16().flat_map(u16::to_le_bytes).collect();
+    check_content(&text, &expect![[]]);
+}
+
+#[test]
+fn problems_in_a_folder_name_files_as_findings_do() {
+    let shop = Shop::with(&[("other.nc", BAD)]);
+    shop.file("part.nc", b"\xFF\xFEx\0");
+    expect![[]].assert_eq(&shop.gcheck("check --control haas-mill --output-format concise --quiet").to_string());
+}
+
+#[test]
+fn bytes_of_a_code_page_in_a_comment_are_no_binary() {
+    check_content(b"%\nO0001 (FR\xC4SEN)\nM30\n%\n", &expect![[]]);
+}
+
+#[test]
+fn an_empty_file() {
+    check_content(b"", &expect![[]]);
+    check_content(b"\xEF\xBB\xBF", &expect![[]]);
+}
+
+#[test]
+fn a_large_file() {
+    let mut text = String::from("%\nO0001 (LARGE)\nG90\n");
+    let mut line = 0;
+    while text.len() < 30 << 20 {
+        let _ = writeln!(text, "N{line} G1 X{}.{:03} Y-1.5 F200.", line % 300, line % 1000);
+        line = (line + 1) % 90_000;
+    }
+    text.push_str("M30\n%\n");
+    let shop = Shop::new();
+    shop.file("large.nc", &text);
+    let start = Instant::now();
+    let run = shop.gcheck("check large.nc --control haas-mill --output-format concise --quiet --ignore duplicate-sequence-number");
+    assert!(start.elapsed() < PATIENCE, "{:?}", start.elapsed());
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+}
+
+#[test]
+fn a_line_of_a_million_characters() {
+    let shop = Shop::new();
+    shop.file("words.nc", format!("%\nO0001\n{}\nM30\n%\n", "X1.".repeat(333_333)));
+    shop.file("comment.nc", format!("%\nO0001\n({})\nM30\n%\n", "A".repeat(1_000_000)));
+    shop.file("digits.nc", format!("%\nO0001\nG0 X{}.\nM30\n%\n", "1".repeat(1_000_000)));
+    for format in ["full", "json", "sarif", "github"] {
+        let start = Instant::now();
+        let run = shop.gcheck(&format!("check --control haas-mill --output-format {format}"));
+        assert!(start.elapsed() < PATIENCE, "{format}: {:?}", start.elapsed());
+        assert_eq!(run.code, 1, "{format}: {}", run.stderr);
+    }
+    let run = shop.gcheck("check --control haas-mill --select line-too-long,too-many-digits,word-given-twice --output-format concise --quiet");
+    let mut rules = run.rules();
+    rules.dedup();
+    expect![[]].assert_eq(&format!("{} {rules:#?}", run.code));
+    let longest = shop.gcheck("check --control haas-mill").stdout.lines().map(str::len).max().unwrap();
+    assert!(longest < 2_000, "the full format shows a part of a long line, not {longest} bytes");
+}
+
+#[test]
+fn ten_thousand_nested_brackets() {
+    let nested = format!("%\nO0001\n#100={}1{}\nM30\n%\n", "[".repeat(10_000), "]".repeat(10_000));
+    check_content(nested.as_bytes(), &expect![[]]);
+    let open = format!("%\nO0001\nG0 X{}\nM30\n%\n", "[".repeat(10_000));
+    check_content(open.as_bytes(), &expect![[]]);
+    let loops = format!("%\nO0001\n{}M30\n%\n", "WHILE [1 EQ 1] DO1\n".repeat(10_000));
+    let shop = Shop::new();
+    shop.file("loops.nc", loops);
+    assert_eq!(shop.gcheck("check --control haas-mill --quiet").code, 1);
+}
+
+#[test]
+fn a_wrong_key() {
+    check_configuration("# shop\ncontrl = \"haas-mill\"\n", &expect![[]]);
+}
+
+#[test]
+fn a_wrong_type() {
+    check_configuration("[machine]\nmax_rpm = \"fast\"\n", &expect![[]]);
+}
+
+#[test]
+fn broken_toml() {
+    check_configuration("control = \"haas-mill\n", &expect![[]]);
+    check_configuration("control = \"haas-mill\"\ncontrol = \"haas-mill\"\n", &expect![[]]);
+}
+
+#[test]
+fn a_configuration_that_is_no_text() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    shop.file("gcheck.toml", b"control = \"\xFF\"\n");
+    expect![[]].assert_eq(&shop.gcheck("check").to_string());
+}
+
+#[test]
+fn names_that_do_not_exist() {
+    check_configuration("control = \"haas-mil\"\n", &expect![[]]);
+    check_configuration("[rules]\nselect = [\"words\", \"unknwn-code\"]\n", &expect![[]]);
+    check_configuration("[rules]\nunknwn-code = \"off\"\n", &expect![[]]);
+    check_configuration("control = \"haas-mill\"\n[machine]\naxes = [\"X\", \"Q\"]\n", &expect![[]]);
+    check_configuration("[codes]\nX5 = { title = \"no code\" }\n", &expect![[]]);
+    check_configuration("control = \"haas-mill\"\n[offsets]\nG999 = { X = 1.0 }\n", &expect![[]]);
+    check_configuration("[per-file-ignores]\n\"old/**\" = [\"stile\"]\n", &expect![[]]);
+    check_configuration("[[overrides]]\nfiles = [\"a.nc\"]\ncontrol = \"hass-lathe\"\n", &expect![[]]);
+    check_configuration("[files]\nexclude = [\"[a\"]\n", &expect![[]]);
+    check_configuration("control = \"haas-mill\"\n[settings]\n162 = \"perhaps\"\n", &expect![[]]);
+}
+
+#[test]
+fn a_configuration_that_extends_itself_or_nothing() {
+    check_configuration("extend = \"gcheck.toml\"\n", &expect![[]]);
+    check_configuration("extend = \"base.toml\"\n", &expect![[]]);
+}
+
+#[test]
+fn an_unknown_control_among_the_arguments() {
+    check_arguments("check --control haas-mlil", &expect![[]]);
+    check_arguments("check --control nonsense", &expect![[]]);
+}
+
+#[test]
+fn an_unknown_rule_among_the_arguments() {
+    check_arguments("check --select nonsense", &expect![[]]);
+    check_arguments("check --ignore unknown-cod", &expect![[]]);
+    check_arguments("check --extend-select unknown-code,modl", &expect![[]]);
+}
+
+#[test]
+fn an_unknown_control_in_a_program() {
+    check_content(b"%\nO0001\n(gcheck: control=nonsense)\nM30\n%\n", &expect![[]]);
+    let shop = Shop::with(&[("part.nc", "%\nO0001\n(gcheck: control=nonsense)\nM30\n%\n"), ("other.nc", BAD)]);
+    expect![[]].assert_eq(&shop.gcheck("check --output-format concise --quiet").to_string());
+}
+
+#[test]
+fn wrong_arguments() {
+    check_arguments("chek", &expect![[]]);
+    check_arguments("check --output-format xml", &expect![[]]);
+    check_arguments("check --fail-on always", &expect![[]]);
+    check_arguments("check --config missing.toml", &expect![[]]);
+    check_arguments("check --config contrl=haas-mill", &expect![[]]);
+    check_arguments("check --isolated --config part.nc", &expect![[]]);
+    assert_eq!(Shop::new().gcheck("").code, 2);
+}

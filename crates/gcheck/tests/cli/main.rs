@@ -1,0 +1,18 @@
+//! End-to-end tests: the `gcheck` program as people and other programs run it, in a folder of its own.
+//!
+//! Knows: arguments, files, exit codes, what is printed. Must not know: how any of it is computed.
+
+#![expect(clippy::unwrap_used, clippy::expect_used, clippy::indexing_slicing, reason = "a test that meets the unexpected is to fail")]
+
+mod bad_input;
+mod configuration;
+mod control;
+mod determinism;
+mod exit_codes;
+mod formats;
+mod lists;
+mod output;
+mod shop;
+mod suppressions;
+mod tour;
+mod walking;
