@@ -264,16 +264,16 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use super::{
-        AlarmsFile, CodesFile, ControlFile, GroupsFile, LettersFile, SettingsFile, VariablesFile,
-    };
+    use super::{AlarmsFile, CodesFile, ControlFile, GroupsFile, LettersFile, SettingsFile, VariablesFile};
 
     /// The embedded form has lost its line numbers; this is where an author of data learns the line.
     #[test]
     fn every_data_file_is_as_the_schema_wants_it() {
         let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("data");
-        let folders = fs::read_dir(data).unwrap().map(|folder| folder.unwrap().path()).filter(|path| path.is_dir());
-        for file in folders.flat_map(|folder| fs::read_dir(folder).unwrap().map(|file| file.unwrap().path())) {
+        let folders =
+            fs::read_dir(data).unwrap().map(|folder| folder.unwrap().path()).filter(|path| path.is_dir());
+        for file in folders.flat_map(|folder| fs::read_dir(folder).unwrap().map(|file| file.unwrap().path()))
+        {
             let text = fs::read_to_string(&file).unwrap();
             let name = file.file_name().unwrap().to_str().unwrap();
             let read = match name {

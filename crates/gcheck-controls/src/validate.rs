@@ -125,12 +125,16 @@ impl Problems<'_> {
                 }
                 Some(_) => {}
             }
+            for letter in &word.instead {
+                if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
+                    self.say(code, format!("`{letter}` instead of `{}` is no address here", word.letter));
+                }
+            }
             if word.need == crate::Need::Conditional && word.when.is_none() {
                 self.say(code, format!("word `{}` is conditional but does not say when", word.letter));
             }
         }
-        let instead = entry.words.iter().map(|word| &word.instead);
-        let combined = entry.one_of.iter().chain(&entry.not_together).chain(instead).flatten();
+        let combined = entry.one_of.iter().chain(&entry.not_together).flatten();
         for letter in combined.flat_map(|item| item.bytes()).filter_map(Letter::new) {
             if !seen.contains(letter) && !entry.any_words {
                 self.say(code, format!("combines `{letter}`, which is not among its words"));

@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Control;
+use gcheck_controls::{Control, Ends};
 use gcheck_program::{BlockFlags, Survey, code_region, lower};
 use gcheck_syntax::{SourceText, cut};
 
@@ -73,6 +73,13 @@ impl Plan {
         }
         plan
     }
+
+    /// The user chose the severity of the rule's findings.
+    fn is_overridden(&self, rule: &'static RuleMeta) -> bool {
+        let pairs = self.token.iter().chain(&self.program).map(|(r, s)| (r, s));
+        let mut pairs = pairs.chain(self.block.iter().map(|(r, s, _)| (r, s)));
+        pairs.any(|(r, severity)| std::ptr::eq(r.meta, rule) && severity.is_some())
+    }
 }
 
 /// Keeps findings up to the limit.
@@ -108,6 +115,23 @@ impl Collector<'_> {
     }
 }
 
+impl Collector<'_> {
+    /// What stands in text that no run reads is no error, unless the user said that the rule's findings are.
+    fn soften(&mut self, plan: &Plan, unread_from: u32) {
+        for finding in &mut self.findings {
+            if finding.range.start < unread_from
+                || finding.severity != Severity::Error
+                || plan.is_overridden(finding.rule)
+            {
+                continue;
+            }
+            finding.severity = Severity::Warning;
+            finding.alarm = None;
+            finding.notes.push("it stands behind the end of the program, where no run comes".to_owned());
+        }
+    }
+}
+
 /// Checks one file.
 pub fn check(job: &Job<'_>) -> Outcome {
     let plan = Plan::new(job.selection);
@@ -129,7 +153,26 @@ pub fn check(job: &Job<'_>) -> Outcome {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
         }
     }
+    if let Some(end) = unread_from(&survey) {
+        // The rest of the block that ends the program is read with it.
+        let rest = text.as_bytes().get(end as usize..).unwrap_or_default();
+        let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+        collector.soften(&plan, end + line as u32);
+    }
     finish(job, &plan, collector, &directives, count_lines(text.as_bytes()))
+}
+
+/// Where the text begins that no run reads: behind an end of the program that nothing can go past.
+fn unread_from(survey: &Survey) -> Option<u32> {
+    let starts = [
+        survey.programs.last().map(|p| p.range.start),
+        survey.labels.last().map(|l| l.range.start),
+        survey.loops.last().map(|l| l.range.start),
+        survey.o_words.last().map(|o| o.range.start),
+    ];
+    let reached = starts.into_iter().flatten().max().unwrap_or(0);
+    let mut ends = survey.ends.iter().filter(|e| e.ends == Ends::Program && !e.conditional);
+    ends.find(|e| e.range.start >= reached).map(|e| e.range.end)
 }
 
 /// Lines as people count them: a line end (`\n`, `\r\n` or `\r`) closes one, and text behind the last is one more.

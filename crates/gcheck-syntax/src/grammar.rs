@@ -864,7 +864,7 @@ fn primary<S: Sink>(p: &mut Parser<'_, S>) {
     }
 }
 
-/// `#1`, `#<name>`, `##1`, `#[#1+2]`.
+/// `#1`, `#<name>`, `##1`, `#[#1+2]`, and on RS274/NGC controls `#FIX[#1]`.
 fn variable<S: Sink>(p: &mut Parser<'_, S>) {
     match p.current() {
         Some(Token::Variable) => p.bump(),
@@ -884,6 +884,8 @@ fn variable<S: Sink>(p: &mut Parser<'_, S>) {
                 Some(Token::Variable | Token::NamedVariable | Token::Hash) => variable(p),
                 Some(Token::LBracket) => group(p),
                 Some(Token::Number) => p.bump(),
+                // Whoever has O-words takes any value as the number of a parameter.
+                Some(Token::Function) if p.profile.o_words => function_call(p),
                 _ => p.error(SyntaxErrorKind::MissingOperand, hash..hash + 1),
             }
             p.sink.finish_node();

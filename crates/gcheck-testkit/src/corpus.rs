@@ -15,6 +15,12 @@ pub struct CorpusProgram {
     pub path: PathBuf,
     /// The control that the index guesses, by our names where we have it.
     pub control: String,
+    /// The public repository.
+    pub repository: String,
+    /// The repository's commit.
+    pub commit: String,
+    /// The repository's licence.
+    pub licence: String,
 }
 
 /// The folder of the corpus.
@@ -43,16 +49,48 @@ pub fn programs() -> Option<Vec<CorpusProgram>> {
         return None;
     };
     let index = fs::read_to_string(folder.join("index.tsv")).ok()?;
+    Some(read(&index, &folder))
+}
+
+/// The programs that an index lists: tab-separated, the first line names the columns.
+fn read(index: &str, folder: &Path) -> Vec<CorpusProgram> {
+    let mut lines = index.lines();
+    let head: Vec<&str> = lines.next().unwrap_or_default().split('\t').collect();
     let program = |line: &str| {
-        let columns: Vec<&str> = line.split('\t').collect();
-        match columns.as_slice() {
-            [name, _, _, _, _, "program", control, ..] => Some(CorpusProgram {
-                name: (*name).to_owned(),
-                path: folder.join(name),
-                control: (*control).to_owned(),
-            }),
-            _ => None,
-        }
+        let fields: Vec<&str> = line.split('\t').collect();
+        let field = |name: &str| {
+            let column = head.iter().position(|h| *h == name)?;
+            fields.get(column).map(|text| (*text).to_owned())
+        };
+        let name = field("path")?;
+        (field("kind")? == "program").then_some(())?;
+        Some(CorpusProgram {
+            path: folder.join(&name),
+            name,
+            control: field("dialect")?,
+            repository: field("repo")?,
+            commit: field("commit")?,
+            licence: field("licence")?,
+        })
     };
-    Some(index.lines().filter_map(program).collect())
+    lines.filter_map(program).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::read;
+
+    #[test]
+    fn the_index_names_its_columns() {
+        let index = "path\tkind\tdialect\trepo\tcommit\tlicence\n\
+            b/1.nc\tprogram\tacme-mill\ta/b\t0123\tMIT\n\
+            b/tool.tbl\taux\t-\ta/b\t0123\tMIT\n";
+        let programs = read(index, Path::new("c"));
+        let [program] = programs.as_slice() else { panic!("one program: {programs:?}") };
+        assert_eq!((program.name.as_str(), program.control.as_str()), ("b/1.nc", "acme-mill"));
+        assert_eq!((program.repository.as_str(), program.licence.as_str()), ("a/b", "MIT"));
+        assert_eq!(program.path, Path::new("c").join("b/1.nc"));
+    }
 }

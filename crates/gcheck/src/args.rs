@@ -79,6 +79,7 @@ pub enum Command {
 
 /// Options of `gcheck check`.
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
 pub struct CheckOptions {
     /// Files and folders; `-` reads standard input
     #[arg(default_value = ".", value_name = "PATHS")]

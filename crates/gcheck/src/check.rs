@@ -51,7 +51,7 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     }
     let reports = check_all(&bench, &targets, global, options, &mut problems)?;
     let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
-    write(global, options, &report)?;
+    write(global, options, &report, &problems)?;
     let summary = report.summary();
     Ok(finish(&problems, u8::from(fails(&summary, options))))
 }
@@ -130,7 +130,12 @@ fn fails(summary: &Summary, options: &CheckOptions) -> bool {
 }
 
 /// Findings to standard output or the file; what is for people to read besides, where it does not disturb.
-fn write(global: &Global, options: &CheckOptions, report: &Report) -> Result<(), Problem> {
+fn write(
+    global: &Global,
+    options: &CheckOptions,
+    report: &Report,
+    problems: &[Problem],
+) -> Result<(), Problem> {
     let format = options.output_format;
     if format.is_text() && !global.quiet {
         say(&gcheck_report::control_lines(report).join("\n"));
@@ -150,7 +155,8 @@ fn write(global: &Global, options: &CheckOptions, report: &Report) -> Result<(),
     if options.statistics {
         closing.push_str(&gcheck_report::statistics(report));
     }
-    if !global.quiet {
+    // Where programs could not be read, it is the problems that say why there are none.
+    if !global.quiet && (report.summary().files > 0 || problems.is_empty()) {
         closing.push_str(&closing_line(report));
     }
     // Only the format for people has room for a closing line; a parser reads the others.

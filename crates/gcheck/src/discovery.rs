@@ -72,10 +72,9 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
                 let path = entry.into_path();
                 match configs.of_file(&path) {
                     Ok(config) if config.wants(&path, is_program_name(&path)) => programs.push(path),
-                    Ok(_) => {}
                     // A broken configuration is reported once, by the file that needs it.
                     Err(problem) if is_program_name(&path) => found.problems.push(problem),
-                    Err(_) => {}
+                    Ok(_) | Err(_) => {}
                 }
             }
             Ok(_) => {}

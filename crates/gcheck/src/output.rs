@@ -46,6 +46,8 @@ pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
 }
 
 /// Writes a file whole or not at all: to a temporary file beside it, which then takes its name.
+///
+/// A link stays, and what it leads to is replaced. What is no file (a pipe, `/dev/null`) is written to as it is.
 pub(crate) fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -54,12 +56,20 @@ pub(crate) fn to_file(
     if path.is_dir() {
         return Err(Problem::with_file(path, "cannot write: is a folder"));
     }
-    let temporary = beside(path);
+    let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if target.exists() && !target.is_file() {
+        return File::options()
+            .write(true)
+            .open(&target)
+            .and_then(|mut out| write(&mut out))
+            .map_err(|e| problem(&e));
+    }
+    let temporary = beside(&target);
     let written = File::create(&temporary).and_then(|mut file| {
         write(&mut file)?;
         file.sync_all()
     });
-    written.and_then(|()| fs::rename(&temporary, path)).map_err(|error| {
+    written.and_then(|()| fs::rename(&temporary, &target)).map_err(|error| {
         // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
         let _ = fs::remove_file(&temporary);
         problem(&error)

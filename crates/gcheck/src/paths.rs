@@ -6,6 +6,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// The path from the root, without `.` and `..`; links are not followed.
 pub(crate) fn absolute(path: &Path) -> PathBuf {
+    // The parent of `part.nc` is the empty path, which stands for the current folder.
+    let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut clean = PathBuf::new();
     for component in path.components() {
@@ -48,6 +50,7 @@ mod tests {
     fn dots_are_resolved_without_looking_at_the_disk() {
         let here = absolute(Path::new("."));
         assert_eq!(absolute(Path::new("a/./b/../c")), here.join("a").join("c"));
+        assert_eq!(absolute(Path::new("")), here);
     }
 
     #[test]

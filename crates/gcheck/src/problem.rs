@@ -6,6 +6,8 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
+use crate::paths;
+
 /// Something that keeps a file, a configuration or the whole run from being done. One of these is one message.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
@@ -36,7 +38,7 @@ impl Problem {
 
     /// A problem with a file.
     pub fn with_file(path: &Path, message: impl Into<String>) -> Self {
-        Self { place: Some(path.display().to_string()), ..Self::new(message) }
+        Self { place: Some(paths::shown(path)), ..Self::new(message) }
     }
 
     /// A problem at some bytes of a text; `name` is what the text is called.

@@ -46,8 +46,9 @@ fn text(path: &Path, bytes: Vec<u8>) -> Result<SourceText, Problem> {
 /// comments hold bytes of code pages.
 fn is_binary(bytes: &[u8]) -> bool {
     let sample = bytes.get(..SAMPLE).unwrap_or(bytes);
-    let start = sample.iter().position(|b| *b != 0).unwrap_or(sample.len());
-    let end = sample.iter().rposition(|b| *b != 0).map_or(start, |at| at + 1);
+    let is_padding = |b: &u8| matches!(b, 0 | 0x1A);
+    let start = sample.iter().position(|b| !is_padding(b)).unwrap_or(sample.len());
+    let end = sample.iter().rposition(|b| !is_padding(b)).map_or(start, |at| at + 1);
     let sample = sample.get(start..end).unwrap_or_default();
     let control = |b: &u8| matches!(b, 0..=8 | 14..=16 | 21..=25 | 27..=31);
     let strange = sample.iter().filter(|b| control(b)).count();

@@ -3,12 +3,13 @@
 //! Knows: which commands there are. Must not know: what they do; each is a module of its own.
 //!
 //! The alias in `.cargo/config.toml` builds xtask without the product's crates, so that it works while they do not
-//! compile; a command that has to read the product (`gen`, `bench`) runs xtask again with them, see [`product`].
+//! compile; a command that has to read the product (`gen`, `bench`, `corpus`) runs xtask again with them, see [`product`].
 
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a command-line tool for developers")]
 
 #[cfg(feature = "product")]
 mod bench;
+#[cfg(feature = "product")]
 mod corpus;
 mod generate;
 #[cfg(feature = "product")]
@@ -44,13 +45,16 @@ fn main() -> ExitCode {
         "gen" => generate::run(rest),
         "new-rule" => new_rule::run(rest),
         "test" => test::run(rest),
-        "corpus" => corpus::run(rest),
         #[cfg(feature = "product")]
         "bench" => bench::run(rest),
+        #[cfg(feature = "product")]
+        "corpus" => corpus::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),
         #[cfg(not(feature = "product"))]
         "bench" => product::rerun("bench", rest, true),
+        #[cfg(not(feature = "product"))]
+        "corpus" => product::rerun("corpus", rest, false),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(ExitCode::SUCCESS)

@@ -64,7 +64,7 @@ pub(crate) fn measure(program: &Path, arguments: &[&str]) -> anyhow::Result<Usag
 
 /// CPU seconds and peak memory of all children so far.
 #[cfg(unix)]
-fn children() -> anyhow::Result<(f64, f64)> {
+pub(crate) fn children() -> anyhow::Result<(f64, f64)> {
     use nix::sys::resource::{UsageWho, getrusage};
     use nix::sys::time::TimeValLike as _;
 
@@ -77,7 +77,7 @@ fn children() -> anyhow::Result<(f64, f64)> {
 }
 
 #[cfg(not(unix))]
-fn children() -> anyhow::Result<(f64, f64)> {
+pub(crate) fn children() -> anyhow::Result<(f64, f64)> {
     bail!("measured on Unix systems only")
 }
 

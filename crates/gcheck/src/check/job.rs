@@ -31,6 +31,9 @@ pub(super) struct Target {
     pub(super) config: SharedConfig,
 }
 
+/// A control's name and the codes that a configuration adds to it.
+type ControlKey = (String, Vec<UserCode>);
+
 /// What all files of a run share.
 pub(super) struct Bench<'o> {
     pub(super) control: Option<&'o str>,
@@ -38,7 +41,7 @@ pub(super) struct Bench<'o> {
     suppressions: bool,
     folders: ProgramFolders,
     /// Controls with the codes that configurations add to them.
-    controls: Mutex<HashMap<(String, Vec<UserCode>), Arc<Control>>>,
+    controls: Mutex<HashMap<ControlKey, Arc<Control>>>,
 }
 
 impl<'o> Bench<'o> {

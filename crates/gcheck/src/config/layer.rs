@@ -42,6 +42,7 @@ pub(super) struct Facts {
 pub(super) struct Text<'t> {
     /// What messages call it.
     pub(super) name: &'t str,
+    #[expect(clippy::struct_field_names, reason = "a text has a name and a text")]
     pub(super) text: &'t str,
     /// The folder from which its paths count.
     pub(super) folder: &'t Path,
@@ -89,7 +90,7 @@ impl Layer {
         let FilesTable { include, exclude } = &file.files;
         let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
         let exclude = text.patterns(exclude)?;
-        Ok(Self { path, base, overrides, per_file_ignores, include, exclude, file })
+        Ok(Self { path, file, base, overrides, per_file_ignores, include, exclude })
     }
 }
 

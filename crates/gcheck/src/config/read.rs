@@ -24,13 +24,19 @@ pub(super) fn file_with_bases(path: &Path) -> Result<Config, Problem> {
         if let Some(base) = &base
             && (layers.len() >= MAX_BASES || is_read(&layers, &layer, base))
         {
-            return Err(Problem::with_file(&path, format!("`extend` leads back to {}", paths::shown(base))));
+            let message = format!("`extend` leads back to {}", paths::shown_from_here(base));
+            return Err(problem(&path, message));
         }
         next = base;
         layers.push(Arc::new(layer));
     }
     layers.reverse();
     Ok(Config { layers })
+}
+
+/// A problem with a configuration file as a whole.
+fn problem(path: &Path, message: impl Into<String>) -> Problem {
+    Problem::with_file(Path::new(&paths::shown_from_here(path)), message)
 }
 
 fn is_read(layers: &[Arc<Layer>], newest: &Layer, base: &Path) -> bool {
@@ -42,13 +48,13 @@ fn is_read(layers: &[Arc<Layer>], newest: &Layer, base: &Path) -> bool {
 /// Reads one file; the second part is what it extends.
 fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
     if path.is_dir() {
-        return Err(Problem::with_file(path, "is a folder, not a configuration file"));
+        return Err(problem(path, "is a folder, not a configuration file"));
     }
     let bytes = fs::read(path).map_err(|error| {
         Problem::with_file(path, format!("cannot read the configuration: {}", io_reason(&error)))
     })?;
     let text = String::from_utf8(bytes)
-        .map_err(|_| Problem::with_file(path, "is no configuration: it holds bytes that are no UTF-8"))?;
+        .map_err(|_| problem(path, "is no configuration: it holds bytes that are no UTF-8"))?;
     let name = paths::shown_from_here(path);
     let absolute = paths::absolute(path);
     let folder = absolute.parent().unwrap_or(&absolute).to_owned();
@@ -114,6 +120,10 @@ fn in_words(message: &str) -> String {
     words = words.replace("invalid type: ", "wrong type: ").replace("invalid value: ", "wrong value: ");
     for (rust, plain) in RUST_WORDS {
         words = words.replace(rust, plain);
+    }
+    // What serde calls a struct is a table of TOML.
+    if let Some((before, _)) = words.split_once("expected struct ") {
+        words = format!("{before}expected a table");
     }
     words
 }

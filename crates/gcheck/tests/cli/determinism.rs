@@ -14,7 +14,7 @@ fn many_programs() -> Shop {
         for line in 1..=number {
             let _ = writeln!(text, "N{line} G1 X{line} Y{}. F{}", line % 7, 100 + line);
             if line % 11 == 0 {
-                let _ = writeln!(text, "G{} M98 P{}", 990 + number % 9, line + 30);
+                let _ = writeln!(text, "G{} M98 P{}\nZ", 990 + number % 9, line + 30);
             }
         }
         text.push_str("M30\n%\n");
@@ -27,7 +27,8 @@ fn many_programs() -> Shop {
 fn threads_do_not_show() {
     let shop = many_programs();
     for format in ["json", "full", "concise", "sarif", "github"] {
-        let run = |jobs: usize| shop.gcheck(&format!("check --output-format {format} --statistics --jobs {jobs}"));
+        let run =
+            |jobs: usize| shop.gcheck(&format!("check --output-format {format} --statistics --jobs {jobs}"));
         let (one, eight) = (run(1), run(8));
         assert_eq!(one.stdout, eight.stdout, "{format}");
         assert_eq!(one.stderr, eight.stderr, "{format}");

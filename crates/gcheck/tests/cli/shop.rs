@@ -100,7 +100,11 @@ impl Shop {
         let _ = child.stdin.take().unwrap().write_all(input);
         let output = child.wait_with_output().unwrap();
         let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap().replace(&self.here(), "[SHOP]");
-        Run { code: output.status.code().expect("ended by a signal"), stdout: text(output.stdout), stderr: text(output.stderr) }
+        Run {
+            code: output.status.code().expect("ended by a signal"),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
     }
 
     fn here(&self) -> String {

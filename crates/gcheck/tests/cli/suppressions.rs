@@ -6,20 +6,30 @@ use crate::shop::Shop;
 fn check_program(lines: &[&str], arguments: &str, findings: &[&str]) {
     let program = format!("%\nO0001 (PART)\n{}\nM30\n%\n", lines.join("\n"));
     let shop = Shop::with(&[("part.nc", &program)]);
-    let run = shop.gcheck(&format!("check part.nc --control haas-mill --output-format concise --quiet {arguments}"));
-    let found: Vec<String> = run.findings().iter().map(|line| line.trim_start_matches("part.nc:").to_owned()).collect();
+    let run = shop
+        .gcheck(&format!("check part.nc --control haas-mill --output-format concise --quiet {arguments}"));
+    let found: Vec<String> =
+        run.findings().iter().map(|line| line.trim_start_matches("part.nc:").to_owned()).collect();
     assert_eq!(found, findings, "{program}\n{run}");
     assert_eq!(run.code, i32::from(findings.iter().any(|finding| finding.contains("error"))));
 }
 
 #[test]
 fn on_the_line_itself() {
-    check_program(&["G999 (gcheck: ignore unknown-code - old machine)", "G998"], "", &["4:1: error[unknown-code]"]);
+    check_program(
+        &["G999 (gcheck: ignore unknown-code - old machine)", "G998"],
+        "",
+        &["4:1: error[unknown-code]"],
+    );
 }
 
 #[test]
 fn on_the_line_above() {
-    check_program(&["(gcheck: ignore unknown-code - old machine)", "G999", "G998"], "", &["5:1: error[unknown-code]"]);
+    check_program(
+        &["(gcheck: ignore unknown-code - old machine)", "G999", "G998"],
+        "",
+        &["5:1: error[unknown-code]"],
+    );
 }
 
 #[test]
@@ -52,13 +62,25 @@ fn only_the_rule_that_is_named() {
 
 #[test]
 fn an_unused_one_is_reported() {
-    check_program(&["G0 X1. (gcheck: ignore unknown-code - old machine)"], "", &["3:8: warning[unused-suppression]"]);
+    check_program(
+        &["G0 X1. (gcheck: ignore unknown-code - old machine)"],
+        "",
+        &["3:8: warning[unused-suppression]"],
+    );
 }
 
 #[test]
 fn one_that_says_nothing_sensible_is_reported() {
-    check_program(&["G0 X1. (gcheck: ignore unknwn-code - old machine)"], "", &["3:8: warning[malformed-suppression]"]);
-    check_program(&["G0 X1. (gcheck: ignroe unknown-code - old machine)"], "", &["3:8: warning[malformed-suppression]"]);
+    check_program(
+        &["G0 X1. (gcheck: ignore unknwn-code - old machine)"],
+        "",
+        &["3:8: warning[malformed-suppression]"],
+    );
+    check_program(
+        &["G0 X1. (gcheck: ignroe unknown-code - old machine)"],
+        "",
+        &["3:8: warning[malformed-suppression]"],
+    );
 }
 
 #[test]
@@ -84,5 +106,8 @@ fn they_are_counted() {
     let shop = Shop::with(&[("part.nc", program)]);
     let run = shop.gcheck("check --control haas-mill");
     assert_eq!(run.stdout, "no findings in 1 file (5 lines); 1 suppressed\n");
-    assert_eq!(shop.gcheck("check --control haas-mill --output-format json").json()["summary"]["suppressed"], 1);
+    assert_eq!(
+        shop.gcheck("check --control haas-mill --output-format json").json()["summary"]["suppressed"],
+        1
+    );
 }

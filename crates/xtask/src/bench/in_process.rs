@@ -46,7 +46,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
     let mut rows = vec![
         throughput("tokens, surfacing", &surfacing, 240.0, &tokens),
         throughput("tokens and blocks, surfacing", &surfacing, 120.0, &blocks),
-        throughput("tokens and blocks, macros", &macros, 40.0, &blocks),
+        throughput("tokens and blocks, macros", &macros, 30.0, &blocks),
     ];
     for (name, text) in [("tree of one chunk, surfacing", &surfacing), ("tree of one chunk, macros", &macros)]
     {

@@ -94,6 +94,20 @@ mod tests {
     }
 
     #[test]
+    fn a_function_may_give_the_number_of_a_parameter() {
+        check_rule(&RULE, "linuxcnc", "#fix[5.2]=1\nG0 X[#sqrt[16] + 1]\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "#FIX[5.2]=1\n",
+            &expect![[r#"
+            1 | #FIX[5.2]=1
+              | ^ error[missing-operand] `#` has nothing to work on
+        "#]],
+        );
+    }
+
+    #[test]
     fn words_name_the_remedy() {
         let program = "#101=ABS(#2)\n";
         let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());

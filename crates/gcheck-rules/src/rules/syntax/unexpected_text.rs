@@ -84,6 +84,31 @@ mod tests {
     }
 
     #[test]
+    fn nothing_comes_to_text_behind_the_end() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X1\nM2 tail\nCHANGE JAWS\n",
+            &expect![[r#"
+            2 | M2 tail
+              |    ^^^^ error[unexpected-text] text `tail` is no code
+            3 | CHANGE JAWS
+              | ^^^^^^^^^^^ warning[unexpected-text] text `CHANGE JAWS` is no code
+        "#]],
+        );
+        // A label, a subprogram or a condition may lead past an end.
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "IF[#1EQ0]GOTO9\nM30\nN9 G0 X1.\nOFFSET OF JAWS\nM30\n",
+            &expect![[r#"
+            4 | OFFSET OF JAWS
+              | ^^^^^^^^^^^^^^ error[unexpected-text] text `OFFSET OF JAWS` is no code
+        "#]],
+        );
+    }
+
+    #[test]
     fn signs_of_other_languages() {
         check_rule(
             &RULE,

@@ -130,9 +130,24 @@ mod tests {
                 1 | G54.25 G154 P2
                   | ^^^^^^ error[unknown-code] unknown code `G54.25`
                 1 | G54.25 G154 P2
-                  |        ^^^^ error[unknown-code] unknown code `G154`
+                  |        ^^^^ warning[unknown-code] unknown code `G154`
                 2 | M200
                   | ^^^^ warning[unknown-code] unknown code `M200`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_machine_may_remap_free_codes() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "g68.2 x5 i20\nG47 X2\n",
+            &expect![[r#"
+                1 | g68.2 x5 i20
+                  | ^^^^^ warning[unknown-code] unknown code `g68.2`
+                2 | G47 X2
+                  | ^^^ warning[unknown-code] unknown code `G47`
             "#]],
         );
     }

@@ -1,0 +1,200 @@
+//! The output formats: what people read, and the shapes that other programs rely on.
+
+use std::path::Path;
+use std::process::Command;
+
+use expect_test::expect;
+use serde_json::Value;
+
+use crate::shop::{Shop, WARNED};
+
+/// A program with an error, a warning with an assumption, and letters that count as one column each.
+const PART: &str = "%\r\nO0001 (PÄRT)\r\nG0 (Ä) X1\r\nG999\r\nM30\r\n%\r\n";
+
+fn shop() -> Shop {
+    Shop::with(&[("jobs/part.nc", PART), ("jobs/other.nc", WARNED)])
+}
+
+#[test]
+fn full() {
+    let run = shop().gcheck("check jobs/part.nc --control haas-mill --select unknown-code");
+    expect![[r#"
+        error[unknown-code]: unknown code `G999`
+          ┌─ jobs/part.nc:4:1
+          │
+        4 │ G999
+          │ ^^^^ no such code
+          │
+          = note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]
+          = help: correct the code, or declare `G999` under `[codes]` if it is the shop's own
+
+        1 error in 1 file (6 lines)
+        ! jobs/part.nc: control haas-mill, set by `--control`
+        exit 1
+    "#]].assert_eq(&run.to_string());
+}
+
+#[test]
+fn concise() {
+    let run = shop().gcheck("check --control haas-mill --output-format concise");
+    expect![[r#"
+        jobs/other.nc:3:4: warning[missing-decimal-point] decimal point missing: `X1`
+        jobs/part.nc:3:8: warning[missing-decimal-point] decimal point missing: `X1`
+        jobs/part.nc:4:1: error[unknown-code] unknown code `G999`
+        ! jobs/other.nc and 1 more file: control haas-mill, set by `--control`
+        ! 1 error, 2 warnings in 2 files (11 lines)
+        exit 1
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn github() {
+    let run =
+        shop().gcheck("check jobs/part.nc --control haas-mill --select unknown-code --output-format github");
+    expect![[r#"
+        ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::jobs/part.nc:4:1: unknown-code unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is the shop's own
+        ! jobs/part.nc: control haas-mill, set by `--control`
+        ! 1 error in 1 file (6 lines)
+        exit 1
+    "#]].assert_eq(&run.to_string());
+}
+
+/// The members of an object, with the types that the contract gives them.
+fn check_shape(value: &Value, shape: &[(&str, &str)], whole: &Value) {
+    for (key, kinds) in shape {
+        let kind = match &value[key] {
+            Value::Null if value.get(key).is_none() => "missing",
+            Value::Null => "null",
+            Value::Bool(_) => "boolean",
+            Value::Number(number) if number.is_u64() => "count",
+            Value::Number(_) => "number",
+            Value::String(_) => "text",
+            Value::Array(_) => "list",
+            Value::Object(_) => "object",
+        };
+        assert!(kinds.split('|').any(|k| k == kind), "`{key}` is {kind}, not {kinds}, in {whole:#}");
+    }
+}
+
+fn check_range(range: &Value, whole: &Value) {
+    for end in ["start", "end"] {
+        check_shape(&range[end], &[("line", "count"), ("column", "count"), ("offset", "count")], whole);
+    }
+}
+
+#[test]
+fn json_has_the_shape_of_the_contract() {
+    let run = shop().gcheck("check --control haas-mill --output-format json");
+    assert_eq!(run.stderr, "");
+    let json = run.json();
+    check_shape(
+        &json,
+        &[("version", "count"), ("files", "list"), ("findings", "list"), ("summary", "object")],
+        &json,
+    );
+    assert_eq!(json["version"], 1);
+    for file in json["files"].as_array().unwrap() {
+        check_shape(file, &[("file", "text"), ("control", "object")], &json);
+        check_shape(&file["control"], &[("name", "text"), ("source", "text")], &json);
+    }
+    let finding_shape = [
+        ("rule", "text"),
+        ("severity", "text"),
+        ("certainty", "text"),
+        ("message", "text"),
+        ("file", "text"),
+        ("range", "object"),
+        ("labels", "list"),
+        ("notes", "list"),
+        ("help", "text|null"),
+        ("alarm", "text|null"),
+        ("assumptions", "list"),
+        ("fixes", "list"),
+    ];
+    for finding in json["findings"].as_array().unwrap() {
+        check_shape(finding, &finding_shape, &json);
+        check_range(&finding["range"], &json);
+        assert!(["error", "warning", "info", "hint"].contains(&finding["severity"].as_str().unwrap()));
+        assert!(["always", "maybe"].contains(&finding["certainty"].as_str().unwrap()));
+        for label in finding["labels"].as_array().unwrap() {
+            check_shape(label, &[("message", "text"), ("file", "text"), ("range", "object")], &json);
+        }
+        for fix in finding["fixes"].as_array().unwrap() {
+            check_shape(fix, &[("title", "text"), ("safe", "boolean"), ("edits", "list")], &json);
+            for edit in fix["edits"].as_array().unwrap() {
+                check_shape(edit, &[("file", "text"), ("range", "object"), ("text", "text")], &json);
+                check_range(&edit["range"], &json);
+            }
+        }
+    }
+    let counts = ["files", "lines", "errors", "warnings", "infos", "hints", "suppressed", "baseline"];
+    check_shape(&json["summary"], &counts.map(|count| (count, "count")), &json);
+    check_shape(&json["summary"], &[("out_of_fuel", "list")], &json);
+    assert_eq!(json["summary"]["files"], 2);
+    assert_eq!(json["summary"]["errors"], 1);
+    assert_eq!(json["summary"]["warnings"], 2);
+    assert_eq!(json["summary"]["lines"], 11);
+}
+
+#[test]
+fn json_counts_columns_in_characters_and_offsets_in_bytes() {
+    let run = shop().gcheck("check jobs/part.nc --control haas-mill --output-format json");
+    let finding = &run.json()["findings"][0];
+    assert_eq!(finding["rule"], "missing-decimal-point");
+    assert_eq!(finding["file"], "jobs/part.nc");
+    assert_eq!(finding["range"]["start"]["line"], 3);
+    assert_eq!(finding["range"]["start"]["column"], 8);
+    let range = |end: &str| usize::try_from(finding["range"][end]["offset"].as_u64().unwrap()).unwrap();
+    assert_eq!(&PART[range("start")..range("end")], "X1");
+    assert_eq!(finding["assumptions"].as_array().unwrap().len(), 1, "{finding:#}");
+}
+
+#[test]
+fn documents_are_whole_without_files() {
+    let shop = Shop::new();
+    assert_eq!(shop.gcheck("check --output-format json").json()["findings"], Value::Array(Vec::new()));
+    assert_eq!(shop.gcheck("check --output-format sarif").json()["version"], "2.1.0");
+    assert_eq!(shop.gcheck("check missing.nc --output-format json").json()["summary"]["files"], 0);
+}
+
+#[test]
+fn sarif_says_rule_place_and_control() {
+    let run = shop().gcheck("check --control haas-mill --output-format sarif");
+    assert_eq!(run.stderr, "");
+    let json = run.json();
+    assert_eq!(json["version"], "2.1.0");
+    let run = &json["runs"][0];
+    assert_eq!(run["tool"]["driver"]["name"], "gcheck");
+    let results = run["results"].as_array().unwrap();
+    assert_eq!(results.len(), 3);
+    let error = results.iter().find(|result| result["level"] == "error").unwrap();
+    assert_eq!(error["ruleId"], "unknown-code");
+    let place = &error["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "jobs/part.nc");
+    assert_eq!(place["region"]["startLine"], 4);
+    let index = usize::try_from(error["ruleIndex"].as_u64().unwrap()).unwrap();
+    assert_eq!(run["tool"]["driver"]["rules"][index]["id"], "unknown-code");
+    assert!(run["artifacts"].to_string().contains("haas-mill"), "{:#}", run["artifacts"]);
+}
+
+#[test]
+fn sarif_is_valid() {
+    let validator = "node_modules/@microsoft/sarif-multitool-linux/Sarif.Multitool";
+    let validator = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../.test-tools").join(validator);
+    if !validator.exists() {
+        eprintln!("skipped: sarif_is_valid (no {}; `cargo xtask test` installs it)", validator.display());
+        return;
+    }
+    let shop = shop();
+    shop.file("jobs/strange name, ä.nc", "%\nO0001\nG999 (\u{7f})\nX1 X1\n%\n");
+    assert_eq!(shop.gcheck("check --output-format sarif -o out.sarif").code, 1);
+    let mut command = Command::new(validator);
+    command.args(["validate", "out.sarif"]).current_dir(shop.path(""));
+    let output = command.env("DOTNET_SYSTEM_GLOBALIZATION_INVARIANT", "1").output().unwrap();
+    // It ends with 0 whatever it finds.
+    let said =
+        String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(!said.contains(": error "), "{said}");
+    assert!(said.contains("Analysis completed successfully") || said.contains("Done"), "{said}");
+}

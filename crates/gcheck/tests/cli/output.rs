@@ -1,0 +1,226 @@
+//! Where output goes: standard output or a file replaced whole, colours or none, what is said besides.
+
+use std::fmt::Write as _;
+use std::io::Read as _;
+use std::process::Stdio;
+
+use expect_test::expect;
+
+use crate::shop::{BAD, GOOD, Shop, WARNED};
+
+const ESCAPE: char = '\x1b';
+
+#[test]
+fn a_file_takes_the_findings() {
+    let shop = Shop::with(&[("part.nc", BAD), ("out.json", "what was there before")]);
+    let run = shop.gcheck("check part.nc --control haas-mill --output-format json -o out.json");
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (1, "", ""));
+    let direct = shop.gcheck("check part.nc --control haas-mill --output-format json");
+    assert_eq!(shop.read("out.json"), direct.stdout);
+    assert_eq!(shop.names(), ["out.json", "part.nc"], "nothing else stays behind");
+}
+
+#[test]
+fn a_file_gets_no_colours() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    let run = shop.gcheck("check --control haas-mill --color always --output-file out.txt");
+    assert_eq!(run.stdout, "");
+    assert!(!shop.read("out.txt").contains(ESCAPE));
+    assert!(run.stderr.ends_with("1 error in 1 file (5 lines)\n"), "{run}");
+}
+
+#[test]
+fn a_folder_cannot_take_them() {
+    let shop = Shop::with(&[("part.nc", BAD), ("out/x", "")]);
+    expect![[r#"
+        ! error: out: cannot write: is a folder
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check --control haas-mill --quiet -o out").to_string());
+    expect![[r#"
+        ! error: missing/out.txt: cannot write: no such file or directory
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check --control haas-mill --quiet -o missing/out.txt").to_string());
+    assert_eq!(shop.names(), ["out", "part.nc"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_is_read_only() {
+    let shop = Shop::with(&[("part.nc", BAD), ("locked/x", "")]);
+    if !shop.permissions_count("a_folder_that_is_read_only") {
+        return;
+    }
+    shop.chmod("locked", 0o555);
+    let run = shop.gcheck("check part.nc --control haas-mill --quiet -o locked/out.txt");
+    shop.chmod("locked", 0o755);
+    assert_eq!(run.code, 2);
+    assert_eq!(run.stderr, "error: locked/out.txt: cannot write: permission denied\n");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_stays_a_link() {
+    let shop = Shop::with(&[("part.nc", BAD), ("real/out.txt", "before")]);
+    std::os::unix::fs::symlink("real/out.txt", shop.path("out.txt")).unwrap();
+    assert_eq!(
+        shop.gcheck("check part.nc --control haas-mill --quiet --output-format concise -o out.txt").code,
+        1
+    );
+    assert!(shop.path("out.txt").symlink_metadata().unwrap().is_symlink());
+    assert!(shop.read("real/out.txt").contains("unknown-code"));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_written_to_and_not_replaced() {
+    use std::os::unix::fs::FileTypeExt as _;
+
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    let made = std::process::Command::new("mkfifo").arg(shop.path("pipe")).status();
+    if !made.is_ok_and(|status| status.success()) {
+        eprintln!("skipped: a_pipe_is_written_to_and_not_replaced (no mkfifo here)");
+        return;
+    }
+    let mut child = shop
+        .command()
+        .args([
+            "check",
+            "part.nc",
+            "--control",
+            "haas-mill",
+            "--quiet",
+            "--output-format",
+            "concise",
+            "-o",
+            "pipe",
+        ])
+        .stdout(Stdio::null())
+        .spawn()
+        .unwrap();
+    // Opened for both ends, so that a program that never opens it does not block the test.
+    let path = shop.path("pipe");
+    let mut pipe = std::fs::File::options().read(true).write(true).open(&path).unwrap();
+    let code = child.wait().unwrap().code();
+    assert_eq!(code, Some(1));
+    assert!(path.symlink_metadata().unwrap().file_type().is_fifo(), "the pipe was replaced by a file");
+    let mut text = [0; 7];
+    pipe.read_exact(&mut text).unwrap();
+    assert_eq!(&text, b"part.nc");
+}
+
+#[test]
+fn colours_are_for_terminals_and_those_who_ask() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    let coloured = |variables: &[(&str, &str)], arguments: &str| {
+        let run = shop.gcheck_with(variables, &format!("check --control haas-mill {arguments}"));
+        assert!(!run.stderr.contains(ESCAPE), "{run}");
+        run.stdout.contains(ESCAPE)
+    };
+    assert!(!coloured(&[], ""), "a pipe gets none");
+    assert!(!coloured(&[("NO_COLOR", "1")], ""));
+    assert!(coloured(&[], "--color always"));
+    assert!(coloured(&[], "--color always --output-format concise"));
+    assert!(coloured(&[("NO_COLOR", "1")], "--color always"), "the option wins over the environment");
+    assert!(coloured(&[("CLICOLOR_FORCE", "1")], ""));
+    assert!(!coloured(&[("CLICOLOR_FORCE", "1")], "--color never"));
+    assert!(!coloured(&[("CLICOLOR_FORCE", "0")], ""));
+    for format in ["json", "sarif", "github"] {
+        assert!(!coloured(&[], &format!("--color always --output-format {format}")), "{format}");
+    }
+}
+
+#[test]
+fn the_format_can_come_from_the_environment() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    let run = shop.gcheck_with(&[("GCHECK_OUTPUT_FORMAT", "json")], "check");
+    assert_eq!(run.json()["version"], 1);
+    let run = shop.gcheck_with(&[("GCHECK_OUTPUT_FORMAT", "json")], "check --quiet --output-format concise");
+    assert_eq!(run.rules(), ["unknown-code"]);
+    assert_eq!(shop.gcheck_with(&[("GCHECK_OUTPUT_FORMAT", "xml")], "check").code, 2);
+}
+
+#[test]
+fn quiet_says_findings_only() {
+    let shop = Shop::with(&[("part.nc", BAD), ("good.nc", GOOD)]);
+    let run = shop.gcheck("check good.nc --control haas-mill --quiet");
+    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
+    let run = shop.gcheck("check -q part.nc --control haas-mill");
+    assert!(run.stdout.starts_with("error[unknown-code]"), "{run}");
+    assert!(!run.stdout.contains("1 file"), "{run}");
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
+fn statistics_count_by_rule() {
+    let shop = Shop::with(&[("a.nc", BAD), ("b.nc", BAD), ("c.nc", WARNED)]);
+    let run = shop.gcheck("check --control haas-mill --statistics --output-format concise");
+    expect![[r#"
+        a.nc and 2 more files: control haas-mill, set by `--control`
+        2  unknown-code           code that the control does not have
+        1  missing-decimal-point  no decimal point where the control counts smallest steps
+        2 errors, 1 warning in 3 files (15 lines)
+    "#]]
+    .assert_eq(&run.stderr);
+    let run = shop.gcheck("check --control haas-mill --statistics --output-format json");
+    assert_eq!(run.json()["summary"]["errors"], 2, "the document stays whole");
+    assert!(run.stderr.contains("2  unknown-code"), "{run}");
+}
+
+#[test]
+fn no_programs_are_said() {
+    let run = Shop::new().gcheck("check");
+    assert_eq!((run.code, run.stdout.as_str()), (0, "no programs found\n"));
+    assert_eq!(Shop::new().gcheck("check --output-format json").json()["summary"]["files"], 0);
+}
+
+#[test]
+fn a_thousand_findings() {
+    let mut text = String::from("%\nO0001\n");
+    for line in 0..1_000 {
+        let _ = writeln!(text, "G999 X{line}.");
+    }
+    text.push_str("M30\n%\n");
+    let shop = Shop::with(&[("part.nc", &text)]);
+    let run = shop.gcheck("check --control haas-mill --select unknown-code --output-format json");
+    let json = run.json();
+    assert_eq!(json["summary"]["errors"], 1_000);
+    assert_eq!(
+        json["findings"].as_array().unwrap().len() as u64,
+        1_000 - json["summary"]["omitted"].as_u64().unwrap()
+    );
+    let run = shop.gcheck("check --control haas-mill --select unknown-code --statistics");
+    assert!(run.stdout.contains("1,000  unknown-code"));
+    assert!(run.stdout.contains("1,000 errors in 1 file"));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let shop = Shop::new();
+    for number in 0..50 {
+        shop.file(&format!("{number}.nc"), format!("%\nO0001\n{}M30\n%\n", "G999\n".repeat(100)));
+    }
+    for arguments in [
+        "check --control haas-mill",
+        "check --output-format json",
+        "rules",
+        "codes",
+        "schema",
+        "completions bash",
+    ] {
+        let mut command = shop.command();
+        command
+            .args(arguments.split_whitespace())
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        let mut child = command.spawn().unwrap();
+        let mut first = [0; 1];
+        child.stdout.take().unwrap().read_exact(&mut first).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked") && !said.contains("error:"), "{arguments}: {said}");
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments}: {:?}", output.status);
+    }
+}

@@ -1,0 +1,43 @@
+//! The tour: every mistake that `fixtures/tour/README.md` promises is found, and nothing else.
+
+use std::path::Path;
+use std::process::Command;
+
+use expect_test::expect;
+
+#[test]
+fn the_tour_shows_its_mistakes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let output = Command::new(env!("CARGO_BIN_EXE_gcheck"))
+        .args(["check", "fixtures/tour", "--output-format", "concise", "--quiet"])
+        .current_dir(root)
+        .env_clear()
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert_eq!(String::from_utf8_lossy(&output.stderr), "");
+    expect![[r#"
+        fixtures/tour/bracket.nc:9:1: warning[lasting-word-never-given] `G43` without `H`, which no earlier block gives
+        fixtures/tour/bracket.nc:11:5: warning[missing-decimal-point] decimal point missing: `F45`
+        fixtures/tour/bracket.nc:15:9: error[unknown-code] unknown code `G54.1`
+        fixtures/tour/bracket.nc:17:5: warning[lasting-word-never-given] `G83` without `Q`, which no earlier block gives
+        fixtures/tour/bracket.nc:23:5: warning[missing-decimal-point] decimal point missing: `X-15`
+        fixtures/tour/bushing.nc:13:7: error[letter-o-for-zero] letter `O` instead of a zero in `Z-O.125`
+        fixtures/tour/bushing.nc:16:10: error[jump-target-missing] jump target `N210` does not exist in this program
+        fixtures/tour/bushing.nc:25:17: warning[subprogram-missing] called program `O3099` is not here
+        fixtures/tour/manifold.nc:10:1: error[loop-end-missing] loop `DO1` has no `END1`
+        fixtures/tour/manifold.nc:15:1: error[arc-without-centre] arc without centre or radius: `G3`
+        fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
+        fixtures/tour/manifold.nc:18:19: error[jump-target-missing] jump target `N900` does not exist in this program
+        fixtures/tour/plate.nc:3:1: info[program-number-missing] program has no number
+        fixtures/tour/plate.nc:8:5: error[malformed-number] number `-2.5.0` has two decimal points
+        fixtures/tour/plate.nc:9:4: error[number-out-of-range] value too large for `G4`: `X100000.`
+        fixtures/tour/probe-grid.ngc:6:1: error[assignment-to-read-only-variable] variable `#5420` can only be read
+        fixtures/tour/probe-grid.ngc:11:1: error[o-word-unmatched] O-word `o100 while` has no `endwhile`
+        fixtures/tour/probe-grid.ngc:14:3: error[required-word-missing] `G4` without `P`
+        fixtures/tour/probe-grid.ngc:15:13: error[word-given-twice] two `Z` words in one block
+        fixtures/tour/shaft.nc:6:1: error[decimal-point-on-integer] decimal point on a whole number: `T0202.`
+        fixtures/tour/shaft.nc:9:4: error[address-without-value] address `Z` has no value
+        fixtures/tour/shaft.nc:11:7: error[unclosed-comment] comment is not closed
+    "#]].assert_eq(&String::from_utf8_lossy(&output.stdout));
+}

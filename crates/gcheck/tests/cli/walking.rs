@@ -1,0 +1,143 @@
+//! Which files are checked: those named, the programs in folders, standard input.
+
+use crate::shop::{BAD, GOOD, Shop};
+
+fn check_files(shop: &Shop, arguments: &str, expected: &[&str]) {
+    let run = shop.gcheck(&format!("check --show-files {arguments}"));
+    assert_eq!(run.stdout.lines().collect::<Vec<_>>(), expected, "{arguments}\n{run}");
+    assert_eq!(run.code, 0, "{run}");
+}
+
+#[test]
+fn programs_are_known_by_extension_in_any_case_and_by_number() {
+    let shop = Shop::new();
+    let programs = [
+        "O1234", "a.NC", "b.ngc", "c.Cnc", "d.tap", "e.eia", "f.ncf", "g.gcode", "h.iso", "i.din", "j.prg",
+        "k.MPF", "o7",
+    ];
+    for name in programs.iter().chain(&["readme.txt", "O12A", "tool.tbl", "notes", "x.nc.bak"]) {
+        shop.file(name, GOOD);
+    }
+    check_files(&shop, "", &programs);
+}
+
+#[test]
+fn the_order_is_that_of_the_names() {
+    let shop = Shop::with(&[("b.nc", GOOD), ("a/z.nc", GOOD), ("a.nc", GOOD), ("c/a.nc", GOOD)]);
+    check_files(&shop, "", &["a/z.nc", "a.nc", "b.nc", "c/a.nc"]);
+}
+
+#[test]
+fn a_file_is_checked_once() {
+    let shop = Shop::with(&[("a.nc", GOOD), ("b/c.nc", GOOD)]);
+    check_files(&shop, "a.nc . ./a.nc b b/../a.nc b/c.nc", &["a.nc", "b/c.nc"]);
+}
+
+#[test]
+fn ignore_files_are_honoured() {
+    let shop = Shop::with(&[
+        (".gitignore", "old/\n"),
+        (".ignore", "ignored.nc\n"),
+        (".gcheckignore", "*.tap\n!keep.tap\n"),
+        ("old/a.nc", GOOD),
+        ("ignored.nc", GOOD),
+        ("b.tap", GOOD),
+        ("keep.tap", GOOD),
+        ("c.nc", GOOD),
+        ("deep/.gcheckignore", "d.nc\n"),
+        ("deep/d.nc", GOOD),
+        ("deep/e.nc", GOOD),
+    ]);
+    check_files(&shop, "", &["c.nc", "deep/e.nc", "keep.tap"]);
+}
+
+#[test]
+fn the_files_table_includes_and_excludes() {
+    let shop = Shop::with(&[
+        ("gcheck.toml", "[files]\ninclude = [\"*.txt\", \"jobs/*.nc\"]\nexclude = [\"old/\", \"draft-*\"]\n"),
+        ("a.txt", GOOD),
+        ("b.nc", GOOD),
+        ("jobs/c.nc", GOOD),
+        ("jobs/draft-d.nc", GOOD),
+        ("jobs/old/e.txt", GOOD),
+    ]);
+    check_files(&shop, "", &["a.txt", "jobs/c.nc"]);
+}
+
+#[test]
+fn a_named_file_is_always_read() {
+    let shop = Shop::with(&[
+        (".gitignore", "*.txt\n"),
+        ("gcheck.toml", "[files]\nexclude = [\"b.nc\"]\n"),
+        ("a.txt", BAD),
+        ("b.nc", BAD),
+    ]);
+    check_files(&shop, "", &[]);
+    check_files(&shop, "a.txt b.nc", &["a.txt", "b.nc"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_no_trap() {
+    use std::os::unix::fs::symlink;
+
+    let shop = Shop::with(&[("jobs/a.nc", GOOD)]);
+    symlink("..", shop.path("jobs/loop")).unwrap();
+    symlink("nowhere.nc", shop.path("jobs/broken.nc")).unwrap();
+    symlink("self.nc", shop.path("jobs/self.nc")).unwrap();
+    check_files(&shop, "", &["jobs/a.nc"]);
+    let run = shop.gcheck("check jobs/broken.nc jobs/self.nc");
+    assert_eq!(run.code, 2);
+    assert_eq!(
+        run.stderr,
+        "error: jobs/broken.nc: no such file or folder\nerror: jobs/self.nc: no such file or folder\n"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_that_cannot_be_entered_is_a_problem() {
+    let shop = Shop::with(&[("a.nc", GOOD), ("locked/b.nc", GOOD)]);
+    if !shop.permissions_count("a_folder_that_cannot_be_entered_is_a_problem") {
+        return;
+    }
+    shop.chmod("locked", 0);
+    let run = shop.gcheck("check");
+    shop.chmod("locked", 0o755);
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("locked"), "{run}");
+}
+
+#[test]
+fn names_with_blanks_and_other_letters() {
+    let shop = Shop::with(&[("mein ordner/fräsen 1.nc", BAD)]);
+    let run = shop.gcheck("check --control haas-mill --output-format concise --quiet");
+    assert_eq!(run.findings(), ["mein ordner/fräsen 1.nc:3:1: error[unknown-code]"]);
+}
+
+#[test]
+fn standard_input_has_the_name_it_is_given() {
+    let shop = Shop::with(&[("lathe/gcheck.toml", "control = \"haas-lathe\"")]);
+    let run = shop.gcheck_reading(
+        "check - --stdin-filename lathe/part.nc --output-format json --fail-on warning",
+        BAD.as_bytes(),
+    );
+    let json = run.json();
+    assert_eq!(json["files"][0]["file"], "lathe/part.nc");
+    assert_eq!(json["files"][0]["control"]["name"], "haas-lathe");
+    assert_eq!(json["findings"][0]["file"], "lathe/part.nc");
+    assert_eq!(run.code, 1);
+}
+
+#[test]
+fn standard_input_without_a_name() {
+    let shop = Shop::with(&[("gcheck.toml", "control = \"haas-mill\""), ("a.nc", BAD)]);
+    let run = shop.gcheck_reading("check - --output-format concise --quiet", BAD.as_bytes());
+    assert_eq!(run.findings(), ["stdin:3:1: error[unknown-code]"]);
+    let run = shop.gcheck_reading("check - a.nc --output-format concise --quiet", BAD.as_bytes());
+    assert_eq!(run.findings(), ["a.nc:3:1: error[unknown-code]", "stdin:3:1: error[unknown-code]"]);
+    assert_eq!(
+        shop.gcheck_reading("check -", b"\x7fELF\x02\x01\x01\0\0\0\0\0").stderr,
+        "error: stdin: is no text, so no part program\n"
+    );
+}
