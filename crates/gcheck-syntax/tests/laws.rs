@@ -50,6 +50,11 @@ proptest! {
         prop_assert_eq!(source.text().len(), bytes.len());
         prop_assert_eq!(source.to_bytes(), bytes);
     }
+}
+
+proptest! {
+    // Long programs: fewer of them.
+    #![proptest_config(ProptestConfig::with_cases(150))]
 
     #[test]
     fn cutting_does_not_change_what_is_found(text in prop::collection::vec(piece(), 0..4000).prop_map(|p| p.concat())) {
