@@ -149,7 +149,8 @@ pub(crate) enum Token {
     #[token("PCLOS", ignore(case))]
     Port,
 
-    /// Any other character.
+    /// Any other character; a name in angle brackets that neither `#` nor `O` introduces.
+    #[regex(r"<[^<>\r\n]*>")]
     Unknown,
 }
 

@@ -2,8 +2,8 @@
 //!
 //! Knows: files and bytes. Must not know: configuration, controls.
 
-use std::fs;
-use std::io::{self, Read as _};
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use gcheck_syntax::SourceText;
@@ -16,49 +16,83 @@ const SAMPLE: usize = 64 << 10;
 
 /// Reads a program.
 pub(crate) fn file(path: &Path) -> Result<SourceText, Problem> {
-    let bytes = fs::read(path)
-        .map_err(|error| Problem::with_file(path, format!("cannot read: {}", io_reason(&error))))?;
-    text(path, bytes)
+    let unreadable =
+        |error: &io::Error| Problem::with_file(path, format!("cannot read: {}", io_reason(error)));
+    let file = File::open(path).map_err(|error| unreadable(&error))?;
+    let size = file.metadata().map_err(|error| unreadable(&error))?.len();
+    let size = usize::try_from(size).ok().filter(|size| *size <= SourceText::MAX_LEN);
+    bounded(path, file, size.ok_or_else(|| too_large(path))?).map_err(|error| unreadable(&error))?
 }
 
 /// Reads standard input, called `name`.
 pub(crate) fn standard_input(name: &Path) -> Result<SourceText, Problem> {
-    let mut bytes = Vec::new();
-    io::stdin().lock().read_to_end(&mut bytes).map_err(|error| {
+    bounded(name, io::stdin().lock(), 0).map_err(|error| {
         Problem::with_file(name, format!("cannot read standard input: {}", io_reason(&error)))
-    })?;
-    text(name, bytes)
+    })?
 }
 
-fn text(path: &Path, bytes: Vec<u8>) -> Result<SourceText, Problem> {
+/// Reads a sample, and the rest only behind a sample that is text: a device or pipe may never end.
+///
+/// `size` is what is expected, so that the buffer does not grow; the bytes become text without being copied.
+fn bounded(path: &Path, mut from: impl Read, size: usize) -> io::Result<Result<SourceText, Problem>> {
+    // Room for one byte more: only a read that finds nothing tells the end.
+    let mut bytes = Vec::with_capacity(size + 1);
+    from.by_ref().take(SAMPLE as u64).read_to_end(&mut bytes)?;
     if let [0xFF, 0xFE, ..] | [0xFE, 0xFF, ..] = bytes.as_slice() {
-        return Err(Problem::with_file(path, "is UTF-16 text").help("save it as UTF-8 or plain ASCII"));
+        return Ok(Err(Problem::with_file(path, "is UTF-16 text").help("save it as UTF-8 or plain ASCII")));
     }
     if is_binary(&bytes) {
-        return Err(Problem::with_file(path, "is no text, so no part program"));
+        return Ok(Err(Problem::with_file(path, "is no text, so no part program")));
     }
-    SourceText::from_bytes(bytes).map_err(|_| Problem::with_file(path, "is larger than 4 GiB"))
+    let left = SourceText::MAX_LEN + 1 - bytes.len();
+    from.take(left as u64).read_to_end(&mut bytes)?;
+    Ok(SourceText::from_bytes(bytes).map_err(|_| too_large(path)))
+}
+
+fn too_large(path: &Path) -> Problem {
+    Problem::with_file(path, "is larger than 4 GiB")
 }
 
 /// More than one byte in ten is a control character that no program uses, or no UTF-8.
 ///
 /// Programs hold some: punched tapes begin and end with NUL, serial lines leave DC1 to DC4, old editors end a file with SUB,
 /// comments hold bytes of code pages.
-fn is_binary(bytes: &[u8]) -> bool {
-    let sample = bytes.get(..SAMPLE).unwrap_or(bytes);
+fn is_binary(sample: &[u8]) -> bool {
     let is_padding = |b: &u8| matches!(b, 0 | 0x1A);
     let start = sample.iter().position(|b| !is_padding(b)).unwrap_or(sample.len());
     let end = sample.iter().rposition(|b| !is_padding(b)).map_or(start, |at| at + 1);
+    // No tape has a leader as long as the sample.
+    let is_padding_alone = start == SAMPLE;
     let sample = sample.get(start..end).unwrap_or_default();
     let control = |b: &u8| matches!(b, 0..=8 | 14..=16 | 21..=25 | 27..=31);
     let strange = sample.iter().filter(|b| control(b)).count();
     let no_utf8: usize = sample.utf8_chunks().map(|chunk| chunk.invalid().len()).sum();
-    (strange * 10 > sample.len()) || (no_utf8 * 4 > sample.len())
+    is_padding_alone || (strange * 10 > sample.len()) || (no_utf8 * 4 > sample.len())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::is_binary;
+    use std::io::{self, Read as _};
+    use std::path::Path;
+
+    use super::{SAMPLE, bounded, is_binary};
+
+    #[test]
+    fn an_endless_device_is_refused_by_its_beginning() {
+        for byte in [0, 0xFF] {
+            let problem = bounded(Path::new("device"), io::repeat(byte), 0).unwrap().unwrap_err().to_string();
+            assert!(problem.starts_with("device: is "), "{problem}");
+        }
+    }
+
+    #[test]
+    fn what_is_longer_than_the_sample_is_read_whole() {
+        let program = "G1 X1.\n".repeat(SAMPLE);
+        let source = bounded(Path::new("a.nc"), program.as_bytes(), 0).unwrap().unwrap();
+        assert_eq!(source.text(), program);
+        let leader = io::repeat(0).take(4_000).chain(&b"%\nM30\n%\n"[..]);
+        assert_eq!(bounded(Path::new("tape"), leader, 0).unwrap().unwrap().text().len(), 4_008);
+    }
 
     #[test]
     fn tapes_and_code_pages_are_text() {

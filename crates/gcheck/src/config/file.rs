@@ -40,7 +40,7 @@ pub struct ConfigFile {
     pub search: SearchTable,
     /// Which rules run, and how severe they are.
     pub rules: RulesTable,
-    /// Rules that are off for some files: `"legacy/**" = ["style"]`. Patterns count from this file's folder; one without
+    /// Rules that are off for some files: `"legacy/**" = ["words"]`. Patterns count from this file's folder; one without
     /// a slash fits file names in any folder.
     pub per_file_ignores: BTreeMap<Placed<String>, Vec<Placed<String>>>,
     /// Differences for some files, the later ones over the earlier.
@@ -84,7 +84,7 @@ pub struct OverrideTable {
 pub struct MachineTable {
     /// The machine's name, for people.
     pub name: Option<String>,
-    /// Axes the machine has: `["X", "Y", "Z", "A"]`.
+    /// Axes the machine has: `["X", "Y", "Z", "A"]`. Accepted; used when programs are executed.
     pub axes: Option<Vec<Placed<String>>>,
     /// Unit of every length in this file, and the one active at power-on. No G20 or G21 reinterprets it.
     pub units: Option<Units>,

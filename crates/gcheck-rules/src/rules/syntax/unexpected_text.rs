@@ -4,7 +4,7 @@ use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
 use crate::meta::declare_rule;
 use crate::mistakes::is_foreign_character;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Report, Run, Severity};
 
 declare_rule! {
     /// Characters stand in a block that make no word, statement or comment.
@@ -54,6 +54,13 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         return finding
             .note("what stands in parentheses before it is a comment")
             .help("write code outside parentheses");
+    }
+    if text.starts_with('<') && text.ends_with('>') {
+        // Newer controls keep programs by name and take `<BRACKET>` for `O1234`; none that we know says so on a page.
+        return finding
+            .note("some newer controls read a name in angle brackets as the name of a program  [general knowledge]")
+            .help("name the program by its `O` number, unless the control keeps programs by name")
+            .at_most(Severity::Info);
     }
     if prose && !text.contains(['(', ')']) {
         return finding.help("put remarks in parentheses");
@@ -141,5 +148,20 @@ mod tests {
     #[test]
     fn characters_outside_ascii_are_another_matter() {
         check_rule(&RULE, "linuxcnc", "G0 X1 \u{b5}\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn names_of_programs_are_only_mentioned() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "<BRACKET>\nM98 <SIDE-2>\nM30\n",
+            &expect![[r#"
+            1 | <BRACKET>
+              | ^^^^^^^^^ info[unexpected-text] text `<BRACKET>` is no code
+            2 | M98 <SIDE-2>
+              |     ^^^^^^^^ info[unexpected-text] text `<SIDE-2>` is no code
+        "#]],
+        );
     }
 }

@@ -108,4 +108,9 @@ mod tests {
         check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 I.2 J.05 K.1 F5.\nM30\n", &expect![[""]]);
         check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 Q#5 F5.\nG80\nG83 Z-1. R.1\nM30\n", &expect![[""]]);
     }
+
+    #[test]
+    fn the_radius_of_an_arc_does_not_last() {
+        check_rule(&RULE, "haas-mill", "G2 X1. F10.\nG3 X2. F10.\nM30\n", &expect![[""]]);
+    }
 }
