@@ -48,10 +48,11 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         throughput("tokens and blocks, surfacing", &surfacing, 120.0, &blocks),
         throughput("tokens and blocks, macros", &macros, 30.0, &blocks),
     ];
-    for (name, text) in [("tree of one chunk, surfacing", &surfacing), ("tree of one chunk, macros", &macros)]
-    {
-        // The slowest of the first chunks, because a user waits for whichever is being edited. The limit leaves one
-        // millisecond of the five that a keystroke may take in a large file.
+    // A dense chunk of macros may take what leaves one millisecond of the five that a keystroke may take in a large file.
+    let trees =
+        [("tree of one chunk, surfacing", &surfacing, 0.6), ("tree of one chunk, macros", &macros, 4.0)];
+    for (name, text, limit) in trees {
+        // The slowest of the first chunks, because a user waits for whichever is being edited.
         let slowest = cut(text)
             .into_iter()
             .take(40)
@@ -63,7 +64,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
             })
             .fold(0.0, f64::max);
         let measured = Some(slowest * 1e3);
-        rows.push(Row { name: name.to_owned(), measured, limit: Limit::AtMost(4.0), unit: "ms" });
+        rows.push(Row { name: name.to_owned(), measured, limit: Limit::AtMost(limit), unit: "ms" });
     }
     Ok(rows)
 }
