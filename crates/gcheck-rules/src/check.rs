@@ -113,9 +113,7 @@ impl Collector<'_> {
             None => self.omitted.push((finding.rule, finding.severity, 1)),
         }
     }
-}
 
-impl Collector<'_> {
     /// What stands in text that no run reads is no error, unless the user said that the rule's findings are.
     fn soften(&mut self, plan: &Plan, unread_from: u32) {
         for finding in &mut self.findings {

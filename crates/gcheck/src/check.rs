@@ -7,15 +7,14 @@ mod progress;
 mod settings_page;
 
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::path::PathBuf;
 
 use gcheck_report::{FileReport, Format, Report, Summary};
 use gcheck_rules::Selection;
 use rayon::prelude::*;
 
 use crate::args::{CheckOptions, FailOn, Global};
-use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control};
+use crate::config::{Configs, RuleWishes, unknown_rule, validate_control};
 use crate::discovery::{self, Found};
 use crate::{Problem, output, paths, reading};
 use job::{Bench, Target};
@@ -189,11 +188,3 @@ fn say(text: &str) {
 fn read(target: &Target) -> Result<gcheck_syntax::SourceText, Problem> {
     if target.is_standard_input { reading::standard_input(&target.path) } else { reading::file(&target.path) }
 }
-
-/// The configuration's choice of control with the file that makes it.
-fn configured<'c>(control: Option<&'c str>, from: Option<&'c Path>) -> Option<(&'c str, Option<&'c Path>)> {
-    control.map(|name| (name, from))
-}
-
-/// A configuration shared by the files it rules over.
-type SharedConfig = Arc<Config>;

@@ -14,10 +14,10 @@ use gcheck_report::{ControlChoice, ControlSource, FileReport};
 use gcheck_rules::{Job, Scene, Selection, check};
 use gcheck_syntax::SourceText;
 
-use super::{SharedConfig, configured, read};
+use super::read;
 use crate::Problem;
 use crate::args::{CheckOptions, Global};
-use crate::config::{FileSettings, RuleWishes, unknown_rule};
+use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
 use crate::control_choice::choose;
 use crate::programs::{ProgramFolders, Reachable};
 
@@ -28,7 +28,7 @@ pub(super) struct Target {
     /// As messages call it.
     pub(super) shown: String,
     pub(super) is_standard_input: bool,
-    pub(super) config: SharedConfig,
+    pub(super) config: Arc<Config>,
 }
 
 /// A control's name and the codes that a configuration adds to it.
@@ -79,7 +79,7 @@ pub(super) struct Prepared {
 pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Problem> {
     let source = read(target)?;
     let settings = target.config.settings(&target.path);
-    let from = configured(settings.control.as_deref(), settings.control_from.as_deref());
+    let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let choice = choose(&target.path, &source, bench.control, from)?;
     let selection =
         settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
