@@ -6,6 +6,7 @@ use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FunctionEntry, Hint, LetterEntry,
     Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules, VariableEntry,
 };
+use crate::execution::{Effect, Semantics};
 use crate::{CodeNumber, Letter, LetterSet};
 
 /// Index of a code in its control; small, so that a word of a program can carry it.
@@ -62,6 +63,7 @@ pub struct Control {
     pub(crate) settings: Vec<SettingEntry>,
     /// By rule id.
     pub(crate) alarms: Vec<(String, AlarmEntry)>,
+    pub(crate) semantics: Semantics,
 }
 
 /// A code and what is derived from its entry once, at load time.
@@ -71,6 +73,8 @@ pub(crate) struct CodeFacts {
     pub(crate) number: CodeNumber,
     pub(crate) group: GroupIx,
     pub(crate) reads: LetterSet,
+    pub(crate) effect: Effect,
+    pub(crate) alias: Option<String>,
     pub(crate) user: bool,
 }
 
@@ -118,9 +122,19 @@ impl<'c> Code<'c> {
         self.facts.reads
     }
 
+    /// The program that a code of the user calls, `O9010`.
+    pub fn alias(self) -> Option<&'c str> {
+        self.facts.alias.as_deref()
+    }
+
     /// Declared by the user, so nothing is known about its words.
     pub fn is_user(self) -> bool {
         self.facts.user
+    }
+
+    /// What the code does to the machine's state.
+    pub fn effect(self) -> Effect {
+        self.facts.effect
     }
 
     /// What moves.
@@ -152,6 +166,11 @@ impl Control {
     /// Mill or lathe.
     pub fn machine(&self) -> Machine {
         self.machine
+    }
+
+    /// Where controls read one thing two ways.
+    pub fn semantics(&self) -> &Semantics {
+        &self.semantics
     }
 
     /// How text is read.
@@ -325,7 +344,7 @@ impl Control {
                 source: "the user's configuration".to_owned(),
                 confidence: Confidence::Manual,
             };
-            let facts = CodeFacts { entry, number: code.number, group, reads: LetterSet::EMPTY, user: true };
+            let facts = CodeFacts { entry, number: code.number, group, reads: LetterSet::EMPTY, effect: if code.alias.is_some() { Effect::MacroCall } else { Effect::None }, alias: code.alias.clone(), user: true };
             control.put_code(facts);
         }
         control

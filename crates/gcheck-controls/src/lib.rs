@@ -13,6 +13,7 @@
 mod code_number;
 mod control;
 mod detect;
+mod execution;
 mod letter_set;
 mod loader;
 mod schema;
@@ -21,6 +22,10 @@ mod validate;
 pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
+pub use execution::{
+    ArcRules, CompensationRules, CompensationStyle, CycleRules, DwellWord, Effect, Fix, LocalShift, OffsetValue,
+    ReturnInMain, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, Unset,
+};
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
 pub use schema::{

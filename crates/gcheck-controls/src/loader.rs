@@ -2,11 +2,12 @@
 //!
 //! Knows: the embedded files (JSON, made from the TOML by the build script), bases, `removed`. Must not know: what the facts mean (see [`crate::validate`] for consistency).
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::control::CodeFacts;
+use crate::execution::{Effect, ExecutionFile, Semantics};
 use crate::schema::{
     AlarmEntry, AlarmsFile, CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry,
     LettersFile, Machine, ModalGroup, SettingEntry, SettingsFile, VariableEntry, VariablesFile,
@@ -123,6 +124,8 @@ struct Layers {
     functions: Vec<FunctionEntry>,
     settings: Vec<SettingEntry>,
     alarms: Vec<(String, AlarmEntry)>,
+    effects: BTreeMap<String, Effect>,
+    semantics: Option<Semantics>,
 }
 
 fn resolve(name: &str) -> Result<Control, LoadError> {
@@ -193,6 +196,10 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
             .map(|a| (a.rule, AlarmEntry { number: a.number, text: a.text, confidence: a.confidence }));
         put_all(&mut layers.alarms, alarms.collect(), |(rule, _)| rule.clone());
     }
+    if let Some(file) = parse_file::<ExecutionFile>(source, "execution.toml")? {
+        layers.effects.extend(file.effects);
+        layers.semantics = file.semantics.or(layers.semantics.take());
+    }
     Ok(())
 }
 
@@ -234,6 +241,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         functions: layers.functions,
         settings: layers.settings,
         alarms: layers.alarms,
+        semantics: layers.semantics.ok_or_else(|| missing("semantics"))?,
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));
@@ -247,7 +255,8 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
             )
         })?;
         let reads: LetterSet = entry.words.iter().filter_map(|w| Letter::parse(&w.letter)).collect();
-        control.put_code(CodeFacts { entry, number, group, reads, user: false });
+        let effect = layers.effects.get(&entry.code).copied().unwrap_or(Effect::None);
+        control.put_code(CodeFacts { entry, number, group, reads, effect, alias: None, user: false });
     }
     for entry in layers.letters {
         let letter = Letter::parse(&entry.letter)
@@ -264,7 +273,8 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use super::{AlarmsFile, CodesFile, ControlFile, GroupsFile, LettersFile, SettingsFile, VariablesFile};
+    use super::{AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile, VariablesFile,
+    };
 
     /// The embedded form has lost its line numbers; this is where an author of data learns the line.
     #[test]
@@ -284,6 +294,7 @@ mod tests {
                 "variables.toml" => toml::from_str::<VariablesFile>(&text).map(|_| ()),
                 "settings.toml" => toml::from_str::<SettingsFile>(&text).map(|_| ()),
                 "alarms.toml" => toml::from_str::<AlarmsFile>(&text).map(|_| ()),
+                "execution.toml" => toml::from_str::<ExecutionFile>(&text).map(|_| ()),
                 _ => panic!("{}: a file that nobody reads", file.display()),
             };
             read.unwrap_or_else(|error| panic!("{}: {error}", file.display()));

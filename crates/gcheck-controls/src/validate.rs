@@ -3,8 +3,9 @@
 //! Knows: what an entry must satisfy. Must not know: TOML. Law 9 of the architecture ("data is true") starts here;
 //! that examples are legal blocks is proved where programs can be checked.
 
-use crate::schema::Confidence;
-use crate::{CodeNumber, Control, Letter};
+use crate::control::Variable;
+use crate::schema::{Confidence, VariableKind};
+use crate::{CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
 pub fn problems(control: &Control) -> Vec<String> {
@@ -16,6 +17,8 @@ pub fn problems(control: &Control) -> Vec<String> {
     }
     found.letters();
     found.rest();
+    found.semantics();
+    found.system_variables();
     found.list
 }
 
@@ -145,6 +148,19 @@ impl Problems<'_> {
                 self.say(code, "has an alarm without text");
             }
         }
+        self.effect(entry);
+    }
+
+    /// An effect that switches a mode belongs to a code of that mode's group.
+    fn effect(&mut self, entry: &crate::CodeEntry) {
+        let effect =
+            CodeNumber::parse(&entry.code).and_then(|n| self.control.code(n)).map(crate::Code::effect);
+        let group = entry.group.as_str();
+        if let Some(wanted) = effect.and_then(group_of)
+            && wanted != group
+        {
+            self.say(&entry.code, format!("has an effect of the group `{wanted}` but is of `{group}`"));
+        }
     }
 
     fn letters(&mut self) {
@@ -205,10 +221,232 @@ impl Problems<'_> {
         }
         debug_assert!(Confidence::Assumed < Confidence::Manual, "severity relies on this order");
     }
+
+    /// An address of the control.
+    fn is_letter(&self, text: &str) -> bool {
+        Letter::parse(text).is_some_and(|letter| self.control.letter(letter).is_some())
+    }
+
+    fn semantics(&mut self) {
+        const PLACE: &str = "semantics";
+        let control = self.control;
+        let semantics = control.semantics();
+        self.source(PLACE, &semantics.source);
+        for part in semantics.source.split(';').map(str::trim) {
+            let known = control.references().iter().any(|r| part.starts_with(r.id.as_str()));
+            if !known && !part.starts_with("general knowledge") {
+                self.say(PLACE, format!("the source `{part}` is no reference of the control"));
+            }
+        }
+        for code in semantics.at_end.iter().chain(&semantics.at_start) {
+            if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
+                self.say(PLACE, format!("`{code}` at the start or end is no code here"));
+            }
+        }
+        let [first, last] = semantics.locals;
+        for number in [first, last] {
+            let is_local =
+                matches!(control.variable(number), Variable::Known(v) if v.kind == VariableKind::Local);
+            if first <= last && !is_local {
+                self.say(PLACE, format!("#{number} is no local variable"));
+            }
+        }
+        for (letter, number) in &semantics.argument_letters {
+            if Letter::parse(letter).is_none() {
+                self.say(PLACE, format!("the argument `{letter}` is no address"));
+            }
+            if !(first..=last).contains(&u32::from(*number)) {
+                self.say(PLACE, format!("the argument `{letter}` fills #{number}, which is not local"));
+            }
+        }
+        let cycles = &semantics.cycles;
+        for letter in semantics.call_repeats.iter().chain([&cycles.repeat]) {
+            if !self.is_letter(letter.encode_utf8(&mut [0; 4])) {
+                self.say(PLACE, format!("`{letter}` counts repeats but is no address here"));
+            }
+        }
+        for letter in cycles.sticky.iter().chain(semantics.dwell.keys()).chain(semantics.increments.keys()) {
+            if !self.is_letter(letter) {
+                self.say(PLACE, format!("`{letter}` is no address here"));
+            }
+        }
+        for (letter, axis) in &semantics.increments {
+            if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
+                self.say(
+                    PLACE,
+                    format!("`{letter}` is an increment of `{axis}`, which is no other axis here"),
+                );
+            }
+        }
+        if let Some(setting) = &semantics.compensation.setting
+            && control.setting(setting).is_none()
+        {
+            self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+        }
+        if semantics.loop_depth == Some(0) {
+            self.say(PLACE, "`loop-depth` 0 allows no loop");
+        }
+        self.lengths();
+    }
+
+    /// Tolerances and clearances, in millimetres: none so large that it would be a mistake of units.
+    fn lengths(&mut self) {
+        let semantics = self.control.semantics();
+        let arcs = &semantics.arcs;
+        let cycles = &semantics.cycles;
+        for (name, value, range) in [
+            ("equal-within", semantics.equal_within, 0.0..=1e-3),
+            ("radius-difference", arcs.radius_difference, 0.0..=1.0),
+            ("relative", arcs.relative, 0.0..=0.1),
+            ("hard-factor", arcs.hard_factor, 1.0..=1e4),
+            ("radius-slack", arcs.radius_slack, 0.0..=1.0),
+            ("zero-radius", arcs.zero_radius, 0.0..=0.1),
+            ("peck-clearance", cycles.peck_clearance, 0.0..=10.0),
+            ("chip-break-retract", cycles.chip_break_retract, 0.0..=10.0),
+        ] {
+            if !range.contains(&value) {
+                let (least, most) = range.into_inner();
+                self.say("semantics", format!("`{name}` is {value}, not from {least} to {most}"));
+            }
+        }
+    }
+
+    fn system_variables(&mut self) {
+        let control = self.control;
+        let variables = &control.semantics().system_variables;
+        let mut seen = std::collections::HashSet::new();
+        for variable in variables {
+            let place = match (variable.first, &variable.name) {
+                (Some(first), None) => format!("system variable #{first}"),
+                (None, Some(name)) => format!("system variable #<{name}>"),
+                _ => {
+                    self.say("system-variables", format!("{variable:?} needs a number or a name"));
+                    continue;
+                }
+            };
+            if let Some(name) = &variable.name {
+                let known = control.named_parameter(name).is_some_and(|v| v.kind == VariableKind::System);
+                if !known || variable.count != 1 || variable.rows != 1 {
+                    self.say(&place, "is no predefined parameter, or more than one");
+                }
+                if !seen.insert(name.clone()) {
+                    self.say(&place, "is listed twice");
+                }
+            }
+            if variable.rows > 1 && variable.stride < variable.count {
+                self.say(&place, "has rows that overlap");
+            }
+            for number in numbers(variable) {
+                let kind = match control.variable(number) {
+                    Variable::Known(entry) => Some(entry.kind),
+                    Variable::Unlisted => None,
+                };
+                if !matches!(kind, Some(VariableKind::System | VariableKind::Retained)) {
+                    self.say(&place, format!("#{number} is no variable of the control's own"));
+                    break;
+                }
+                if !seen.insert(number.to_string()) {
+                    self.say(&place, format!("#{number} is listed twice"));
+                    break;
+                }
+            }
+            self.argument(&place, variable);
+        }
+    }
+
+    /// What `holds` needs is there, and nothing else.
+    fn argument(&mut self, place: &str, variable: &SystemVariable) {
+        use SystemValue as V;
+        let of = variable.of.as_deref();
+        let by_axis = |text: &str| {
+            u32::try_from(text.len()) == Ok(variable.count)
+                && text
+                    .bytes()
+                    .all(|b| Letter::new(b).is_some_and(|letter| self.control.axes().contains(letter)))
+        };
+        let is_first = |text: &str| text.parse::<u16>().is_ok_and(|number| number > 0);
+        let right = match variable.holds {
+            V::ModalCode => of.is_some_and(|group| self.control.group_by_id(group).is_some()),
+            V::LastWord => of.is_some_and(|letter| self.is_letter(letter)),
+            V::WorkOffset | V::WorkRotation | V::ToolLength | V::ToolDiameter | V::ToolRadius => {
+                of.is_none_or(is_first)
+            }
+            V::WorkPosition
+            | V::EndPosition
+            | V::MachinePosition
+            | V::ProbePosition
+            | V::LengthOffset
+            | V::Shift
+            | V::Reference1
+            | V::Reference2 => of.is_none_or(by_axis),
+            _ => of.is_none(),
+        };
+        if !right {
+            self.say(place, format!("`of` is {of:?}, which does not fit what it holds"));
+        }
+    }
+}
+
+/// All numbers of a system variable: columns of rows.
+fn numbers(variable: &SystemVariable) -> impl Iterator<Item = u32> {
+    let (first, stride, count) = (variable.first, variable.stride, variable.count);
+    let rows = if first.is_some() { variable.rows } else { 0 };
+    (0..rows).flat_map(move |row| {
+        let start = first.unwrap_or(0).saturating_add(row.saturating_mul(stride));
+        (0..count).map(move |column| start.saturating_add(column))
+    })
+}
+
+/// The modal group whose codes have an effect, where all controls agree on it.
+fn group_of(effect: Effect) -> Option<&'static str> {
+    use Effect as E;
+    Some(match effect {
+        E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => "plane",
+        E::Absolute | E::Incremental => "distance",
+        E::ArcCentreAbsolute | E::ArcCentreIncremental => "arc-distance",
+        E::FeedInverseTime | E::FeedPerMinute | E::FeedPerRevolution => "feed-mode",
+        E::Inch | E::Millimetre => "units",
+        E::DiameterOn | E::DiameterOff => "diameter-mode",
+        E::CompensationOff
+        | E::CompensationLeft
+        | E::CompensationRight
+        | E::CompensationLeftByDiameter
+        | E::CompensationRightByDiameter
+        | E::CompensationVector => "cutter-compensation",
+        E::LengthOff
+        | E::LengthPlus
+        | E::LengthMinus
+        | E::LengthFromBlock
+        | E::LengthAdd
+        | E::LengthFiveAxis
+        | E::ToolCentrePoint => "tool-length",
+        E::ReturnToInitial | E::ReturnToR => "return-level",
+        E::WorkOffset(_) | E::WorkOffsetByP(_) => "work-offset",
+        E::ExactPath | E::ExactStop | E::PathBlending => "path-control",
+        E::SurfaceSpeed | E::ConstantSpeed => "spindle-mode",
+        E::ScalingOn | E::ScalingOff => "scaling",
+        E::RotationOn | E::RotationOff => "rotation",
+        E::MirrorOn | E::MirrorOff => "mirror",
+        E::PolarOn | E::PolarOff => "polar",
+        E::PolarInterpolationOn | E::PolarInterpolationOff => "polar-interpolation",
+        E::CylinderMapping => "cylindrical",
+        E::DynamicOffsetOn | E::DynamicOffsetOff => "dynamic-offset",
+        E::MacroModal | E::MacroModalOff => "macro-call",
+        E::CycleCancel => "canned-cycle",
+        _ => return None,
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::collections::{BTreeMap, BTreeSet};
+    use std::fs;
+    use std::path::{Path, PathBuf};
+
+    use crate::execution::ExecutionFile;
+    use crate::schema::ControlFile;
+    use crate::{CodeNumber, Effect, Motion};
+
     #[test]
     fn one_control_is_the_fallback() {
         let fallbacks = crate::loader::all_control_files().filter(|c| c.fallback).count();
@@ -226,5 +464,114 @@ mod tests {
             }
         }
         assert!(wrong.is_empty(), "{} problems:\n{}", wrong.len(), wrong.join("\n"));
+    }
+
+    /// Groups whose codes all do something that the engine follows, or are said to do nothing (`"none"`).
+    const FOLLOWED: &[&str] = &[
+        "motion",
+        "canned-cycle",
+        "plane",
+        "distance",
+        "arc-distance",
+        "feed-mode",
+        "units",
+        "diameter-mode",
+        "cutter-compensation",
+        "tool-length",
+        "return-level",
+        "work-offset",
+        "path-control",
+        "spindle-mode",
+        "scaling",
+        "rotation",
+        "mirror",
+        "polar",
+        "polar-interpolation",
+        "cylindrical",
+        "dynamic-offset",
+        "macro-call",
+        "offset-clear",
+    ];
+
+    fn folder(name: &str) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("data").join(name)
+    }
+
+    /// What the files of a control and its bases state, `"none"` included: a loaded control no longer tells it from silence.
+    fn stated_effects(name: &str) -> BTreeMap<String, Effect> {
+        let mut stated = BTreeMap::new();
+        let mut next = Some(name.to_owned());
+        while let Some(name) = next {
+            let text = fs::read_to_string(folder(&name).join("execution.toml")).unwrap_or_default();
+            let file: ExecutionFile = toml::from_str(&text).unwrap();
+            for (code, effect) in file.effects {
+                stated.entry(code).or_insert(effect);
+            }
+            let head = fs::read_to_string(folder(&name).join("control.toml")).unwrap();
+            next = toml::from_str::<ControlFile>(&head).unwrap().base;
+        }
+        stated
+    }
+
+    #[test]
+    fn every_effect_is_that_of_a_code() {
+        let mut wrong = BTreeSet::new();
+        for name in crate::names() {
+            let control = crate::load(name).unwrap();
+            for code in stated_effects(name).keys() {
+                let found = CodeNumber::parse(code).and_then(|number| control.code(number));
+                if found.is_none_or(|found| found.entry().code != *code) {
+                    wrong.insert(format!("{name}: `{code}` is no code, or not written as the code is"));
+                }
+            }
+        }
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+
+    #[test]
+    fn every_code_of_a_group_that_the_engine_follows_states_its_effect() {
+        let mut silent = BTreeSet::new();
+        for name in crate::names() {
+            let control = crate::load(name).unwrap();
+            let stated = stated_effects(name);
+            for code in control.codes() {
+                let entry = code.entry();
+                if FOLLOWED.contains(&code.group().id.as_str()) && !stated.contains_key(&entry.code) {
+                    silent.insert(format!("{name}: {} ({})", entry.code, code.group().id));
+                }
+            }
+        }
+        assert!(silent.is_empty(), "{silent:#?}");
+    }
+
+    /// A move that the engine would not make leaves it at the wrong place without a word: the list is short and known.
+    #[test]
+    fn codes_that_move_but_are_not_followed_are_known() {
+        let mut found = BTreeSet::new();
+        for name in crate::names() {
+            for code in crate::load(name).unwrap().codes() {
+                if code.motion() != Motion::None && code.effect() == Effect::None {
+                    found.insert(code.entry().code.clone());
+                }
+            }
+        }
+        // Broaching, involutes, rotary axes that turn square to a tilted plane, a sleep of hours.
+        let found: Vec<_> = found.iter().map(String::as_str).collect();
+        assert_eq!(found, ["G156", "G2.2", "G253", "G3.2", "G53.1", "M95"]);
+    }
+
+    /// Stops, ends and calls decide what runs at all.
+    #[test]
+    fn codes_that_end_something_have_the_effect() {
+        for name in crate::names() {
+            for code in crate::load(name).unwrap().codes() {
+                let wanted = match code.entry().ends {
+                    Some(crate::Ends::Program) => Effect::ProgramEnd,
+                    Some(crate::Ends::Subprogram) => Effect::Return,
+                    None => continue,
+                };
+                assert_eq!(code.effect(), wanted, "{name}: {}", code.entry().code);
+            }
+        }
     }
 }

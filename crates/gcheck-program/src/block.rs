@@ -168,6 +168,11 @@ impl BlockTable {
         &self.blocks[ix.index()]
     }
 
+    /// The index of a block by its place in the table.
+    pub fn ix(&self, index: u32) -> Option<BlockIx> {
+        ((index as usize) < self.blocks.len()).then_some(BlockIx(index))
+    }
+
     /// The words of a block in text order, statements not included.
     pub fn words(&self, block: &Block) -> &[Word] {
         self.words.get(block.words.start as usize..block.words.end as usize).unwrap_or_default()

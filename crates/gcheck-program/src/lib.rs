@@ -7,15 +7,19 @@
 
 mod block;
 mod expression;
+mod loaded;
 mod lower;
 mod number;
+mod outline;
 mod statement;
 mod survey;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
+pub use loaded::{Loaded, Place};
 pub use lower::{Dialect, lower, lower_tree, profile};
 pub use number::NumberShape;
+pub use outline::{OWordLinks, Outline, OutlineBuilder, Program};
 pub use statement::{OKeyword, OLabel, Statement, StatementKind, Target};
 pub use survey::{
     Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, code_region,

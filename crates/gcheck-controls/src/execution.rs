@@ -1,0 +1,616 @@
+//! What the execution engine must know of a control: the effect of each code, and where controls read one thing two ways.
+//!
+//! Knows: the closed vocabulary of effects, the choices of `execution.toml`. Must not know: how an effect is carried out
+//! (`gcheck-engine`), or which control makes which choice (data).
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::schema::Confidence;
+
+/// `execution.toml`.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub(crate) struct ExecutionFile {
+    /// By code: `G1 = "linear"`, `G55 = { work-offset = 2 }`. A code of a base is replaced, or taken away with `"none"`.
+    #[serde(default)]
+    pub(crate) effects: BTreeMap<String, Effect>,
+    #[serde(default)]
+    pub(crate) semantics: Option<Semantics>,
+}
+
+/// What a code does to the machine's state. A code without an effect changes nothing that the engine follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "the names are the field's own terms; those that are not carry a comment")]
+pub enum Effect {
+    /// Nothing that the engine follows.
+    None,
+
+    // Interpolation.
+    Rapid,
+    Linear,
+    ArcClockwise,
+    ArcCounterClockwise,
+    Dwell,
+    SplineCubic,
+    SplineQuadratic,
+    NurbsOpen,
+    NurbsClose,
+    /// Feed tied to the spindle's angle (`G33`, lathe `G32`).
+    Thread,
+    /// Thread in and, with the spindle reversed, out again (`G33.1`).
+    RigidTap,
+    /// Toward the work, contact required (`G38.2`).
+    ProbeToward,
+    /// Toward the work, no contact is no fault (`G38.3`).
+    ProbeTowardOptional,
+    ProbeAway,
+    ProbeAwayOptional,
+    /// Feed until a skip signal, contact or not (`G31`).
+    Skip,
+    /// Measures a tool's diameter (`G35`).
+    ProbeDiameter,
+    /// Sets a work offset from one touch (`G36`).
+    ProbeOffset,
+    /// Sets a tool length from a touch (`G37`).
+    ProbeLength,
+    /// Sets a work offset between two touches (`G136`).
+    ProbeCentre,
+    /// Keeps the first touch for a two-touch measurement (`M75`).
+    KeepTouch,
+
+    // Canned cycles that stay on.
+    CycleDrill,
+    CycleDrillDwell,
+    CyclePeck,
+    CycleChipBreak,
+    CycleTap,
+    CycleLeftTap,
+    CycleBoreFeedOut,
+    CycleBoreStop,
+    CycleBackBore,
+    CycleBoreManual,
+    CycleBoreDwellManual,
+    CycleBoreDwell,
+    CycleFineBore,
+    /// Along the tool at any angle, depth in `E`.
+    CycleAlongTool,
+    /// Radial with live tools: depth in X.
+    CycleRadial,
+    CycleCancel,
+
+    // Turning.
+    TurningPass,
+    ThreadingPass,
+    FacingPass,
+    ThreadCycle,
+    FinishProfile,
+    RoughAlongZ,
+    RoughAlongX,
+    RepeatPattern,
+    GrooveFace,
+    GrooveDiameter,
+
+    // Operations of one block.
+    CircularPocketClockwise,
+    CircularPocketCounterClockwise,
+    GeneralPocket,
+    BoltCircle,
+    BoltArc,
+    BoltLine,
+    Engrave,
+    BarFeed,
+
+    // Positions and offsets.
+    /// Return to reference position 1 (`G28`), 2 (`G30`).
+    ReturnReference(u8),
+    ReturnFromReference,
+    StoreReference(u8),
+    MachineCoordinates,
+    WriteOffsets,
+    LocalShift,
+    /// The present position gets the words' coordinates (`G92` of mills).
+    SetPosition,
+    /// Lathe `G50`, `G92`: a spindle speed limit with S, else coordinates of the present position.
+    SpeedLimitOrSetPosition,
+    ClearShift,
+    SuspendShift,
+    RestoreShift,
+    /// Work coordinate system n, counted from 1 (`G54` = 1).
+    WorkOffset(u16),
+    /// Work coordinate system by `P`; the number is that of `P1` (7 where `G54`–`G59` come first).
+    WorkOffsetByP(u16),
+
+    // Modes.
+    PlaneXy,
+    PlaneZx,
+    PlaneYz,
+    /// A plane of U, V, W.
+    PlaneSecondary,
+    Absolute,
+    Incremental,
+    ArcCentreAbsolute,
+    ArcCentreIncremental,
+    FeedInverseTime,
+    FeedPerMinute,
+    FeedPerRevolution,
+    Inch,
+    Millimetre,
+    DiameterOn,
+    DiameterOff,
+    CompensationOff,
+    CompensationLeft,
+    CompensationRight,
+    /// `D` is a diameter, not an offset number (`G41.1`).
+    CompensationLeftByDiameter,
+    CompensationRightByDiameter,
+    /// Along a vector I J K (`G141`).
+    CompensationVector,
+    LengthOff,
+    LengthPlus,
+    LengthMinus,
+    /// Offsets stand in the block (`G43.1`).
+    LengthFromBlock,
+    /// Adds to the offsets in effect (`G43.2`).
+    LengthAdd,
+    /// Along the tool axis of two rotary axes (`G143`).
+    LengthFiveAxis,
+    ToolCentrePoint,
+    ReturnToInitial,
+    ReturnToR,
+    ExactPath,
+    ExactStop,
+    PathBlending,
+    SurfaceSpeed,
+    ConstantSpeed,
+    ScalingOn,
+    ScalingOff,
+    RotationOn,
+    RotationOff,
+    MirrorOn,
+    MirrorOff,
+    PolarOn,
+    PolarOff,
+    CylinderMapping,
+    /// XY programmed, XC moved (`G112`, `G12.1`).
+    PolarInterpolationOn,
+    PolarInterpolationOff,
+    DynamicOffsetOn,
+    DynamicOffsetOff,
+    TiltedPlaneOn,
+    TiltedPlaneOff,
+
+    // Programs.
+    MacroCall,
+    MacroModal,
+    MacroModalOff,
+    CallProgram,
+    CallLocal,
+    Return,
+    /// Jump to `P` when an input is off (`M96`).
+    JumpUnlessInput,
+    Stop,
+    OptionalStop,
+    PalletStop,
+    ProgramEnd,
+    /// Program end with an exchange of pallets.
+    ProgramEndWithPallet,
+    SaveModes,
+    ForgetModes,
+    RestoreModes,
+    SaveModesUntilReturn,
+    /// A program outside the control's own (`M100` to `M199`).
+    UserCommand,
+
+    // Spindle, tool, coolant, inputs and outputs.
+    SpindleClockwise,
+    SpindleCounterClockwise,
+    SpindleClockwiseWithCoolant,
+    SpindleCounterClockwiseWithCoolant,
+    SpindleStop,
+    SpindleOrient,
+    /// The turning tool's own spindle.
+    LiveToolOn,
+    LiveToolOff,
+    ToolChange,
+    SetToolNumber,
+    MistOn,
+    FloodOn,
+    ThroughCoolantOn,
+    ThroughCoolantOff,
+    CoolantOff,
+    OverridesOn,
+    OverridesOff,
+    FeedOverride,
+    SpeedOverride,
+    AdaptiveFeed,
+    FeedStopInput,
+    OutputOnWithMove,
+    OutputOffWithMove,
+    OutputOn,
+    OutputOff,
+    WaitForInput,
+    AnalogOutputWithMove,
+    AnalogOutput,
+    ChuckClamp,
+    ChuckUnclamp,
+}
+
+/// Where controls read one thing two ways.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a control, named one by one in data"
+)]
+pub struct Semantics {
+    /// What a variable holds that was never set.
+    pub unset: Unset,
+    /// How `FIX` and `FUP` round.
+    pub fix: Fix,
+    /// `AND`, `OR`, `XOR` work on bits of whole numbers; else on zero and not zero.
+    pub logic_on_bits: bool,
+    /// Numbers closer than this are equal to `EQ` and `NE`; the other comparisons are exact.
+    pub equal_within: f64,
+    /// `ATAN[a]` may stand alone; else it needs `/[b]` after it.
+    pub atan_alone: bool,
+    /// A computed value of an axis word is rounded to the least increment.
+    pub round_words: bool,
+    /// A value that no decimal point follows, computed from an expression, counts as with a point.
+    pub computed_words_are_pointed: bool,
+    /// Arguments of a macro call without decimal point are scaled as the control's page says (per letter).
+    #[serde(default)]
+    pub scale_arguments: bool,
+    /// Assignments of a block act after all its values are read.
+    pub assignments_after_block: bool,
+    /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.
+    #[serde(default)]
+    pub argument_letters: BTreeMap<String, u8>,
+    /// Local variables: first and last number; empty range when none.
+    pub locals: [u32; 2],
+    /// A call of a numbered subprogram (`M98`) gets its own local variables.
+    pub locals_per_subprogram: bool,
+    /// What `M99 P` does in a subprogram.
+    pub return_to: ReturnTo,
+    /// What `M99` does in a main program.
+    pub return_in_main: ReturnInMain,
+    /// The word that repeats a call.
+    pub call_repeats: Option<char>,
+    /// `L0` calls nothing; else it calls once.
+    pub zero_repeats_skip: bool,
+    /// Loops (`DO`) nest this deep in one program.
+    #[serde(default)]
+    pub loop_depth: Option<u8>,
+    /// Circles: how far start and end radius may differ, and what else is refused.
+    pub arcs: ArcRules,
+    /// A new feed mode forgets the feed.
+    pub feed_mode_clears_feed: bool,
+    /// Codes that `M2` and `M30` bring into effect.
+    #[serde(default)]
+    pub at_end: Vec<String>,
+    /// Codes active at power-on beside the groups' defaults.
+    #[serde(default)]
+    pub at_start: Vec<String>,
+    /// The end of the program, and power-on, clear the feed.
+    pub end_clears_feed: bool,
+    /// Canned cycles.
+    pub cycles: CycleRules,
+    /// Cutter compensation.
+    pub compensation: CompensationRules,
+    /// How tools are called and measured.
+    pub tools: ToolRules,
+    /// Addresses that are increments of an axis whatever the mode: `{ U = "X", W = "Z" }`.
+    #[serde(default)]
+    pub increments: BTreeMap<String, String>,
+    /// X counts diameters at power-on.
+    pub diameter: bool,
+    /// What `G52` and `G92` are to each other.
+    pub local_shift: LocalShift,
+    /// A reference return (`G28`) without axis words returns all axes.
+    pub reference_without_axes: bool,
+    /// A reference return cancels tool length compensation.
+    #[serde(default)]
+    pub reference_cancels_length: bool,
+    /// `G53` (and a motion without a mode of its own) moves in rapid where no motion is named.
+    pub machine_coordinates_rapid: bool,
+    /// Dwell words: letter to kind.
+    pub dwell: BTreeMap<String, DwellWord>,
+    /// Computed jumps and `GOTO` look forward first, then from the head of the program.
+    #[serde(default)]
+    pub goto_forward_first: bool,
+    /// System variables that the engine computes: first number of a row of axes or a single one.
+    #[serde(default)]
+    pub system_variables: Vec<SystemVariable>,
+    /// Where this stands.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// What a variable holds that was never set.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Unset {
+    /// Nothing: a word with it is left out.
+    Vacant,
+    /// Zero.
+    Zero,
+}
+
+/// How `FIX` and `FUP` round.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fix {
+    /// Toward zero, away from zero.
+    Magnitude,
+    /// Down, up.
+    NumberLine,
+}
+
+/// What `M99 P` does in a subprogram.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReturnTo {
+    /// Returns, and goes on at block `P` of the caller.
+    Caller,
+    /// Jumps to block `P` of the same program, without returning.
+    Same,
+    /// The word is not read.
+    Ignored,
+}
+
+/// What `M99` does in a main program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ReturnInMain {
+    /// Starts it again.
+    Restart,
+    /// Is refused.
+    Refused,
+}
+
+/// How circles are judged. Lengths in millimetres.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ArcRules {
+    /// Start and end radius may differ by this much…
+    pub radius_difference: f64,
+    /// …and by more if the difference is below this part of the radius…
+    #[serde(default)]
+    pub relative: f64,
+    /// …but never by more than this many times the first.
+    #[serde(default = "one")]
+    pub hard_factor: f64,
+    /// Under inch units the difference may be this many times as large: its figure is a round number of the unit.
+    #[serde(default = "one")]
+    pub inch_factor: f64,
+    /// Half the chord may be longer than `R` by this much.
+    pub radius_slack: f64,
+    /// A radius below this is zero.
+    pub zero_radius: f64,
+    /// `P` counts turns.
+    pub turns: bool,
+    /// Centre words left out count as zero.
+    pub centre_defaults_to_zero: bool,
+    /// Centre words when both `R` and they stand: `R` wins, else refused.
+    pub radius_wins: bool,
+    /// How sure the tolerances are.
+    pub confidence: Confidence,
+}
+
+/// How canned cycles move. Lengths in millimetres.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a control, named one by one in data"
+)]
+pub struct CycleRules {
+    /// The letter that repeats a cycle: `L`, `K`.
+    pub repeat: char,
+    /// Words that stay from block to block while a cycle is active.
+    pub sticky: Vec<String>,
+    /// Peck drilling goes back to this far above the last depth.
+    pub peck_clearance: f64,
+    /// Chip breaking backs off by this much.
+    pub chip_break_retract: f64,
+    /// A motion code of another group ends a cycle, and the other way round.
+    pub motion_ends_cycle: bool,
+    /// A block without axis words runs the cycle only when it names the code.
+    pub needs_axis: bool,
+    /// Cycles work in all planes; else only in XY.
+    pub all_planes: bool,
+    /// In `G91` `R` counts from the starting level, `Z` from `R`.
+    pub incremental_r: bool,
+    /// A cycle whose R lies above the tool first rises to R.
+    pub rise_to_r: bool,
+    /// Tapping needs a turning spindle before.
+    pub tap_needs_spindle: bool,
+}
+
+/// How `G41` and `G42` move.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CompensationRules {
+    /// The shape of entry, corners and exit.
+    pub style: CompensationStyle,
+    /// What a `D` number's value is.
+    pub value: OffsetValue,
+    /// Planes, units, tools and offsets must not change while it is on.
+    #[serde(default)]
+    pub freezes_modes: bool,
+    /// The setting that decides between radius and diameter, where one does.
+    pub setting: Option<String>,
+}
+
+/// Shapes of compensated paths.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CompensationStyle {
+    /// Entry tangent to the first element, arcs around corners.
+    TangentEntry,
+    /// Entry and exit perpendicular, corners by intersection.
+    Intersection,
+}
+
+/// What an offset number's value is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OffsetValue {
+    /// A radius.
+    Radius,
+    /// A diameter.
+    Diameter,
+}
+
+/// How tools are called.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a control, named one by one in data"
+)]
+pub struct ToolRules {
+    /// `T` alone changes the tool (turrets); else a code does.
+    pub change_by_t: bool,
+    /// `T0101`: the last two digits choose the offset.
+    pub offset_in_t: bool,
+    /// A tool change takes the tool whose number is in `T`, and a block with `T` and the change uses it.
+    pub change_needs_t: bool,
+    /// `H` left out of a length code means the tool in the spindle.
+    pub length_from_tool: bool,
+    /// `D` left out of a compensation code means the tool in the spindle.
+    pub radius_from_tool: bool,
+    /// A tool change stops the spindle.
+    pub change_stops_spindle: bool,
+    /// A tool change cancels tool length compensation.
+    #[serde(default)]
+    pub change_cancels_length: bool,
+}
+
+/// What `G52` and `G92` are to each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LocalShift {
+    /// One shift: `G52` writes it as it stands, `G92` so that the position reads as programmed.
+    Shared,
+    /// Two shifts that add up.
+    Separate,
+}
+
+/// How a dwell word counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DwellWord {
+    /// Seconds.
+    Seconds,
+    /// Milliseconds.
+    Milliseconds,
+    /// Seconds with a decimal point, milliseconds without.
+    SecondsOrMilliseconds,
+}
+
+/// A system variable, a row of one an axis, or a table of such rows, that the engine computes.
+///
+/// Number `first + row * stride + column`, where columns count up to `count` and rows up to `rows`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct SystemVariable {
+    /// First number.
+    #[serde(default)]
+    pub first: Option<u32>,
+    /// Name of a named parameter, instead of a number; one a parameter (`_x` with `of = "X"`).
+    #[serde(default)]
+    pub name: Option<String>,
+    /// How many; axes in the order X Y Z A B C U V W, unless `of` names them.
+    #[serde(default = "one_u32")]
+    pub count: u32,
+    /// Distance between rows (work offsets), when `rows` is more than one.
+    #[serde(default)]
+    pub stride: u32,
+    /// Rows.
+    #[serde(default = "one_u32")]
+    pub rows: u32,
+    /// What it holds.
+    pub holds: SystemValue,
+    /// What `holds` needs to be told:
+    /// the id of a modal group ([`SystemValue::ModalCode`]); an address ([`SystemValue::LastWord`]); the number of the first
+    /// row or tool ([`SystemValue::WorkOffset`], 1 when left out, and the tables of tools); the axes in their order, one
+    /// letter each (values by axis).
+    #[serde(default)]
+    pub of: Option<String>,
+}
+
+/// What a system variable holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "the names say it")]
+pub enum SystemValue {
+    /// Position of the tool's point in the active work coordinates, program units.
+    WorkPosition,
+    /// End of the last block, work coordinates.
+    EndPosition,
+    /// Position in machine coordinates.
+    MachinePosition,
+    /// Where the probe touched, work coordinates.
+    ProbePosition,
+    /// 1 after a touch, else 0.
+    ProbeResult,
+    /// Tool length offsets in effect, by axis.
+    LengthOffset,
+    /// Work offset n = row + 1, or counted from `of`.
+    WorkOffset,
+    /// Rotation of work offset n.
+    WorkRotation,
+    /// `G52`/`G92` shift.
+    Shift,
+    ShiftActive,
+    WorkOffsetNumber,
+    Reference1,
+    Reference2,
+    /// The tool in the spindle.
+    ToolNumber,
+    /// The tool called for.
+    SelectedTool,
+    /// By tool, the first that of `of`; without `of` the offsets of the tool in the spindle, by axis.
+    ToolLength,
+    /// By tool, the first that of `of`; without `of` that of the tool in the spindle. What the table of `D` holds.
+    ToolDiameter,
+    /// As the diameter.
+    ToolRadius,
+    /// The number of the active code of the modal group `of`; ten times it in a named parameter (`170` for `G17`).
+    ModalCode,
+    /// The last value of the address `of`.
+    LastWord,
+    Feed,
+    Speed,
+    IsMetric,
+    IsInch,
+    IsAbsolute,
+    IsIncremental,
+    IsInverseTime,
+    IsPerMinute,
+    IsPerRevolution,
+    SpindleOn,
+    SpindleClockwise,
+    MistOn,
+    FloodOn,
+    CompensationOn,
+    CallLevel,
+    /// An alarm: the program ends with the block's comment.
+    Alarm,
+    /// A stop with a message; the program goes on after cycle start.
+    StopWithMessage,
+    /// Time and the like: never known.
+    Unknown,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn one_u32() -> u32 {
+    1
+}

@@ -1,0 +1,45 @@
+//! What a result rests on that nobody told us.
+//!
+//! Knows: kinds of assumptions, typed. Must not know: their wording, or the keys of a configuration that would settle them.
+
+use gcheck_controls::CodeIx;
+
+use crate::model::Role;
+use crate::position::Axis;
+
+/// Something taken for granted, or left unknown.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Assumption {
+    /// A mode at the start is the control's power-on default.
+    StartMode(Role, CodeIx),
+    /// The position at the start is not known.
+    StartPosition,
+    /// A work offset's value is not known.
+    WorkOffset(u16),
+    /// A tool length is not known.
+    ToolLength(u32),
+    /// A cutter's size is not known.
+    ToolRadius(u32),
+    /// A reference position is not known.
+    ReferencePosition(u8),
+    /// A setting has the value that the knowledge base assumes.
+    Setting(String),
+    /// Numbers without decimal point count as the knowledge base assumes.
+    UnpointedNumbers,
+    /// A variable's value at the start is not known.
+    Variable(u32),
+    /// A program that is called was not found.
+    MissingProgram(u32),
+    /// A subroutine that is called was not found.
+    MissingSubroutine(String),
+    /// Blocks with a block delete were executed, or not.
+    BlockSkip(bool),
+    /// An optional stop was passed over.
+    OptionalStop,
+    /// A probe was taken to have touched, at an unknown point.
+    ProbeTouch,
+    /// The machine has all axes that the control may have.
+    Axis(Axis),
+    /// Nothing is known of a code's effect.
+    Code(CodeIx),
+}

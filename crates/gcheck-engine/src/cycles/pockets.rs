@@ -1,0 +1,259 @@
+//! Pockets in one block: circular ones as strokes, those of any outline as an estimate.
+//!
+//! Knows: their geometry in the plane XY. Must not know: where the outline was programmed, offsets by number.
+//!
+//! Source: Haas Mill Operator's Manual, G12, G13 and G150. The direction in which the half circle into a circular pocket
+//! begins is not stated there; here it is +X.
+
+use gcheck_controls::Letter;
+use gcheck_geometry::{Mm, MmPerMin, Seconds};
+
+use super::profile::{Cut, cuts, distance};
+use super::{CycleError, ProfileSegment, Sink, Stroke, known};
+use crate::fault::CycleFault;
+
+/// A circular pocket, cut from its centre outward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CircularPocket {
+    /// Centre, X and Y.
+    pub centre: (Mm, Mm),
+    /// `I`: radius of the first circle; of the only one without `K`.
+    pub first: Mm,
+    /// `K`: radius of the finished pocket.
+    pub finished: Option<Mm>,
+    /// `Q`: how much each circle is larger than the one before.
+    pub step: Option<Mm>,
+    /// Depth of the first round, as a level.
+    pub depth: Mm,
+    /// How much deeper each further round goes (`Z` under `G91`).
+    pub deeper: Mm,
+    /// `L`: rounds.
+    pub rounds: u32,
+    /// Radius of the tool; 0 programs its centre.
+    pub tool_radius: Mm,
+    /// Clockwise, else counter-clockwise.
+    pub clockwise: bool,
+}
+
+/// The strokes of [`CircularPocket`]. Ends at the centre at full depth.
+///
+/// # Errors
+///
+/// The first radius must exceed the tool's, the finished one the first; `K` and `Q` go together; `Q` must be positive.
+pub fn circular_pocket(
+    from: [Mm; 3],
+    words: &CircularPocket,
+    out: &mut dyn FnMut(Stroke),
+) -> Result<[Mm; 3], CycleError> {
+    let CircularPocket { centre: (x, y), first, tool_radius, .. } = *words;
+    known(&[x, y, first, tool_radius, words.depth])?;
+    if first <= tool_radius {
+        return Err(CycleFault::Geometry.into());
+    }
+    let (finished, step) = match (words.finished, words.step) {
+        (None, None) => (first, Mm::ZERO),
+        (Some(_), None) => return Err(CycleFault::Missing(Letter::of('Q')).into()),
+        (None, Some(_)) => return Err(CycleFault::Missing(Letter::of('K')).into()),
+        (Some(finished), Some(step)) => {
+            known(&[finished, step])?;
+            if step <= Mm::ZERO {
+                return Err(CycleFault::NotPositive(Letter::of('Q')).into());
+            }
+            if finished <= first {
+                return Err(CycleFault::Geometry.into());
+            }
+            (finished, step)
+        }
+    };
+    if words.rounds == 0 {
+        return Err(CycleFault::ZeroRepeats.into());
+    }
+    if words.rounds > 1 {
+        known(&[words.deeper])?;
+    }
+    let turns = if words.clockwise { -1 } else { 1 };
+    let mut sink = Sink::new(from, out);
+    let [_, _, start] = from;
+    sink.rapid_if_elsewhere([x, y, start])?;
+    for round in 0..words.rounds {
+        let z = words.depth + words.deeper * f64::from(round);
+        sink.feed([x, y, z])?;
+        // Half circles lead from circle to circle, from one side of the pocket to the other.
+        let mut at = Mm::ZERO;
+        let mut radius = first - tool_radius;
+        let last = finished - tool_radius;
+        loop {
+            let to = if at > Mm::ZERO { -radius } else { radius };
+            sink.put(Stroke::Arc { to: [x + to, y, z], centre: (x + (at + to) / 2.0, y), turns })?;
+            sink.put(Stroke::Arc { to: [x + to, y, z], centre: (x, y), turns })?;
+            at = to;
+            if radius >= last {
+                break;
+            }
+            radius = (radius + step).min(last);
+        }
+        sink.put(Stroke::Arc { to: [x, y, z], centre: (x + at / 2.0, y), turns })?;
+    }
+    Ok(sink.at)
+}
+
+/// A pocket of any outline.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GeneralPocket {
+    /// The start hole, X and Y.
+    pub start: (Mm, Mm),
+    /// `R`: the rapid level.
+    pub r: Mm,
+    /// `Z`: the floor.
+    pub bottom: Mm,
+    /// `Q`: depth of a layer.
+    pub layer: Mm,
+    /// `I`: step in X between strokes along Y.
+    pub step_x: Option<Mm>,
+    /// `J`: step in Y between strokes along X.
+    pub step_y: Option<Mm>,
+    /// `K`: left on the walls for a finishing pass; 0 for none.
+    pub finish: Mm,
+    /// Radius of the tool, when the outline is compensated; else 0.
+    pub tool_radius: Mm,
+    /// Feed.
+    pub feed: MmPerMin,
+}
+
+/// What a pocket of any outline comes to: an estimate, without the path that clears it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PocketPlan {
+    /// Levels that are cleared, from the top.
+    pub levels: Vec<Mm>,
+    /// Smallest X, Y and Z that the tool's centre reaches.
+    pub low: [Mm; 3],
+    /// Largest X, Y and Z that the tool's centre reaches; Z is the rapid level.
+    pub high: [Mm; 3],
+    /// Area inside the outline, square millimetres.
+    pub area: f64,
+    /// Way cut at feed.
+    pub cut_length: Mm,
+    /// Time at feed; unknown without a feed.
+    pub estimated: Seconds,
+    /// Where the tool is left.
+    pub end: [Mm; 3],
+}
+
+/// Ends of the outline may miss each other by this much, millimetres.
+const GAP: f64 = 0.01;
+
+/// Checks and estimates a pocket whose outline is given as pieces in (X, Y). The first piece leads from the start hole to
+/// the outline and is no part of it.
+///
+/// # Errors
+///
+/// Exactly one of `I` and `J`; `I`, `J`, `Q` positive; a closed outline with the start hole inside; a floor below `R`.
+pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Result<PocketPlan, CycleError> {
+    known(&[words.r, words.bottom, words.layer, words.finish, words.tool_radius, words.start.0, words.start.1])?;
+    let (step, letter) = match (words.step_x, words.step_y) {
+        (Some(_), Some(_)) => return Err(CycleFault::Geometry.into()),
+        (Some(step), None) => (step, 'I'),
+        (None, Some(step)) => (step, 'J'),
+        (None, None) => return Err(CycleFault::Missing(Letter::of('J')).into()),
+    };
+    known(&[step])?;
+    for (word, letter) in [(step, letter), (words.layer, 'Q')] {
+        if word <= Mm::ZERO {
+            return Err(CycleFault::NotPositive(Letter::of(letter)).into());
+        }
+    }
+    if words.finish < Mm::ZERO {
+        return Err(CycleFault::NotPositive(Letter::of('K')).into());
+    }
+    if words.bottom > words.r {
+        return Err(CycleFault::RBelowBottom.into());
+    }
+    let cuts = cuts(words.start, outline)?;
+    let wall = cuts.get(1..).unwrap_or_default();
+    let (Some(first), Some(last)) = (wall.first(), wall.last()) else {
+        return Err(CycleFault::Geometry.into());
+    };
+    if distance(first.from(), last.to()) > GAP {
+        return Err(CycleFault::Geometry.into());
+    }
+    let corners = flattened(wall);
+    if !contains(&corners, (words.start.0.0, words.start.1.0)) {
+        return Err(CycleFault::Geometry.into());
+    }
+
+    let count = ((words.r - words.bottom) / words.layer).ceil().max(1.0);
+    if count > f64::from(super::MAX_STROKES) {
+        return Err(CycleError::TooManyStrokes);
+    }
+    let levels: Vec<Mm> = (1..=count as u32)
+        .map(|layer| (words.r - words.layer * f64::from(layer)).max(words.bottom))
+        .collect();
+
+    let area = area(&corners).abs();
+    let perimeter: f64 = edges(&corners).map(|(a, b)| distance(a, b)).sum();
+    // The tool's centre keeps its radius from the wall: what is left of the area to clear, and of the wall to follow.
+    let radius = words.tool_radius.0;
+    let inner = (area - perimeter * radius + std::f64::consts::PI * radius * radius).max(0.0);
+    let wall_way = (perimeter - std::f64::consts::TAU * radius).max(0.0);
+    let rounds = if words.finish > Mm::ZERO { 2.0 } else { 1.0 };
+    let depth = (words.r - words.bottom).0;
+    let cut_length = Mm(count * (inner / step.0 + wall_way * rounds) + depth);
+
+    let bound = |axis: fn(&(f64, f64)) -> f64, low: bool| {
+        corners.iter().map(axis).fold(if low { f64::INFINITY } else { f64::NEG_INFINITY }, |best, value| {
+            if low { best.min(value) } else { best.max(value) }
+        })
+    };
+    let start = [words.start.0, words.start.1];
+    let inside = |axis: fn(&(f64, f64)) -> f64, start: Mm| {
+        // Where the tool does not fit, it stays in its start hole.
+        let (low, high) = (bound(axis, true) + radius, bound(axis, false) - radius);
+        (start.min(Mm(low.min(high))), start.max(Mm(high.max(low))))
+    };
+    let (low_x, high_x) = inside(|corner| corner.0, start[0]);
+    let (low_y, high_y) = inside(|corner| corner.1, start[1]);
+    Ok(PocketPlan {
+        levels,
+        low: [low_x, low_y, words.bottom],
+        high: [high_x, high_y, words.r],
+        area,
+        cut_length,
+        estimated: cut_length / words.feed,
+        end: [start[0], start[1], words.r],
+    })
+}
+
+/// The corners of a closed chain, arcs as chords of at most two degrees.
+fn flattened(cuts: &[Cut]) -> Vec<(f64, f64)> {
+    let mut corners = Vec::new();
+    for cut in cuts {
+        corners.push(cut.from());
+        let Cut::Arc { from, centre, .. } = *cut else { continue };
+        let (start, sweep) = cut.angles();
+        let radius = distance(from, centre);
+        let count = (sweep.abs().to_degrees() / 2.0).ceil().clamp(1.0, 180.0);
+        for chord in 1..count as u32 {
+            let angle = start + sweep * f64::from(chord) / count;
+            corners.push((centre.0 + radius * angle.cos(), centre.1 + radius * angle.sin()));
+        }
+    }
+    corners
+}
+
+fn edges(corners: &[(f64, f64)]) -> impl Iterator<Item = ((f64, f64), (f64, f64))> {
+    corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
+}
+
+/// Signed: positive counter-clockwise.
+fn area(corners: &[(f64, f64)]) -> f64 {
+    edges(corners).map(|(a, b)| a.0 * b.1 - b.0 * a.1).sum::<f64>() / 2.0
+}
+
+fn contains(corners: &[(f64, f64)], point: (f64, f64)) -> bool {
+    edges(corners)
+        .filter(|(a, b)| (a.1 > point.1) != (b.1 > point.1))
+        .filter(|(a, b)| point.0 < a.0 + (point.1 - a.1) / (b.1 - a.1) * (b.0 - a.0))
+        .count()
+        % 2
+        == 1
+}

@@ -1,0 +1,355 @@
+//! What a block makes the machine do, in order: moves and changes of state.
+//!
+//! Knows: the events that observers of a run see. Must not know: how they are computed, printed or judged. Lengths are
+//! millimetres and angles degrees, whatever units the program uses; coordinates are those of the active work coordinate
+//! system unless a field says otherwise.
+
+use std::rc::Rc;
+
+use gcheck_controls::CodeIx;
+use gcheck_geometry::{Mm, Plane, Seconds};
+
+use crate::position::Position;
+
+/// One event. Its block, and the state in which it happens, come beside it ([`crate::Observer`]).
+#[derive(Debug, Clone, PartialEq)]
+pub enum Event {
+    /// A straight move.
+    Travel(Travel),
+    /// A circular or helical move.
+    Arc(ArcMove),
+    /// A curve that is neither: its parameters as the program gives them, and its end.
+    Curve(Curve),
+    /// Standing still.
+    Dwell(Seconds),
+
+    /// The feed in effect: millimetres a minute, moves a minute or millimetres a turn, as the mode says (NaN unknown).
+    FeedRate(f64),
+    /// The feed mode.
+    FeedMode(FeedMode),
+    /// The point that the feed is measured at (always the tool's path in XYZ).
+    FeedReference,
+    /// The active plane.
+    Plane(Plane),
+    /// The units of the program.
+    Units(Units),
+    /// Exact path, exact stop or blending; tolerances in millimetres.
+    PathMode(PathMode),
+
+    /// Work coordinate system number (1 = the first), with its offset and rotation, now in effect.
+    WorkOffset {
+        /// Number, counted from 1.
+        number: u16,
+        /// Offset in machine coordinates.
+        offset: Position,
+        /// Rotation about Z in degrees.
+        rotation: f64,
+    },
+    /// The shift of `G92` and `G52` now in effect.
+    Shift(Position),
+    /// The tool offsets now in effect.
+    LengthOffset(Position),
+    /// The rotation about Z now in effect, degrees.
+    Rotation(f64),
+    /// A tool's entry in the tool table was written.
+    ToolTableEntry(ToolEntry),
+
+    /// A tool was called for (`T`); `None` when its number is unknown.
+    SelectTool(Option<u32>),
+    /// The tool change begins.
+    StartChange,
+    /// The tool is in the spindle.
+    ToolChange(Option<u32>),
+    /// The control was told which tool is in the spindle (`M61`).
+    SetToolNumber(Option<u32>),
+
+    /// Programmed speed: turns a minute, or metres a minute under constant surface speed (NaN unknown).
+    SpindleSpeed(f64),
+    /// The spindle turns or stops.
+    Spindle(Spindle),
+    /// Orientation to an angle in degrees.
+    OrientSpindle {
+        /// Degrees.
+        angle: f64,
+        /// The way: 0 shortest, 1 clockwise, 2 counter-clockwise.
+        way: u8,
+    },
+    /// Waiting until the spindle stands at its angle, or the orientation has failed after this many seconds.
+    WaitOrient(Seconds),
+    /// Constant surface speed with its limit in turns a minute, or `None` for constant speed.
+    SpindleMode(Option<f64>),
+    /// Feed tied to the spindle's angle: millimetres a turn, or `None` when it ends.
+    SpindleSync {
+        /// Millimetres a turn; `None` ends it.
+        lead: Option<Mm>,
+        /// The spindle's speed does not matter, only its angle.
+        velocity: bool,
+    },
+    /// Tapping in and out at a lead, to this depth and back.
+    RigidTap {
+        /// Where the axes stand before, and after.
+        from: Position,
+        /// The bottom.
+        to: Position,
+        /// Speed ratio of the way out.
+        scale: f64,
+    },
+    /// Coolant.
+    Coolant {
+        /// Which.
+        kind: Coolant,
+        /// On, else off.
+        on: bool,
+    },
+    /// Overrides of feed or speed allowed or not.
+    Override {
+        /// Which.
+        kind: Override,
+        /// Allowed or switched on.
+        on: bool,
+    },
+    /// An output is set.
+    Output {
+        /// Its number.
+        index: u32,
+        /// Its value: 0 and 1 for digital outputs.
+        value: f64,
+        /// Analog, else digital.
+        analog: bool,
+        /// With the next move, else at once.
+        with_move: bool,
+    },
+    /// Waits for an input.
+    WaitInput {
+        /// Its number.
+        index: u32,
+        /// Analog, else digital.
+        analog: bool,
+        /// What is waited for: 0 immediate, 1 rise, 2 fall, 3 high, 4 low.
+        what: u8,
+        /// Longest wait.
+        timeout: Seconds,
+    },
+    /// The probe input begins or ceases to matter.
+    Probe(bool),
+    /// Chuck clamped or unclamped.
+    Chuck(bool),
+    /// The bar is pushed by this much.
+    BarPush(Mm),
+    /// A user's own command with its words P and Q.
+    UserCommand {
+        /// The code's number, 100 to 199.
+        number: u16,
+        /// `P`.
+        p: f64,
+        /// `Q`.
+        q: f64,
+    },
+    /// A modal code came into effect.
+    Modal(CodeIx),
+    /// Text for the operator or a log.
+    Message(Rc<str>),
+
+    /// The program stops until cycle start.
+    Stop(Stop),
+    /// Pallets are exchanged.
+    PalletChange,
+    /// The program ends.
+    End,
+}
+
+/// A straight move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Travel {
+    /// Rapid, feed, …
+    pub kind: TravelKind,
+    /// Where the axes stand before.
+    pub from: Position,
+    /// The block's point, before compensation and mapping.
+    pub programmed: Position,
+    /// Where the axes stand after.
+    pub to: Position,
+    /// Made by a canned cycle or another operation that expands to several moves.
+    pub expanded: bool,
+}
+
+/// How a straight move is driven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TravelKind {
+    /// As fast as the axes go.
+    Rapid,
+    /// At the feed in effect.
+    Feed,
+    /// At the feed in effect, until the probe or skip signal.
+    Probe {
+        /// Toward the work (the signal comes), else away (it goes).
+        toward: bool,
+        /// No signal is a fault.
+        required: bool,
+        /// Neither: goes on after the signal (`G31`).
+        skip: bool,
+    },
+    /// Tied to the spindle.
+    Thread,
+}
+
+/// A circular or helical move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ArcMove {
+    /// The plane of the circle.
+    pub plane: Plane,
+    /// Where the axes stand before.
+    pub from: Position,
+    /// The block's point, before compensation.
+    pub programmed: Position,
+    /// Where the axes stand after.
+    pub to: Position,
+    /// Centre in the plane's first and second axis.
+    pub centre: (Mm, Mm),
+    /// Turns: 1 for up to one turn counter-clockwise, −1 clockwise, ±n for n − 1 full turns more.
+    pub turns: i32,
+    /// Angle in radians, counter-clockwise positive, seen against the plane's normal.
+    pub sweep: f64,
+    /// Made by a canned cycle or another operation that expands to several moves.
+    pub expanded: bool,
+}
+
+/// A curve given by control points.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Where the axes stand before.
+    pub from: Position,
+    /// Where they stand after.
+    pub to: Position,
+    /// How many control points describe it.
+    pub points: u32,
+    /// The curve as pieces of circles: centre, turns and end in the XY plane.
+    pub pieces: Rc<[CurvePiece]>,
+}
+
+/// A piece of a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CurvePiece {
+    /// Straight to a point.
+    Line([Mm; 2]),
+    /// On a circle to a point.
+    Arc {
+        /// End.
+        to: [Mm; 2],
+        /// Centre.
+        centre: [Mm; 2],
+        /// 1 counter-clockwise, −1 clockwise.
+        turn: i32,
+    },
+}
+
+/// What `F` means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FeedMode {
+    /// Moves a minute.
+    InverseTime,
+    /// Length a minute.
+    PerMinute,
+    /// Length a turn of the spindle.
+    PerRevolution,
+}
+
+/// Units of the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Units {
+    /// Inches.
+    Inch,
+    /// Millimetres.
+    Mm,
+}
+
+impl Units {
+    /// Millimetres in one unit.
+    pub const fn in_mm(self) -> f64 {
+        match self {
+            Self::Inch => 25.4,
+            Self::Mm => 1.0,
+        }
+    }
+}
+
+/// How corners between moves are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathMode {
+    /// Every point is passed.
+    ExactPath,
+    /// The axes stop at every point.
+    ExactStop,
+    /// Corners are blended.
+    Blending {
+        /// Largest distance from the path; 0 when not given.
+        tolerance: Mm,
+        /// Tolerance of joining nearly straight moves; `None` when not given.
+        naive: Option<Mm>,
+    },
+}
+
+/// The spindle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Spindle {
+    /// Turns clockwise (`M3`).
+    Clockwise,
+    /// Turns counter-clockwise (`M4`).
+    CounterClockwise,
+    /// Stands.
+    Stopped,
+}
+
+/// Kinds of coolant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Coolant {
+    /// Mist.
+    Mist,
+    /// Flood.
+    Flood,
+    /// Through the spindle.
+    Through,
+}
+
+/// What an operator may override.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Override {
+    /// The feed.
+    Feed,
+    /// The spindle speed.
+    Speed,
+    /// Feed that follows an input.
+    Adaptive,
+    /// An input that stops the feed.
+    FeedStop,
+}
+
+/// Kinds of stop.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stop {
+    /// Always.
+    Program,
+    /// When the operator's switch is on.
+    Optional,
+    /// After a change of pallets.
+    Pallet,
+    /// With a message.
+    Message(Rc<str>),
+}
+
+/// A line of the tool table, millimetres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ToolEntry {
+    /// Pocket or number in the table.
+    pub pocket: u32,
+    /// Tool number.
+    pub tool: u32,
+    /// Offsets by axis.
+    pub offset: Position,
+    /// Diameter.
+    pub diameter: Mm,
+    /// Lathe tool angles, degrees, and orientation.
+    pub angles: [f64; 2],
+    /// Lathe orientation, 0 to 9.
+    pub orientation: u8,
+}

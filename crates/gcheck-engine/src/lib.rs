@@ -1,0 +1,38 @@
+//! Executes part programs: what is active before every block, on every path, and where the tool goes.
+//!
+//! Knows: machine state, one `step` generic over a value domain, the concrete runner, the analysis of all paths, moves,
+//! typed faults, fuel. Must not know: words for people, files, how results are cached.
+
+mod assumption;
+pub mod cycles;
+mod event;
+mod fault;
+mod machine;
+mod modal;
+mod model;
+mod observer;
+mod position;
+mod program;
+mod run;
+mod start;
+mod state;
+mod step;
+mod value;
+mod variables;
+mod words;
+
+pub use assumption::Assumption;
+pub use event::*;
+pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
+pub use machine::{Machine, Tool, WorkOffset};
+pub use modal::ModeSet;
+pub use model::{Model, Role};
+pub use observer::{Nobody, Observer, Origin};
+pub use step::compensation::Compensation;
+pub use position::{Axis, Position};
+pub use program::{Library, NoLibrary, Program, ProgramFile, SourceFile};
+pub use run::{RunResult, Stopped, run};
+pub use state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+pub use step::{Ending, Options};
+pub use value::*;
+pub use variables::{NameId, Variables};

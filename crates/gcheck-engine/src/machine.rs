@@ -1,0 +1,91 @@
+//! The machine at hand, as far as somebody told us: axes, offsets, tools, settings, variables.
+//!
+//! Knows: the values of configuration in millimetres and degrees. Must not know: files, keys, programs. Everything may be
+//! unknown; what the engine then takes for granted goes into the list of assumptions.
+
+use std::collections::BTreeMap;
+
+use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+
+use crate::event::Units;
+use crate::position::{Axis, Position};
+
+/// What is known of the machine.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Machine {
+    /// Axes; all that the control may have when not given.
+    pub axes: Option<Vec<Axis>>,
+    /// Units at power-on.
+    pub units: Option<Units>,
+    /// Lowest and highest machine coordinate by axis.
+    pub travel: BTreeMap<Axis, (f64, f64)>,
+    /// Fastest spindle speed.
+    pub max_rpm: Option<Rpm>,
+    /// Fastest cutting feed.
+    pub max_feed: Option<MmPerMin>,
+    /// Rapid rate.
+    pub rapid: Option<MmPerMin>,
+    /// Time of a tool change.
+    pub tool_change: Option<Seconds>,
+    /// The control's settings by number, values as its page words them.
+    pub settings: BTreeMap<String, String>,
+    /// Variables set before the program starts.
+    pub variables: BTreeMap<u32, f64>,
+    /// Named parameters set before the program starts, lower case.
+    pub parameters: BTreeMap<String, f64>,
+    /// Work offsets by number (1 = the first).
+    pub offsets: BTreeMap<u16, WorkOffset>,
+    /// Tools by number.
+    pub tools: BTreeMap<u32, Tool>,
+    /// Machine coordinates at the start; `None` unknown.
+    pub start: Option<Position>,
+    /// Tools not in `tools` do not exist (a whole tool table was given).
+    pub tool_table_is_complete: bool,
+    /// Units of the control's tables of offsets and tools; those of the program when not given.
+    pub table_units: Option<Units>,
+    /// Numbered variables that nobody set hold zero (the state after a fresh start).
+    pub fresh: bool,
+}
+
+/// A work coordinate system.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WorkOffset {
+    /// Its origin in machine coordinates.
+    pub origin: Position,
+    /// Rotation about Z, degrees.
+    pub rotation: f64,
+}
+
+impl WorkOffset {
+    /// Nothing is known of it.
+    pub const UNKNOWN: Self = Self { origin: Position::UNKNOWN, rotation: 0.0 };
+    /// At the machine's zero.
+    pub const ZERO: Self = Self { origin: Position::ZERO, rotation: 0.0 };
+}
+
+/// A tool.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tool {
+    /// Pocket in the changer.
+    pub pocket: u32,
+    /// Offsets by axis: the length on Z.
+    pub offset: Position,
+    /// Diameter; NaN unknown.
+    pub diameter: Mm,
+    /// Corner or nose radius; NaN unknown.
+    pub corner_radius: Mm,
+    /// Lathe tool angles.
+    pub angles: [f64; 2],
+    /// Lathe orientation, 0 to 9.
+    pub orientation: u8,
+}
+
+impl Machine {
+    /// A setting's value: configured, or the default that the knowledge base assumes.
+    pub fn setting<'a>(&'a self, control: &'a gcheck_controls::Control, number: &str) -> Option<&'a str> {
+        match self.settings.get(number) {
+            Some(value) => Some(value),
+            None => control.setting(number)?.default.as_deref(),
+        }
+    }
+}

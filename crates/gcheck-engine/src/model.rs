@@ -1,0 +1,348 @@
+//! A control prepared for execution: effects, groups and order of codes in arrays.
+//!
+//! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
+
+use gcheck_controls::{
+    CodeIx, CodeNumber, Control, Effect, GroupIx, Letter, LetterSet, Semantics, SystemVariable, Unpointed,
+    WordKind,
+};
+use rustc_hash::FxHashMap;
+
+use crate::position::Axis;
+
+/// What a code's modal group decides, where the engine follows it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[expect(missing_docs, reason = "the names are those of the modal groups")]
+pub enum Role {
+    Motion,
+    Cycle,
+    Plane,
+    Distance,
+    ArcCentre,
+    FeedMode,
+    Units,
+    Compensation,
+    Length,
+    ReturnLevel,
+    WorkOffset,
+    PathControl,
+    SpindleMode,
+    Diameter,
+    Scaling,
+    Rotation,
+    Mirror,
+    Polar,
+    Cylinder,
+    PolarInterpolation,
+    DynamicOffset,
+    TiltedPlane,
+    MacroModal,
+}
+
+impl Role {
+    /// How many roles there are.
+    pub const COUNT: usize = 23;
+
+    /// All roles.
+    pub const ALL: [Self; Self::COUNT] = [
+        Self::Motion,
+        Self::Cycle,
+        Self::Plane,
+        Self::Distance,
+        Self::ArcCentre,
+        Self::FeedMode,
+        Self::Units,
+        Self::Compensation,
+        Self::Length,
+        Self::ReturnLevel,
+        Self::WorkOffset,
+        Self::PathControl,
+        Self::SpindleMode,
+        Self::Diameter,
+        Self::Scaling,
+        Self::Rotation,
+        Self::Mirror,
+        Self::Polar,
+        Self::Cylinder,
+        Self::PolarInterpolation,
+        Self::DynamicOffset,
+        Self::TiltedPlane,
+        Self::MacroModal,
+    ];
+
+    /// The role that an effect belongs to: which mode it switches.
+    pub const fn of(effect: Effect) -> Option<Self> {
+        use Effect as E;
+        Some(match effect {
+            E::Rapid
+            | E::Linear
+            | E::ArcClockwise
+            | E::ArcCounterClockwise
+            | E::SplineCubic
+            | E::SplineQuadratic
+            | E::NurbsOpen
+            | E::Thread
+            | E::RigidTap
+            | E::ProbeToward
+            | E::ProbeTowardOptional
+            | E::ProbeAway
+            | E::ProbeAwayOptional
+            | E::TurningPass
+            | E::ThreadingPass
+            | E::FacingPass => Self::Motion,
+            E::CycleDrill
+            | E::CycleDrillDwell
+            | E::CyclePeck
+            | E::CycleChipBreak
+            | E::CycleTap
+            | E::CycleLeftTap
+            | E::CycleBoreFeedOut
+            | E::CycleBoreStop
+            | E::CycleBackBore
+            | E::CycleBoreManual
+            | E::CycleBoreDwellManual
+            | E::CycleBoreDwell
+            | E::CycleFineBore
+            | E::CycleAlongTool
+            | E::CycleRadial
+            | E::CycleCancel => Self::Cycle,
+            E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
+            E::Absolute | E::Incremental => Self::Distance,
+            E::ArcCentreAbsolute | E::ArcCentreIncremental => Self::ArcCentre,
+            E::FeedInverseTime | E::FeedPerMinute | E::FeedPerRevolution => Self::FeedMode,
+            E::Inch | E::Millimetre => Self::Units,
+            E::CompensationOff
+            | E::CompensationLeft
+            | E::CompensationRight
+            | E::CompensationLeftByDiameter
+            | E::CompensationRightByDiameter
+            | E::CompensationVector => Self::Compensation,
+            E::LengthOff
+            | E::LengthPlus
+            | E::LengthMinus
+            | E::LengthFromBlock
+            | E::LengthAdd
+            | E::LengthFiveAxis
+            | E::ToolCentrePoint => Self::Length,
+            E::ReturnToInitial | E::ReturnToR => Self::ReturnLevel,
+            E::WorkOffset(_) | E::WorkOffsetByP(_) => Self::WorkOffset,
+            E::ExactPath | E::ExactStop | E::PathBlending => Self::PathControl,
+            E::SurfaceSpeed | E::ConstantSpeed => Self::SpindleMode,
+            E::DiameterOn | E::DiameterOff => Self::Diameter,
+            E::ScalingOn | E::ScalingOff => Self::Scaling,
+            E::RotationOn | E::RotationOff => Self::Rotation,
+            E::MirrorOn | E::MirrorOff => Self::Mirror,
+            E::PolarOn | E::PolarOff => Self::Polar,
+            E::CylinderMapping => Self::Cylinder,
+            E::PolarInterpolationOn | E::PolarInterpolationOff => Self::PolarInterpolation,
+            E::DynamicOffsetOn | E::DynamicOffsetOff => Self::DynamicOffset,
+            E::TiltedPlaneOn | E::TiltedPlaneOff => Self::TiltedPlane,
+            E::MacroModal | E::MacroModalOff => Self::MacroModal,
+            _ => return None,
+        })
+    }
+
+    /// A small number usable as an index.
+    pub const fn index(self) -> usize {
+        self as usize
+    }
+}
+
+/// When a part of a block acts: codes by their phase, `F`, `S`, `T` and motion by the phases of those names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Rank(pub(crate) u8);
+
+/// What the engine asks about one code.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct CodeModel {
+    pub(crate) effect: Effect,
+    pub(crate) role: Option<Role>,
+    pub(crate) rank: Rank,
+    pub(crate) group: GroupIx,
+    /// The code's group lasts from block to block.
+    pub(crate) modal: bool,
+    /// Axis words in its block are the code's own.
+    pub(crate) takes_axes: bool,
+}
+
+/// A control prepared for execution.
+#[derive(Debug, Clone)]
+pub struct Model<'c> {
+    control: &'c Control,
+    codes: Vec<CodeModel>,
+    pub(crate) feed_rank: Rank,
+    pub(crate) speed_rank: Rank,
+    pub(crate) tool_rank: Rank,
+    pub(crate) motion_rank: Rank,
+    /// Addresses whose value a missing decimal point scales: length, angle or not.
+    scaled: [Option<WordKind>; Letter::COUNT],
+    /// Increment words: `U` to X and so on.
+    pub(crate) increments: Vec<(Letter, Axis)>,
+    pub(crate) axes: Vec<Axis>,
+    /// Addresses that name an axis or its increment.
+    pub(crate) axis_letters: LetterSet,
+    pub(crate) argument_letters: Vec<(Letter, u32)>,
+    numbered: Vec<(u32, usize)>,
+    named: FxHashMap<String, usize>,
+    /// By role: the code in effect at power-on.
+    pub(crate) defaults: [CodeIx; Role::COUNT],
+    /// Whether each default is a fact about the control, not a setting's guess.
+    pub(crate) at_end: Vec<CodeIx>,
+}
+
+impl<'c> Model<'c> {
+    /// Prepares a control.
+    pub fn new(control: &'c Control) -> Self {
+        let semantics = control.semantics();
+        let phases = control.phases();
+        let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
+        let codes: Vec<CodeModel> = control
+            .codes()
+            .map(|code| CodeModel {
+                effect: code.effect(),
+                role: Role::of(code.effect()),
+                rank: rank(&code.entry().phase),
+                group: code.group_ix(),
+                modal: code.group().modal,
+                takes_axes: code.entry().takes_axes,
+            })
+            .collect();
+        let mut scaled = [None; Letter::COUNT];
+        for (index, slot) in scaled.iter_mut().enumerate() {
+            let letter = (0..=u8::MAX)
+                .filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)))
+                .chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A])
+                .find(|letter| letter.index() == index);
+            *slot = letter.and_then(|l| control.letter(l)).filter(|entry| entry.scaled).map(|entry| entry.kind);
+        }
+        let increments: Vec<(Letter, Axis)> = semantics
+            .increments
+            .iter()
+            .filter_map(|(letter, axis)| Some((Letter::parse(letter)?, Axis::of(Letter::parse(axis)?)?)))
+            .collect();
+        let is_increment = |axis: &Axis| increments.iter().any(|(letter, _)| *letter == axis.letter());
+        let axes: Vec<Axis> = Axis::ALL
+            .into_iter()
+            .filter(|axis| control.axes().contains(axis.letter()) && !is_increment(axis))
+            .collect();
+        let axis_letters: LetterSet = axes
+            .iter()
+            .map(|axis| axis.letter())
+            .chain(increments.iter().map(|(letter, _)| *letter))
+            .collect();
+        let argument_letters = semantics
+            .argument_letters
+            .iter()
+            .filter_map(|(letter, number)| Some((Letter::parse(letter)?, u32::from(*number))))
+            .collect();
+        let mut model = Self {
+            control,
+            feed_rank: rank("feed"),
+            speed_rank: rank("spindle-speed"),
+            tool_rank: rank("tool-select"),
+            motion_rank: rank("motion"),
+            scaled,
+            increments,
+            axes,
+            axis_letters,
+            argument_letters,
+            numbered: Vec::new(),
+            named: FxHashMap::default(),
+            defaults: [CodeIx::NONE; Role::COUNT],
+            at_end: Vec::new(),
+            codes,
+        };
+        model.index_system_variables(&semantics.system_variables);
+        let code_of = |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
+        model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
+        let starts = control.groups().iter().filter_map(|group| group.default.as_ref());
+        for ix in starts.chain(&semantics.at_start).filter_map(code_of) {
+            if let Some(role) = model.code(ix).and_then(|code| code.role)
+                && let Some(slot) = model.defaults.get_mut(role.index())
+            {
+                *slot = ix;
+            }
+        }
+        model
+    }
+
+    /// The control.
+    pub fn control(&self) -> &'c Control {
+        self.control
+    }
+
+    /// Where controls read one thing two ways.
+    pub fn semantics(&self) -> &'c Semantics {
+        self.control.semantics()
+    }
+
+    /// A code's effect; [`Effect::None`] for codes that the control does not have.
+    pub fn effect(&self, code: CodeIx) -> Effect {
+        self.code(code).map_or(Effect::None, |c| c.effect)
+    }
+
+    /// The mode a code switches.
+    pub fn role(&self, code: CodeIx) -> Option<Role> {
+        self.code(code)?.role
+    }
+
+    pub(crate) fn code(&self, code: CodeIx) -> Option<&CodeModel> {
+        self.codes.get(code.index())
+    }
+
+    /// The first code that has an effect.
+    pub(crate) fn code_with(&self, effect: Effect) -> CodeIx {
+        let found = self.control.codes().find(|code| code.effect() == effect);
+        found.map_or(CodeIx::NONE, |code| self.control.code_ix(code.number()))
+    }
+
+    /// What a number without a decimal point on this address counts, if scaling applies to it.
+    pub(crate) fn scaled(&self, letter: Letter) -> Option<WordKind> {
+        self.scaled.get(letter.index()).copied().flatten()
+    }
+
+    /// The axis that an address moves, and whether the word is an increment whatever the mode.
+    pub(crate) fn axis_of(&self, letter: Letter) -> Option<(Axis, bool)> {
+        if let Some((_, axis)) = self.increments.iter().find(|(l, _)| *l == letter) {
+            return Some((*axis, true));
+        }
+        self.axes.iter().find(|axis| axis.letter() == letter).map(|axis| (*axis, false))
+    }
+
+    /// Does the control read numbers without decimal point as least increments, as far as data alone says?
+    pub(crate) fn unpointed(&self) -> Unpointed {
+        self.control.numbers().unpointed
+    }
+
+    fn index_system_variables(&mut self, variables: &[SystemVariable]) {
+        for (index, variable) in variables.iter().enumerate() {
+            if let Some(first) = variable.first {
+                self.numbered.push((first, index));
+            }
+            if let Some(name) = &variable.name {
+                self.named.insert(name.to_ascii_lowercase(), index);
+            }
+        }
+        self.numbered.sort_unstable();
+    }
+
+    /// The system variable of a number: its entry, row and column.
+    pub(crate) fn system_variable(&self, number: u32) -> Option<(&'c SystemVariable, u32, u32)> {
+        let upto = self.numbered.partition_point(|(first, _)| *first <= number);
+        // Rows of different variables may interlock (offsets and their rotations), so the nearest start may not be it.
+        self.numbered.get(..upto)?.iter().rev().find_map(|(first, index)| {
+            let variable = self.semantics().system_variables.get(*index)?;
+            let offset = number - first;
+            let (row, column) = match variable.stride {
+                0 => (0, offset),
+                stride => (offset / stride, offset % stride),
+            };
+            (row < variable.rows.max(1) && column < variable.count.max(1)).then_some((variable, row, column))
+        })
+    }
+
+    /// The system variable of a named parameter, lower case.
+    pub(crate) fn named_variable(&self, name: &str) -> Option<&'c SystemVariable> {
+        self.named.get(name).and_then(|index| self.semantics().system_variables.get(*index))
+    }
+}

@@ -1,0 +1,75 @@
+//! A run: one execution from a configured start, with every value known or said to be unknown.
+//!
+//! Knows: fuel, how a run ends. Must not know: other paths than the one taken.
+
+use std::collections::BTreeSet;
+
+use crate::assumption::Assumption;
+use crate::fault::Fault;
+use crate::machine::Machine;
+use crate::model::Model;
+use crate::observer::{Observer, Origin};
+use crate::program::Program;
+use crate::start::start_state;
+use crate::state::{At, State};
+use crate::step::{Ending, Executor, Options, Outcome};
+use crate::value::Concrete;
+
+/// How a run ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Stopped {
+    /// At an end of the program.
+    Ended(Ending),
+    /// At a block that cannot be executed.
+    Faulted(Fault),
+    /// After as many blocks as were allowed.
+    OutOfFuel,
+}
+
+/// What a run leaves.
+#[derive(Debug)]
+pub struct RunResult {
+    /// How it ended.
+    pub stopped: Stopped,
+    /// The last block.
+    pub origin: Origin,
+    /// The state at the end.
+    pub state: State<Concrete>,
+    /// Blocks executed.
+    pub blocks: u64,
+    /// What it rests on.
+    pub assumptions: BTreeSet<Assumption>,
+}
+
+/// Executes a program until it ends, faults, or has executed `fuel` blocks.
+pub fn run<O: Observer<Concrete>>(
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    observer: O,
+) -> RunResult {
+    let mut executor = Executor::new(program, model, machine, options, observer);
+    let mut state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
+    let mut at = At { file: 0, block: 0 };
+    let mut blocks = 0;
+    let stopped = loop {
+        if blocks >= fuel {
+            break Stopped::OutOfFuel;
+        }
+        blocks += 1;
+        match executor.step(at, &mut state) {
+            Outcome::Next => at = at.next(),
+            Outcome::Jump(to) => at = to,
+            Outcome::End(ending) => break Stopped::Ended(ending),
+            Outcome::Fork(_) => break Stopped::Faulted(Fault::Undecidable),
+            Outcome::Fault(fault) => break Stopped::Faulted(fault),
+        }
+    };
+    let origin = executor.origin();
+    if let Stopped::Faulted(fault) = &stopped {
+        executor.observer.fault(origin, &state, fault);
+    }
+    RunResult { stopped, origin, state, blocks, assumptions: executor.assumptions }
+}

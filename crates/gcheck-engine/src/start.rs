@@ -1,0 +1,172 @@
+//! The state before the first block.
+//!
+//! Knows: what is told of the machine, what the control's power-on gives, what stays unknown. Must not know: blocks.
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Unset};
+use gcheck_geometry::Mm;
+
+use crate::assumption::Assumption;
+use crate::event::{Spindle, Units};
+use crate::machine::{Machine, WorkOffset};
+use crate::modal::ModeSet;
+use crate::model::{Model, Role};
+use crate::position::Position;
+use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+use crate::value::{Domain, Truth};
+use crate::variables::{Locals, Variables};
+
+/// The state at the start of the main program.
+pub(crate) fn start_state<D: Domain>(
+    model: &Model<'_>,
+    machine: &Machine,
+    assumptions: &mut BTreeSet<Assumption>,
+) -> State<D> {
+    let mut modes = [ModeSet::one(CodeIx::NONE); Role::COUNT];
+    for role in Role::ALL {
+        if let (Some(slot), Some(code)) = (modes.get_mut(role.index()), model.defaults.get(role.index())) {
+            *slot = ModeSet::one(*code);
+            if code.is_some() {
+                assumptions.insert(Assumption::StartMode(role, *code));
+            }
+        }
+    }
+    let units = machine.units.map(|units| match units {
+        Units::Inch => gcheck_controls::Effect::Inch,
+        Units::Mm => gcheck_controls::Effect::Millimetre,
+    });
+    if let (Some(effect), Some(slot)) = (units, modes.get_mut(Role::Units.index())) {
+        *slot = ModeSet::one(model.code_with(effect));
+    }
+    let position = machine.start.unwrap_or(Position::UNKNOWN);
+    if machine.start.is_none() {
+        assumptions.insert(Assumption::StartPosition);
+    }
+    let vacant = match model.semantics().unset {
+        Unset::Vacant => D::vacant(),
+        Unset::Zero => D::number(0.0),
+    };
+    let unwritten = if machine.fresh { vacant.clone() } else { D::unknown() };
+    let known = machine.variables.iter().map(|(number, value)| (*number, *value));
+    let locals = Locals::new(model.semantics().locals[1], &vacant);
+    let mut state = State {
+        modes,
+        position,
+        actual: position,
+        tables: Rc::new(tables(machine)),
+        work: model.defaults.get(Role::WorkOffset.index()).and_then(|code| match model.effect(*code) {
+            gcheck_controls::Effect::WorkOffset(number) => Some(number),
+            _ => None,
+        }),
+        shift: Position::ZERO,
+        shift_on: true,
+        local: Position::ZERO,
+        length: Position::ZERO,
+        h: D::number(0.0),
+        d: D::number(0.0),
+        feed: D::number(0.0),
+        speed: D::number(0.0),
+        speed_limit: f64::INFINITY,
+        spindle: Some(Spindle::Stopped),
+        live_tool: Truth::False,
+        mist: Truth::False,
+        flood: Truth::False,
+        feed_override: Truth::True,
+        speed_override: Truth::True,
+        adaptive: Truth::False,
+        feed_hold: Truth::False,
+        tool: if machine.fresh { D::number(0.0) } else { D::unknown() },
+        selected: if machine.fresh { D::number(0.0) } else { D::unknown() },
+        cycle: CycleWords::NONE,
+        transform: Transform::NONE,
+        cylinder: None,
+        blending: (0.0, None),
+        probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
+        probe_result: if machine.fresh { Truth::False } else { Truth::Unknown },
+        polar: [0.0; 2],
+        variables: Variables::new(unwritten, known),
+        frames: vec![Frame {
+            kind: FrameKind::Main,
+            entry: At { file: 0, block: 0 },
+            caller: At { file: 0, block: 0 },
+            repeats: Some(0),
+            locals: Some(locals),
+            counters: Vec::new(),
+            saved: None,
+            restore_on_return: false,
+            wanted_branch: None,
+        }],
+        macro_modal: None,
+        compensation: None,
+        nurbs: None,
+    };
+    for (number, value) in &machine.variables {
+        let [first, last] = model.semantics().locals;
+        if (first..=last).contains(number)
+            && let Some(locals) = state.frames.iter_mut().find_map(|frame| frame.locals.as_mut())
+        {
+            locals.set(*number, D::number(*value));
+        }
+    }
+    state
+}
+
+/// A state of which nothing is known but the calls that led to it: what a program leaves that we do not have.
+pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> State<D> {
+    let mut state = start_state::<D>(model, machine, &mut BTreeSet::new());
+    for (role, mode) in Role::ALL.into_iter().zip(&mut state.modes) {
+        // A subprogram that changes units or the control's own modes of work is rare enough to be its own mistake.
+        if !matches!(role, Role::Units | Role::Diameter | Role::TiltedPlane | Role::PolarInterpolation | Role::DynamicOffset) {
+            *mode = ModeSet::ANY;
+        }
+    }
+    state.position = Position::UNKNOWN;
+    state.actual = Position::UNKNOWN;
+    let mut tables = (*state.tables).clone();
+    tables.unsure = true;
+    state.tables = Rc::new(tables);
+    state.work = None;
+    state.shift = Position::UNKNOWN;
+    state.local = Position::UNKNOWN;
+    state.length = Position::UNKNOWN;
+    state.h = D::unknown();
+    state.d = D::unknown();
+    state.feed = D::unknown();
+    state.speed = D::unknown();
+    state.speed_limit = f64::NAN;
+    state.spindle = None;
+    state.live_tool = Truth::Unknown;
+    state.mist = Truth::Unknown;
+    state.flood = Truth::Unknown;
+    state.tool = D::unknown();
+    state.selected = D::unknown();
+    state.transform.angle = f64::NAN;
+    state.probed = Position::UNKNOWN;
+    state.probe_result = Truth::Unknown;
+    state.variables.forget();
+    state
+}
+
+fn tables(machine: &Machine) -> Tables {
+    let known = |offset: WorkOffset| offset;
+    Tables {
+        offsets: machine.offsets.iter().map(|(number, offset)| (*number, known(*offset))).collect(),
+        other_offset: if machine.fresh { WorkOffset::ZERO } else { WorkOffset::UNKNOWN },
+        references: [if machine.fresh { Position::ZERO } else { Position::UNKNOWN }; 2],
+        tools: machine
+            .tools
+            .iter()
+            .map(|(number, tool)| {
+                let mut tool = *tool;
+                if !tool.corner_radius.is_known() {
+                    tool.corner_radius = Mm::UNKNOWN;
+                }
+                (*number, tool)
+            })
+            .collect(),
+        complete: machine.tool_table_is_complete,
+        unsure: false,
+    }
+}

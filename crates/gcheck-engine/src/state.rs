@@ -1,0 +1,703 @@
+//! The state of a machine between two blocks: values only.
+//!
+//! Knows: everything a block may depend on, how two states join, when one covers the other. Must not know: where a value was
+//! set (see [`crate::Provenance`]), what has happened so far (observers keep that), how blocks change it.
+
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Effect};
+use gcheck_geometry::{Mm, Plane};
+
+use crate::event::{FeedMode, Spindle, Units};
+use crate::machine::WorkOffset;
+use crate::modal::ModeSet;
+use crate::model::{Model, Role};
+use crate::step::compensation::Compensation;
+use crate::position::{Axis, Position};
+use crate::value::{Domain, Truth};
+use crate::variables::{Locals, Variables};
+
+/// A block of a loaded program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct At {
+    /// Index of the file among those loaded.
+    pub file: u32,
+    /// Number of the block in the file, counted from 0 in text order.
+    pub block: u32,
+}
+
+impl At {
+    /// The next block in text order.
+    #[must_use]
+    pub const fn next(self) -> Self {
+        Self { file: self.file, block: self.block + 1 }
+    }
+}
+
+/// How a program was entered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum FrameKind {
+    /// The main program.
+    Main,
+    /// `M98`.
+    Subprogram,
+    /// `M97`.
+    Local,
+    /// `G65`, an alias, a modal macro call.
+    Macro,
+    /// `O… CALL`.
+    OWord,
+}
+
+/// A program being executed: the main program, or a call.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame<D: Domain> {
+    /// How it was entered.
+    pub kind: FrameKind,
+    /// Its first block.
+    pub entry: At,
+    /// The block that called; the caller goes on behind it.
+    pub caller: At,
+    /// Further turns to come, when a call repeats; `None` unknown.
+    pub repeats: Option<u32>,
+    pub(crate) locals: Option<Locals<D>>,
+    /// Counters of `REPEAT` loops under way, by their block.
+    pub(crate) counters: Vec<(At, Option<u32>)>,
+    /// Modes to restore on return (`M73`), or saved (`M70`).
+    pub(crate) saved: Option<Rc<SavedModes>>,
+    pub(crate) restore_on_return: bool,
+    /// The branch of an O-word `IF` that is to be decided next, when the one before it failed.
+    pub(crate) wanted_branch: Option<At>,
+}
+
+/// Modes saved by `M70` or `M73`.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SavedModes {
+    pub(crate) modes: [ModeSet; Role::COUNT],
+    pub(crate) feed: f64,
+    pub(crate) speed: f64,
+    pub(crate) spindle: Option<Spindle>,
+    pub(crate) mist: Truth,
+    pub(crate) flood: Truth,
+    pub(crate) length: Position,
+    pub(crate) feed_override: Truth,
+    pub(crate) speed_override: Truth,
+    pub(crate) blending: (f64, Option<f64>),
+    pub(crate) speed_limit: f64,
+    pub(crate) adaptive: Truth,
+    pub(crate) feed_hold: Truth,
+}
+
+/// Words of a canned cycle that stay in effect, millimetres; NaN not given.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CycleWords {
+    /// Retract plane.
+    pub r: f64,
+    /// Bottom.
+    pub z: f64,
+    /// Peck or shift.
+    pub q: f64,
+    /// Dwell in seconds.
+    pub p: f64,
+    /// I, J, K.
+    pub ijk: [f64; 3],
+    /// Depth along the tool.
+    pub e: f64,
+    /// Level of the depth axis before the series began.
+    pub initial: f64,
+}
+
+impl CycleWords {
+    /// Nothing was given.
+    pub const NONE: Self = Self {
+        r: f64::NAN,
+        z: f64::NAN,
+        q: f64::NAN,
+        p: f64::NAN,
+        ijk: [f64::NAN; 3],
+        e: f64::NAN,
+        initial: f64::NAN,
+    };
+
+    fn bits(&self) -> [u64; 9] {
+        let [i, j, k] = self.ijk;
+        [self.r, self.z, self.q, self.p, i, j, k, self.e, self.initial].map(f64::to_bits)
+    }
+
+    fn join(&self, other: &Self) -> Self {
+        let pick = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
+        let [i, j, k] = self.ijk;
+        let [i2, j2, k2] = other.ijk;
+        Self {
+            r: pick(self.r, other.r),
+            z: pick(self.z, other.z),
+            q: pick(self.q, other.q),
+            p: pick(self.p, other.p),
+            ijk: [pick(i, i2), pick(j, j2), pick(k, k2)],
+            e: pick(self.e, other.e),
+            initial: pick(self.initial, other.initial),
+        }
+    }
+}
+
+/// Transformations between programmed and work coordinates. Off by default.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Transform {
+    /// Scale by axis X, Y, Z; 1 is off.
+    pub scale: [f64; 3],
+    /// Centre of scaling, work coordinates.
+    pub scale_centre: [f64; 3],
+    /// Rotation in degrees; 0 is off.
+    pub angle: f64,
+    /// Centre of rotation.
+    pub centre: [f64; 3],
+    /// Plane of the rotation.
+    pub plane: Plane,
+    /// Mirrored axes X, Y, Z.
+    pub mirror: [bool; 3],
+    /// Where the mirrors stand.
+    pub mirror_at: [f64; 3],
+}
+
+impl Transform {
+    /// Nothing.
+    pub const NONE: Self = Self {
+        scale: [1.0; 3],
+        scale_centre: [0.0; 3],
+        angle: 0.0,
+        centre: [0.0; 3],
+        plane: Plane::Xy,
+        mirror: [false; 3],
+        mirror_at: [0.0; 3],
+    };
+}
+
+/// Everything that the next block may depend on.
+#[derive(Debug, Clone)]
+pub struct State<D: Domain> {
+    pub(crate) modes: [ModeSet; Role::COUNT],
+    /// The programmed point, programmed coordinates.
+    pub(crate) position: Position,
+    /// Where the axes stand, work coordinates: differs from `position` under compensation and transformations.
+    pub(crate) actual: Position,
+    /// Work offsets, reference points and tools: shared until written.
+    pub(crate) tables: Rc<Tables>,
+    /// Number of the active work coordinate system, 1 the first; `None` unknown.
+    pub(crate) work: Option<u16>,
+    /// `G92`; also `G52` where they are one.
+    pub(crate) shift: Position,
+    /// The shift counts (`G92.2` suspends it).
+    pub(crate) shift_on: bool,
+    /// `G52` where it is apart.
+    pub(crate) local: Position,
+    /// Tool offsets in effect.
+    pub(crate) length: Position,
+    pub(crate) h: D::Value,
+    pub(crate) d: D::Value,
+    /// In millimetres a minute or turn, or moves a minute; 0 none given.
+    pub(crate) feed: D::Value,
+    /// Turns a minute or metres a minute; 0 none given.
+    pub(crate) speed: D::Value,
+    /// Limit of constant surface speed, turns a minute; NaN unknown, infinite none.
+    pub(crate) speed_limit: f64,
+    pub(crate) spindle: Option<Spindle>,
+    pub(crate) live_tool: Truth,
+    pub(crate) mist: Truth,
+    pub(crate) flood: Truth,
+    pub(crate) feed_override: Truth,
+    pub(crate) speed_override: Truth,
+    pub(crate) adaptive: Truth,
+    pub(crate) feed_hold: Truth,
+    /// The tool in the spindle: vacant none known to be, 0 none.
+    pub(crate) tool: D::Value,
+    /// The tool called for.
+    pub(crate) selected: D::Value,
+    pub(crate) cycle: CycleWords,
+    pub(crate) transform: Transform,
+    /// Radius of the mapped cylinder, millimetres.
+    pub(crate) cylinder: Option<f64>,
+    pub(crate) blending: (f64, Option<f64>),
+    /// Point and result of the last probing move.
+    pub(crate) probed: Position,
+    pub(crate) probe_result: Truth,
+    /// Polar origin under `G16`.
+    pub(crate) polar: [f64; 2],
+    pub(crate) variables: Variables<D>,
+    pub(crate) frames: Vec<Frame<D>>,
+    /// The modal macro call (`G66`).
+    pub(crate) macro_modal: Option<Rc<ModalCall<D>>>,
+    pub(crate) compensation: Option<Box<Compensation>>,
+    /// Control points of a NURBS block under way.
+    pub(crate) nurbs: Option<Rc<Vec<[f64; 3]>>>,
+}
+
+/// What `G66` will call.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct ModalCall<D: Domain> {
+    pub(crate) target: At,
+    pub(crate) arguments: Vec<(u32, D::Value)>,
+    pub(crate) repeats: u32,
+}
+
+/// Work offsets, reference points, tools.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tables {
+    /// By number; a number that is not there is [`Tables::other_offset`].
+    pub(crate) offsets: Vec<(u16, WorkOffset)>,
+    /// Offsets that nobody told us.
+    pub(crate) other_offset: WorkOffset,
+    pub(crate) references: [Position; 2],
+    pub(crate) tools: Vec<(u32, crate::machine::Tool)>,
+    /// Tools not listed do not exist.
+    pub(crate) complete: bool,
+    /// Every offset may have changed (an unknown number was written).
+    pub(crate) unsure: bool,
+}
+
+impl Tables {
+    /// A work offset.
+    pub fn offset(&self, number: u16) -> WorkOffset {
+        if self.unsure {
+            return WorkOffset::UNKNOWN;
+        }
+        self.offsets.iter().find(|(n, _)| *n == number).map_or(self.other_offset, |(_, offset)| *offset)
+    }
+
+    /// Writes a work offset.
+    pub fn set_offset(&mut self, number: u16, offset: WorkOffset) {
+        match self.offsets.iter_mut().find(|(n, _)| *n == number) {
+            Some((_, old)) => *old = offset,
+            None => self.offsets.push((number, offset)),
+        }
+    }
+
+    /// A tool.
+    pub fn tool(&self, number: u32) -> Option<&crate::machine::Tool> {
+        self.tools.iter().find(|(n, _)| *n == number).map(|(_, tool)| tool)
+    }
+
+    /// A tool's entry, made when it is not there.
+    pub fn tool_mut(&mut self, number: u32) -> &mut crate::machine::Tool {
+        let at = match self.tools.iter().position(|(n, _)| *n == number) {
+            Some(at) => at,
+            None => {
+                self.tools.push((
+                    number,
+                    crate::machine::Tool {
+                        pocket: number,
+                        offset: if self.complete { Position::ZERO } else { Position::UNKNOWN },
+                        diameter: if self.complete { Mm(0.0) } else { Mm::UNKNOWN },
+                        corner_radius: Mm::UNKNOWN,
+                        angles: [0.0; 2],
+                        orientation: 0,
+                    },
+                ));
+                self.tools.len() - 1
+            }
+        };
+        #[expect(clippy::indexing_slicing, reason = "`at` was found or pushed above")]
+        &mut self.tools[at].1
+    }
+}
+
+impl<D: Domain> State<D> {
+    /// The codes that may be in effect for a role.
+    #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
+    pub fn mode(&self, role: Role) -> &ModeSet {
+        &self.modes[role.index()]
+    }
+
+    #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
+    pub(crate) fn set_mode(&mut self, role: Role, code: CodeIx) {
+        self.modes[role.index()] = ModeSet::one(code);
+    }
+
+    /// The effect in force for a role, if it is the only one it may be.
+    pub fn effect(&self, role: Role, model: &Model<'_>) -> Option<Effect> {
+        self.mode(role).only().map(|code| model.effect(code))
+    }
+
+    /// The programmed point in programmed coordinates.
+    pub fn position(&self) -> &Position {
+        &self.position
+    }
+
+    /// Where the axes stand in work coordinates.
+    pub fn actual(&self) -> &Position {
+        &self.actual
+    }
+
+    /// Where the axes stand in machine coordinates.
+    pub fn machine(&self) -> Position {
+        self.to_machine(&self.actual)
+    }
+
+    /// The feed as it was given: 0 for none.
+    pub fn feed(&self) -> &D::Value {
+        &self.feed
+    }
+
+    /// The speed as it was given: 0 for none.
+    pub fn speed(&self) -> &D::Value {
+        &self.speed
+    }
+
+    /// The spindle; `None` when it may be turning or not.
+    pub fn spindle(&self) -> Option<Spindle> {
+        self.spindle
+    }
+
+    /// Does a live tool turn?
+    pub fn live_tool(&self) -> Truth {
+        self.live_tool
+    }
+
+    /// Limit of constant surface speed in turns a minute; infinite without a limit, NaN unknown.
+    pub fn speed_limit(&self) -> f64 {
+        self.speed_limit
+    }
+
+    /// Tool in the spindle.
+    pub fn tool(&self) -> &D::Value {
+        &self.tool
+    }
+
+    /// Tool called for.
+    pub fn selected(&self) -> &D::Value {
+        &self.selected
+    }
+
+    /// Number of the tool length offset in effect; 0 for none.
+    pub fn h(&self) -> &D::Value {
+        &self.h
+    }
+
+    /// Number of the cutter compensation offset in effect; 0 for none.
+    pub fn d(&self) -> &D::Value {
+        &self.d
+    }
+
+    /// Tool offsets in effect by axis.
+    pub fn length(&self) -> &Position {
+        &self.length
+    }
+
+    /// Number of the active work coordinate system, 1 the first.
+    pub fn work(&self) -> Option<u16> {
+        self.work
+    }
+
+    /// The shift of `G92` (and `G52`) in effect.
+    pub fn shift(&self) -> Position {
+        let shift = if self.shift_on { self.shift } else { Position::ZERO };
+        shift + self.local
+    }
+
+    /// Transformations in effect.
+    pub fn transform(&self) -> &Transform {
+        &self.transform
+    }
+
+    /// Words of the canned cycle in effect.
+    pub fn cycle(&self) -> &CycleWords {
+        &self.cycle
+    }
+
+    /// Programs under way, the main program first.
+    pub fn frames(&self) -> &[Frame<D>] {
+        &self.frames
+    }
+
+    /// The variables.
+    pub fn variables(&self) -> &Variables<D> {
+        &self.variables
+    }
+
+    /// Work offsets, reference points, tools.
+    pub fn tables(&self) -> &Tables {
+        &self.tables
+    }
+
+    /// The active plane.
+    pub fn plane(&self, model: &Model<'_>) -> Option<Plane> {
+        match self.effect(Role::Plane, model)? {
+            Effect::PlaneXy => Some(Plane::Xy),
+            Effect::PlaneZx => Some(Plane::Zx),
+            Effect::PlaneYz => Some(Plane::Yz),
+            _ => None,
+        }
+    }
+
+    /// The units of the program.
+    pub fn units(&self, model: &Model<'_>) -> Option<Units> {
+        match self.effect(Role::Units, model)? {
+            Effect::Inch => Some(Units::Inch),
+            Effect::Millimetre => Some(Units::Mm),
+            _ => None,
+        }
+    }
+
+    /// What `F` means.
+    pub fn feed_mode(&self, model: &Model<'_>) -> Option<FeedMode> {
+        match self.effect(Role::FeedMode, model)? {
+            Effect::FeedInverseTime => Some(FeedMode::InverseTime),
+            Effect::FeedPerMinute => Some(FeedMode::PerMinute),
+            Effect::FeedPerRevolution => Some(FeedMode::PerRevolution),
+            _ => None,
+        }
+    }
+
+    /// Are words increments (`G91`)?
+    pub fn is_incremental(&self, model: &Model<'_>) -> Option<bool> {
+        match self.mode(Role::Distance).only()? {
+            // Controls without the codes measure from the origin.
+            CodeIx::NONE => Some(false),
+            code => match model.effect(code) {
+                Effect::Absolute => Some(false),
+                Effect::Incremental => Some(true),
+                _ => None,
+            },
+        }
+    }
+
+    /// Does X count diameters?
+    pub fn is_diameter(&self, model: &Model<'_>) -> Option<bool> {
+        match self.mode(Role::Diameter).only()? {
+            CodeIx::NONE => Some(model.semantics().diameter),
+            code => match model.effect(code) {
+                Effect::DiameterOn => Some(true),
+                Effect::DiameterOff => Some(false),
+                _ => None,
+            },
+        }
+    }
+
+    /// The active canned cycle's code; `Some(CodeIx::NONE)` when none is.
+    pub fn active_cycle(&self, model: &Model<'_>) -> Option<CodeIx> {
+        let code = self.mode(Role::Cycle).only()?;
+        Some(if model.effect(code) == Effect::CycleCancel { CodeIx::NONE } else { code })
+    }
+
+    /// The active offset, rotation included.
+    pub fn work_offset(&self) -> WorkOffset {
+        self.work.map_or(WorkOffset::UNKNOWN, |number| self.tables.offset(number))
+    }
+
+    /// From work coordinates to machine coordinates.
+    pub fn to_machine(&self, work: &Position) -> Position {
+        let offset = self.work_offset();
+        rotate(*work + self.shift(), offset.rotation) + offset.origin + self.length
+    }
+
+    /// From machine coordinates to work coordinates.
+    pub fn from_machine(&self, machine: &Position) -> Position {
+        let offset = self.work_offset();
+        rotate(*machine - self.length - offset.origin, -offset.rotation) - self.shift()
+    }
+
+    /// Either state.
+    #[must_use]
+    pub(crate) fn join(&self, other: &Self, widen: bool) -> Self {
+        let value = |a: &D::Value, b: &D::Value| if widen { D::widen(a, b) } else { D::join(a, b) };
+        let number = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
+        let truth = |a: Truth, b: Truth| if a == b { a } else { Truth::Unknown };
+        let mut joined = self.clone();
+        for (mode, with) in joined.modes.iter_mut().zip(&other.modes) {
+            *mode = mode.join(with);
+        }
+        joined.position = self.position.join(&other.position);
+        joined.actual = self.actual.join(&other.actual);
+        joined.tables = join_tables(&self.tables, &other.tables);
+        joined.work = if self.work == other.work { self.work } else { None };
+        joined.shift = self.shift.join(&other.shift);
+        if self.shift_on != other.shift_on {
+            joined.shift_on = true;
+            joined.shift = Position::UNKNOWN;
+        }
+        joined.local = self.local.join(&other.local);
+        joined.length = self.length.join(&other.length);
+        joined.h = value(&self.h, &other.h);
+        joined.d = value(&self.d, &other.d);
+        joined.feed = value(&self.feed, &other.feed);
+        joined.speed = value(&self.speed, &other.speed);
+        joined.speed_limit = number(self.speed_limit, other.speed_limit);
+        joined.spindle = if self.spindle == other.spindle { self.spindle } else { None };
+        joined.live_tool = truth(self.live_tool, other.live_tool);
+        joined.mist = truth(self.mist, other.mist);
+        joined.flood = truth(self.flood, other.flood);
+        joined.feed_override = truth(self.feed_override, other.feed_override);
+        joined.speed_override = truth(self.speed_override, other.speed_override);
+        joined.adaptive = truth(self.adaptive, other.adaptive);
+        joined.feed_hold = truth(self.feed_hold, other.feed_hold);
+        joined.tool = value(&self.tool, &other.tool);
+        joined.selected = value(&self.selected, &other.selected);
+        joined.cycle = self.cycle.join(&other.cycle);
+        if self.transform != other.transform {
+            joined.transform.angle = f64::NAN;
+        }
+        joined.cylinder = match (self.cylinder, other.cylinder) {
+            (None, None) => None,
+            (Some(a), Some(b)) => Some(number(a, b)),
+            _ => Some(f64::NAN),
+        };
+        if self.blending != other.blending {
+            joined.blending = (0.0, None);
+        }
+        joined.probed = self.probed.join(&other.probed);
+        joined.probe_result = truth(self.probe_result, other.probe_result);
+        joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
+        joined.variables = self.variables.join(&other.variables, widen);
+        for (frame, with) in joined.frames.iter_mut().zip(&other.frames) {
+            frame.join(with, widen);
+        }
+        if self.macro_modal != other.macro_modal {
+            joined.macro_modal = None;
+        }
+        if self.compensation != other.compensation {
+            joined.compensation = None;
+            joined.actual = Position::UNKNOWN;
+        }
+        if self.nurbs != other.nurbs {
+            joined.nurbs = None;
+        }
+        joined
+    }
+
+    /// Is every state that `inner` stands for one that this stands for?
+    pub fn contains(&self, inner: &Self) -> bool {
+        let same = |a: f64, b: f64| a.is_nan() || a.to_bits() == b.to_bits();
+        let truth = |a: Truth, b: Truth| a == Truth::Unknown || a == b;
+        self.modes.iter().zip(&inner.modes).all(|(a, b)| a.contains(b))
+            && Axis::ALL.into_iter().all(|axis| {
+                same(self.position.raw(axis), inner.position.raw(axis))
+                    && same(self.actual.raw(axis), inner.actual.raw(axis))
+                    && same(self.length.raw(axis), inner.length.raw(axis))
+            })
+            && (self.work.is_none() || self.work == inner.work)
+            && D::contains(&self.h, &inner.h)
+            && D::contains(&self.d, &inner.d)
+            && D::contains(&self.feed, &inner.feed)
+            && D::contains(&self.speed, &inner.speed)
+            && D::contains(&self.tool, &inner.tool)
+            && D::contains(&self.selected, &inner.selected)
+            && (self.spindle.is_none() || self.spindle == inner.spindle)
+            && truth(self.live_tool, inner.live_tool)
+            && truth(self.mist, inner.mist)
+            && truth(self.flood, inner.flood)
+            && self.variables.contains(&inner.variables)
+    }
+}
+
+impl<D: Domain> PartialEq for State<D> {
+    /// Equal in every value, floats by bits: equal states have equal futures.
+    fn eq(&self, other: &Self) -> bool {
+        self.modes == other.modes
+            && self.position == other.position
+            && self.actual == other.actual
+            && (Rc::ptr_eq(&self.tables, &other.tables) || self.tables == other.tables)
+            && self.work == other.work
+            && self.shift == other.shift
+            && self.shift_on == other.shift_on
+            && self.local == other.local
+            && self.length == other.length
+            && self.h == other.h
+            && self.d == other.d
+            && self.feed == other.feed
+            && self.speed == other.speed
+            && self.speed_limit.to_bits() == other.speed_limit.to_bits()
+            && self.spindle == other.spindle
+            && (self.live_tool, self.mist, self.flood) == (other.live_tool, other.mist, other.flood)
+            && (self.feed_override, self.speed_override, self.adaptive, self.feed_hold)
+                == (other.feed_override, other.speed_override, other.adaptive, other.feed_hold)
+            && self.tool == other.tool
+            && self.selected == other.selected
+            && self.cycle.bits() == other.cycle.bits()
+            && format_bits(&self.transform) == format_bits(&other.transform)
+            && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
+            && self.blending == other.blending
+            && self.probed == other.probed
+            && self.probe_result == other.probe_result
+            && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)
+            && self.variables == other.variables
+            && self.frames == other.frames
+            && self.macro_modal == other.macro_modal
+            && self.compensation == other.compensation
+            && self.nurbs == other.nurbs
+    }
+}
+
+fn format_bits(transform: &Transform) -> ([u64; 13], Plane, [bool; 3]) {
+    let Transform { scale, scale_centre, angle, centre, plane, mirror, mirror_at } = transform;
+    let mut bits = [0; 13];
+    let all = scale.iter().chain(scale_centre).chain(centre).chain(mirror_at).chain([angle]);
+    for (slot, value) in bits.iter_mut().zip(all) {
+        *slot = value.to_bits();
+    }
+    (bits, *plane, *mirror)
+}
+
+fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
+    if Rc::ptr_eq(a, b) || a == b {
+        return Rc::clone(a);
+    }
+    let mut joined = (**a).clone();
+    let numbers: Vec<u16> = a.offsets.iter().chain(&b.offsets).map(|(n, _)| *n).collect();
+    for number in numbers {
+        let (left, right) = (a.offset(number), b.offset(number));
+        let rotation = if left.rotation.to_bits() == right.rotation.to_bits() { left.rotation } else { f64::NAN };
+        joined.set_offset(number, WorkOffset { origin: left.origin.join(&right.origin), rotation });
+    }
+    for (slot, with) in joined.references.iter_mut().zip(&b.references) {
+        *slot = slot.join(with);
+    }
+    let tools: Vec<u32> = a.tools.iter().chain(&b.tools).map(|(n, _)| *n).collect();
+    for number in tools {
+        if a.tool(number) == b.tool(number) {
+            continue;
+        }
+        let offset = match (a.tool(number), b.tool(number)) {
+            (Some(x), Some(y)) => x.offset.join(&y.offset),
+            _ => Position::UNKNOWN,
+        };
+        let tool = joined.tool_mut(number);
+        tool.offset = offset;
+        tool.diameter = Mm::UNKNOWN;
+    }
+    joined.unsure |= b.unsure;
+    Rc::new(joined)
+}
+
+impl<D: Domain> Frame<D> {
+    fn join(&mut self, other: &Self, widen: bool) {
+        if self.repeats != other.repeats {
+            self.repeats = None;
+        }
+        match (&mut self.locals, &other.locals) {
+            (Some(locals), Some(with)) => *locals = locals.join(with, widen),
+            (locals, None) | (locals @ None, _) => *locals = None,
+        }
+        for (at, count) in &mut self.counters {
+            let with = other.counters.iter().find(|(a, _)| a == at).map(|(_, c)| *c);
+            if with != Some(*count) {
+                *count = None;
+            }
+        }
+        if self.saved != other.saved {
+            self.saved = None;
+        }
+        self.restore_on_return |= other.restore_on_return;
+    }
+}
+
+/// Turns a point about Z by degrees; nothing is touched at zero, so that unknown coordinates stay apart.
+pub(crate) fn rotate(point: Position, degrees: f64) -> Position {
+    if degrees == 0.0 {
+        return point;
+    }
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let (x, y) = (point.raw(Axis::X), point.raw(Axis::Y));
+    let mut turned = point;
+    turned.set(Axis::X, x * cos - y * sin);
+    turned.set(Axis::Y, x * sin + y * cos);
+    turned
+}

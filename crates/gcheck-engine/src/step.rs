@@ -1,0 +1,889 @@
+//! One block, one step: the only place where a block changes a state.
+//!
+//! Knows: the order inside a block, statements, and which effect handler a code calls. Must not know: which domain it runs in,
+//! how paths are explored.
+
+mod arc;
+pub(crate) mod compensation;
+mod cycle;
+mod flow_control;
+mod lathe;
+mod modes;
+mod motion;
+mod offsets;
+mod operation;
+mod probe;
+mod program_end;
+mod reference;
+mod spindle;
+mod system;
+mod transform;
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, Unpointed, Unset, WordKind};
+use gcheck_program::{
+    BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value, Word,
+};
+
+use crate::assumption::Assumption;
+use crate::event::{Event, Units};
+use crate::fault::{Fault, ValueFault};
+use crate::machine::Machine;
+use crate::model::{Model, Rank, Role};
+use crate::observer::{Observer, Origin};
+use crate::program::{Program, ProgramFile};
+use crate::state::{At, State};
+use crate::value::{Domain, Truth};
+use crate::variables::NameId;
+use crate::words::BlockWords;
+
+/// Switches of the operator's panel, and how far a run goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Options {
+    /// Block delete by level 1 to 9: a bit that is set skips the level's blocks. Bit 0 stands for a plain `/`.
+    pub skip: u16,
+    /// `M1` stops.
+    pub optional_stop: bool,
+}
+
+impl Options {
+    /// Nothing is skipped.
+    pub const NONE: Self = Self { skip: 0, optional_stop: false };
+    /// Every `/` block is skipped.
+    pub const SKIP_ALL: Self = Self { skip: u16::MAX, optional_stop: false };
+
+    fn skips(self, level: u8) -> bool {
+        level > 0 && self.skip & (1 << (level - 1).min(15)) != 0
+    }
+}
+
+/// What comes after a block.
+#[derive(Debug)]
+pub(crate) enum Outcome<D: Domain> {
+    /// The next block in text order.
+    Next,
+    /// Another block.
+    Jump(At),
+    /// Any of these: a condition or target is not known.
+    Fork(Vec<(At, State<D>)>),
+    /// The program is over.
+    End(Ending),
+    /// The block cannot be executed.
+    Fault(Fault),
+}
+
+/// How a program came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Ending {
+    /// `M2` or `M30`.
+    Program,
+    /// `M99` in the main program: it would start again.
+    Restart,
+    /// A closing `%`.
+    Tape,
+    /// The text ended without an end of the program.
+    Text,
+    /// `#3000`.
+    Alarm(i64),
+}
+
+pub(crate) type Step<T = ()> = Result<T, Fault>;
+
+/// Executes blocks. Holds what does not belong to the state: the program, the control, the machine, who watches.
+pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
+    pub(crate) program: &'a Program<'p>,
+    pub(crate) model: &'a Model<'a>,
+    pub(crate) machine: &'a Machine,
+    pub(crate) options: Options,
+    pub(crate) observer: O,
+    pub(crate) assumptions: BTreeSet<Assumption>,
+    /// How a number without decimal point counts: settled once.
+    unpointed: Unpointed,
+    stack: Vec<D::Value>,
+    words: BlockWords<D>,
+    cursor: Option<Cursor<'p>>,
+    /// The block under way.
+    origin: Origin,
+    /// Where to go when every phase of the block is done.
+    flow: Option<Flow<D>>,
+    /// `G53`, `G9` and the like: what holds for this block only.
+    machine_coordinates: bool,
+    /// The last `RETURN` or `ENDSUB` gave a value.
+    returned: bool,
+    /// Assignments that wait for the end of the block.
+    pending: Vec<(Place2<D>, D::Value)>,
+}
+
+/// What an assignment writes to.
+#[derive(Debug, Clone)]
+enum Place2<D: Domain> {
+    Number(u32),
+    Name(NameId),
+    /// A variable of unknown number.
+    Anywhere(std::marker::PhantomData<D>),
+}
+
+/// A way on that a code asked for.
+#[derive(Debug, Clone)]
+enum Flow<D: Domain> {
+    Jump(At),
+    Call(flow_control::Callee<D>),
+    Return { label: Option<D::Value> },
+    /// Here or on, as an input decides.
+    MayJump(At),
+    End(Ending),
+}
+
+/// The chunk that execution is in, so that the next block costs no look-up.
+struct Cursor<'a> {
+    file_index: u32,
+    file: Rc<ProgramFile<'a>>,
+    place: Place,
+    /// Number of the chunk's first block in the file.
+    first: u32,
+}
+
+impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
+    pub(crate) fn new(
+        program: &'a Program<'p>,
+        model: &'a Model<'a>,
+        machine: &'a Machine,
+        options: Options,
+        observer: O,
+    ) -> Self {
+        let mut assumptions = BTreeSet::new();
+        let unpointed = settle_unpointed(model, machine, &mut assumptions);
+        Self {
+            program,
+            model,
+            machine,
+            options,
+            observer,
+            assumptions,
+            unpointed,
+            stack: Vec::with_capacity(16),
+            words: BlockWords::new(),
+            cursor: None,
+            origin: Origin { at: At { file: 0, block: 0 }, start: 0, n: None },
+            flow: None,
+            machine_coordinates: false,
+            returned: false,
+            pending: Vec::new(),
+        }
+    }
+
+    /// The block under way, or the last one.
+    pub(crate) fn origin(&self) -> Origin {
+        self.origin
+    }
+
+    /// Executes the block at `at`.
+    pub(crate) fn step(&mut self, at: At, state: &mut State<D>) -> Outcome<D> {
+        let Some(place) = self.place(at) else { return self.end_of_text(at, state) };
+        let table = Rc::clone(&place.table);
+        let block = table.block(place.ix);
+        self.origin = Origin { at, start: place.base + block.range.start, n: None };
+        if block.flags.contains(BlockFlags::LABEL) {
+            let n = table.words(block).iter().find(|word| word.letter == Letter::of('N'));
+            #[expect(clippy::cast_sign_loss, reason = "negative numbers become 0, as a label cannot be negative")]
+            {
+                self.origin.n = n.and_then(Word::number).map(|n| n as u32);
+            }
+        }
+        if block.flags.contains(BlockFlags::BLOCK_DELETE) {
+            let skipped = self.options.skips(block.delete);
+            if block.delete > 0 {
+                self.assumptions.insert(Assumption::BlockSkip(skipped));
+            }
+            if skipped {
+                return Outcome::Next;
+            }
+        }
+        if block.flags.contains(BlockFlags::TAPE_MARK) {
+            return if at.block == 0 { Outcome::Next } else { Outcome::End(Ending::Tape) };
+        }
+        self.observer.before(self.origin, state);
+        self.flow = None;
+        self.machine_coordinates = false;
+        self.pending.clear();
+        let outcome = self.run_block(&place, &table, block, state);
+        if !matches!(outcome, Outcome::Fault(_)) {
+            self.observer.after(self.origin, state);
+        }
+        outcome
+    }
+
+    fn run_block(&mut self, place: &Place, table: &BlockTable, block: &Block, state: &mut State<D>) -> Outcome<D> {
+        if block.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
+            return Outcome::Fault(Fault::Malformed);
+        }
+        if block.flags.contains(BlockFlags::STATEMENT) {
+            match self.statements(place, table, block, state) {
+                Ok(Statements::Words) => {}
+                Ok(Statements::Done(outcome)) => return outcome,
+                Err(fault) => return Outcome::Fault(fault),
+            }
+        }
+        match self.execute_words(place, table, block, state) {
+            Ok(outcome) => outcome,
+            Err(fault) => Outcome::Fault(fault),
+        }
+    }
+
+    /// Words, then the assignments that waited for them, then the way on.
+    fn execute_words(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let words = table.words(block);
+        if !words.is_empty() {
+            self.read_words(place, table, words, state)?;
+            self.execute(place, words, state)?;
+        }
+        for (target, value) in std::mem::take(&mut self.pending) {
+            if let Some(end) = self.assign(target, value, state)? {
+                return Ok(end);
+            }
+        }
+        match self.flow.take() {
+            None => Ok(Outcome::Next),
+            Some(flow) => self.follow(flow, state),
+        }
+    }
+
+    /// The file, chunk and table of a block.
+    fn place(&mut self, at: At) -> Option<Place> {
+        if let Some(cursor) = &mut self.cursor
+            && cursor.file_index == at.file
+            && at.block >= cursor.first
+            && let Some(ix) = cursor.place.table.ix(at.block - cursor.first)
+            && at.block < cursor.file.loaded.outline().blocks()
+        {
+            cursor.place.ix = ix;
+            return Some(cursor.place.clone());
+        }
+        let file = self.program.file(at.file)?;
+        let place = file.loaded.place(at.block, self.program.dialect())?;
+        let first = at.block - place.ix.index() as u32;
+        self.cursor = Some(Cursor { file_index: at.file, file, place: place.clone(), first });
+        Some(place)
+    }
+
+    pub(crate) fn file(&self, index: u32) -> Option<Rc<ProgramFile<'p>>> {
+        match &self.cursor {
+            Some(cursor) if cursor.file_index == index => Some(Rc::clone(&cursor.file)),
+            _ => self.program.file(index),
+        }
+    }
+
+    fn emit(&mut self, state: &mut State<D>, event: Event) {
+        if state.compensation.is_some() {
+            self.emit_compensated(state, event);
+        } else {
+            self.observer.event(self.origin, state, &event);
+        }
+    }
+
+    // ---- words ----
+
+    fn read_words(&mut self, place: &Place, table: &BlockTable, words: &[Word], state: &mut State<D>) -> Step {
+        self.words.clear();
+        for word in words {
+            if word.code.is_some() {
+                self.words.put_code(word.code);
+                continue;
+            }
+            let code_letter = matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
+            match word.value {
+                Value::Number(number) if code_letter => {
+                    let _ = number;
+                    return Err(Fault::UnknownCode);
+                }
+                Value::Number(number) => {
+                    let pointed = word.shape.point;
+                    let number = if pointed || number == 0.0 { number } else { self.scale(word.letter, number, state) };
+                    self.words.put(word.letter, D::number(number), pointed);
+                }
+                Value::Expr(expr) => {
+                    let value = self.evaluate(place, table, table.expr(expr), state)?;
+                    if code_letter {
+                        self.computed_code(word.letter, &value)?;
+                        continue;
+                    }
+                    match D::is_vacant(&value) {
+                        Truth::True => {}
+                        Truth::False | Truth::Unknown => {
+                            let pointed = self.model.semantics().computed_words_are_pointed;
+                            self.words.put(word.letter, value, pointed);
+                        }
+                    }
+                }
+                Value::Missing => return Err(Fault::MissingValue(word.letter)),
+            }
+        }
+        Ok(())
+    }
+
+    /// `G#700`: the code that a value names.
+    fn computed_code(&mut self, letter: Letter, value: &D::Value) -> Step {
+        let Some(number) = D::known(value) else { return Err(Fault::Undecidable) };
+        let text = format!("{}{}", char::from(letter.ascii()), (number * 10.0).round() / 10.0);
+        let code = gcheck_controls::CodeNumber::parse(&text).map(|n| self.model.control().code_ix(n));
+        match code.filter(|ix| ix.is_some()) {
+            Some(ix) => self.words.put_code(ix),
+            None => return Err(Fault::UnknownCode),
+        }
+        Ok(())
+    }
+
+    /// A number without decimal point, as the control counts it.
+    fn scale(&mut self, letter: Letter, number: f64, state: &State<D>) -> f64 {
+        let Some(kind) = self.model.scaled(letter) else { return number };
+        match self.unpointed {
+            Unpointed::AsWritten => number,
+            Unpointed::LeastIncrement => {
+                let numbers = self.model.control().numbers();
+                let least = match kind {
+                    WordKind::Angle => numbers.least_angle,
+                    _ => match state.units(self.model) {
+                        Some(Units::Inch) => numbers.least_inch,
+                        Some(Units::Mm) => numbers.least_mm,
+                        None => f64::NAN,
+                    },
+                };
+                // Divided by a power of ten rather than multiplied: `X1500` is 1.5, not 1.5000000000000002.
+                number / (1.0 / least).round()
+            }
+            Unpointed::ByParameter => {
+                self.assumptions.insert(Assumption::UnpointedNumbers);
+                number
+            }
+        }
+    }
+
+    /// Puts the parts of the block in the control's order and executes them.
+    fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
+        let present = self.words.present();
+        let codes = self.words.codes();
+        // A block that only moves: nothing to put in order.
+        if codes.is_empty() && !present.intersects(LetterSet::of("FST")) {
+            return if present.intersects(self.model.axis_letters) || present.intersects(BARE_MOTION) {
+                self.motion(state)
+            } else {
+                Ok(())
+            };
+        }
+        let mut actions: [(Rank, Action); MOST_ACTIONS] = [(Rank(u8::MAX), Action::Motion); MOST_ACTIONS];
+        let mut count = 0;
+        let mut add = |rank: Rank, action: Action| {
+            if let Some(slot) = actions.get_mut(count) {
+                *slot = (rank, action);
+                count += 1;
+            }
+        };
+        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(BARE_MOTION);
+        let mut taken = false;
+        let mut macro_call = false;
+        for ix in codes {
+            let Some(code) = self.model.code(*ix) else { continue };
+            match code.effect {
+                Effect::MachineCoordinates => {
+                    self.machine_coordinates = true;
+                    moves |= present.intersects(self.model.axis_letters);
+                    continue;
+                }
+                Effect::MacroCall | Effect::MacroModal => macro_call = true,
+                Effect::None if self.model.control().code_at(*ix).is_some_and(gcheck_controls::Code::is_user) => {
+                    taken = true;
+                }
+                _ => {}
+            }
+            taken |= code.takes_axes;
+            let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
+            moves |= is_motion && code.effect != Effect::CycleCancel;
+            add(if is_motion { self.model.motion_rank } else { code.rank }, Action::Code(*ix));
+        }
+        if !macro_call {
+            for (letter, rank, action) in [
+                (Letter::of('F'), self.model.feed_rank, Action::Feed),
+                (Letter::of('S'), self.model.speed_rank, Action::Speed),
+                (Letter::of('T'), self.model.tool_rank, Action::Tool),
+            ] {
+                if present.contains(letter) {
+                    add(rank, action);
+                }
+            }
+            if moves && !taken {
+                add(self.model.motion_rank, Action::Motion);
+            }
+        }
+        let actions = actions.get_mut(..count).unwrap_or_default();
+        // Stable: codes of one phase act in text order, and a motion code before the motion.
+        actions.sort_by_key(|(rank, _)| *rank);
+        let actions: Vec<Action> = actions.iter().map(|(_, action)| *action).collect();
+        for action in actions {
+            match action {
+                Action::Code(code) => self.code(code, place, words, state)?,
+                Action::Feed => self.feed_word(state)?,
+                Action::Speed => self.speed_word(state)?,
+                Action::Tool => self.tool_word(state)?,
+                Action::Motion => self.motion(state)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The length of a word in millimetres, or the angle of a rotary axis in degrees.
+    fn length(&self, letter: Letter, state: &State<D>) -> Option<f64> {
+        let number = self.words.number(letter)?;
+        Some(number * self.unit(state))
+    }
+
+    /// Millimetres in a unit of the program; NaN when not known.
+    fn unit(&self, state: &State<D>) -> f64 {
+        state.units(self.model).map_or(f64::NAN, Units::in_mm)
+    }
+
+    /// A whole number not below zero; `None` when it does not stand, a fault when it is none.
+    fn count(&self, letter: Letter) -> Step<Option<Count>> {
+        let Some(number) = self.words.number(letter) else { return Ok(None) };
+        if number.is_nan() {
+            return Ok(Some(Count::Unknown));
+        }
+        let whole = number.round();
+        if (whole - number).abs() > 1e-4 || whole < 0.0 || whole > f64::from(u32::MAX) {
+            return Err(Fault::WordRange(letter));
+        }
+        #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+        Ok(Some(Count::Known(whole as u32)))
+    }
+
+    // ---- expressions ----
+
+    fn evaluate(&mut self, place: &Place, table: &BlockTable, expr: &Expr, state: &State<D>) -> Step<D::Value> {
+        let ops = table.ops(expr);
+        // By far the most common: one number, or one variable.
+        match ops {
+            [Op::Number(number)] => return Ok(D::number(*number)),
+            [Op::Variable(number)] => return self.read_variable(*number, state),
+            _ => {}
+        }
+        if !expr.well_formed {
+            return Err(Fault::Value(ValueFault::Malformed));
+        }
+        let semantics = self.model.semantics();
+        let bottom = self.stack.len();
+        for op in ops {
+            let result = match op {
+                Op::Number(number) => Ok(D::number(*number)),
+                Op::Variable(number) => self.read_variable(*number, state),
+                Op::Named { start, end } => self.read_named(place, (*start, *end), state),
+                Op::Indirect => {
+                    let number = self.stack.pop().unwrap_or_else(D::unknown);
+                    self.read_indirect(&number, state)
+                }
+                Op::Negate => {
+                    let value = self.stack.pop().unwrap_or_else(D::unknown);
+                    Ok(D::negate(&value))
+                }
+                Op::Binary(op) => {
+                    let right = self.stack.pop().unwrap_or_else(D::unknown);
+                    let left = self.stack.pop().unwrap_or_else(D::unknown);
+                    D::binary(*op, &left, &right, semantics).map_err(Fault::Value)
+                }
+                Op::Call(Function::Exists, _) => {
+                    self.stack.pop();
+                    self.exists(place, ops, state)
+                }
+                Op::Call(function, count) => {
+                    let from = self.stack.len().saturating_sub(usize::from(*count)).max(bottom);
+                    let result = D::call(*function, self.stack.get(from..).unwrap_or_default(), semantics);
+                    self.stack.truncate(from);
+                    result.map_err(Fault::Value)
+                }
+            };
+            match result {
+                Ok(value) => self.stack.push(value),
+                Err(fault) => {
+                    self.stack.truncate(bottom);
+                    return Err(fault);
+                }
+            }
+        }
+        let value = self.stack.pop().unwrap_or_else(D::unknown);
+        self.stack.truncate(bottom);
+        Ok(value)
+    }
+
+    /// `EXISTS[#<name>]`: the name is the last one read. Reading an unset name for it is no fault, so it is asked of the table.
+    fn exists(&mut self, place: &Place, ops: &[Op], state: &State<D>) -> Step<D::Value> {
+        let named = ops.iter().rev().find_map(|op| match op {
+            Op::Named { start, end } => Some((*start, *end)),
+            _ => None,
+        });
+        let Some(range) = named else { return Ok(D::unknown()) };
+        Ok(D::number(if self.read_named(place, range, state).is_ok() { 1.0 } else { 0.0 }))
+    }
+
+    fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {
+        let semantics = self.model.semantics();
+        let [first, last] = semantics.locals;
+        if (first..=last).contains(&number) && number > 0 {
+            let locals = state.frames.iter().rev().find_map(|frame| frame.locals.as_ref());
+            let value = locals.and_then(|locals| locals.get(number)).cloned().unwrap_or_else(D::unknown);
+            self.tell_vacant(number, &value, state);
+            return Ok(value);
+        }
+        if number == 0 && semantics.unset == Unset::Vacant {
+            return Ok(D::vacant());
+        }
+        if state.variables.is_written(number) {
+            return Ok(state.variables.get(number));
+        }
+        if let Some((variable, row, column)) = self.model.system_variable(number) {
+            return self.read_system(variable, row, column, state);
+        }
+        let value = state.variables.get(number);
+        self.tell_vacant(number, &value, state);
+        Ok(value)
+    }
+
+    fn tell_vacant(&mut self, number: u32, value: &D::Value, state: &State<D>) {
+        if self.model.semantics().unset == Unset::Vacant && D::is_vacant(value) == Truth::True {
+            self.observer.vacant_read(self.origin, state, number);
+        }
+    }
+
+    fn read_indirect(&mut self, number: &D::Value, state: &State<D>) -> Step<D::Value> {
+        match D::known(number) {
+            Some(number) => self.read_variable(variable_number(number)?, state),
+            None if D::is_vacant(number) == Truth::True => self.read_variable(0, state),
+            None => Ok(D::unknown()),
+        }
+    }
+
+    fn read_named(&mut self, place: &Place, range: (u32, u32), state: &State<D>) -> Step<D::Value> {
+        let name = self.name(place, range);
+        let local = state.frames.last().and_then(|frame| frame.locals.as_ref()).and_then(|l| l.named(name));
+        if let Some(value) = local.or_else(|| state.variables.named(name)) {
+            return Ok(value.clone());
+        }
+        let text = self.program.name_text(name);
+        if let Some(variable) = self.model.named_variable(&text) {
+            return self.read_system(variable, 0, 0, state);
+        }
+        if text.starts_with("_ini[") || text.starts_with("_hal[") {
+            return Ok(D::unknown());
+        }
+        if let Some(value) = self.machine.parameters.get(&*text) {
+            return Ok(D::number(*value));
+        }
+        Err(Fault::UnsetParameter)
+    }
+
+    fn name(&self, place: &Place, range: (u32, u32)) -> NameId {
+        let file = self.origin.at.file;
+        match &self.cursor {
+            Some(cursor) => self.program.name_at(file, place.chunk, range, cursor.file.loaded.chunk_text(place.chunk)),
+            None => self.program.name(""),
+        }
+    }
+
+    // ---- statements ----
+
+    fn statements(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        state: &mut State<D>,
+    ) -> Step<Statements<D>> {
+        for statement in table.statements(place.ix) {
+            match &statement.kind {
+                StatementKind::Assign { target, value } => {
+                    let Some(value) = value else { return Err(Fault::Malformed) };
+                    let target = self.assignee(place, table, target, state)?;
+                    let value = self.evaluate(place, table, table.expr(*value), state)?;
+                    if self.model.semantics().assignments_after_block {
+                        self.pending.push((target, value));
+                    } else if let Some(end) = self.assign(target, value, state)? {
+                        return Ok(Statements::Done(end));
+                    }
+                }
+                StatementKind::If { condition } | StatementKind::Guard { condition } => {
+                    let Some(condition) = condition else { return Err(Fault::Malformed) };
+                    match self.condition(place, table, *condition, state)? {
+                        Truth::True => self.assume(table, *condition, true, state),
+                        Truth::False => {
+                            self.assume(table, *condition, false, state);
+                            return Ok(Statements::Done(Outcome::Next));
+                        }
+                        Truth::Unknown => {
+                            return self.either(place, table, block, *condition, state).map(Statements::Done);
+                        }
+                    }
+                }
+                StatementKind::Goto { target } => {
+                    let Some(target) = target else { return Err(Fault::Malformed) };
+                    let value = self.evaluate(place, table, table.expr(*target), state)?;
+                    return self.jump_to_label(&value, state).map(Statements::Done);
+                }
+                StatementKind::Do { condition, .. } => {
+                    return self.loop_head(place, table, *condition, state).map(Statements::Done);
+                }
+                StatementKind::End { .. } => return self.loop_end().map(Statements::Done),
+                StatementKind::OWord { label, keyword, arguments } => {
+                    return self.o_word(place, table, label, *keyword, arguments.clone(), state).map(Statements::Done);
+                }
+                StatementKind::Print => {}
+            }
+        }
+        Ok(Statements::Words)
+    }
+
+    fn condition(&mut self, place: &Place, table: &BlockTable, condition: ExprIx, state: &State<D>) -> Step<Truth> {
+        let value = self.evaluate(place, table, table.expr(condition), state)?;
+        Ok(D::truth(&value))
+    }
+
+    /// What stands behind a condition, done or not done: both ways.
+    fn either(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        condition: ExprIx,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let mut without = state.clone();
+        self.assume(table, condition, false, &mut without);
+        self.assume(table, condition, true, state);
+        let at = self.origin.at;
+        let mut goes_on = true;
+        let mut fork = vec![(at.next(), without)];
+        let mut behind = table.statements(place.ix).skip_while(|s| {
+            !matches!(&s.kind, StatementKind::If { condition: Some(c) } | StatementKind::Guard { condition: Some(c) } if *c == condition)
+        });
+        behind.next();
+        for statement in behind {
+            match &statement.kind {
+                StatementKind::Goto { target: Some(target) } => {
+                    let value = self.evaluate(place, table, table.expr(*target), state)?;
+                    match self.jump_to_label(&value, state)? {
+                        Outcome::Jump(to) => fork.push((to, state.clone())),
+                        Outcome::Fork(more) => fork.extend(more),
+                        other => return Ok(other),
+                    }
+                    goes_on = false;
+                }
+                StatementKind::Assign { target, value: Some(value) } => {
+                    let target = self.assignee(place, table, target, state)?;
+                    let value = self.evaluate(place, table, table.expr(*value), state)?;
+                    // An alarm on one of the ways ends that way.
+                    goes_on &= self.assign(target, value, state)?.is_none();
+                }
+                _ => {}
+            }
+        }
+        if goes_on {
+            match self.execute_words(place, table, block, state)? {
+                Outcome::Next => fork.push((at.next(), state.clone())),
+                Outcome::Jump(to) => fork.push((to, state.clone())),
+                Outcome::Fork(more) => fork.extend(more),
+                Outcome::End(_) => {}
+                Outcome::Fault(fault) => return Err(fault),
+            }
+        }
+        Ok(Outcome::Fork(fork))
+    }
+
+    /// Narrows a variable by what a condition says of it: `#1 LT 10` holding leaves less than ten.
+    fn assume(&mut self, table: &BlockTable, condition: ExprIx, holds: bool, state: &mut State<D>) {
+        let (variable, op, bound) = match table.ops(table.expr(condition)) {
+            [Op::Variable(variable), Op::Number(bound), Op::Binary(op)] => (*variable, *op, *bound),
+            [Op::Variable(variable), Op::Number(bound), Op::Negate, Op::Binary(op)] => (*variable, *op, -*bound),
+            [Op::Number(bound), Op::Variable(variable), Op::Binary(op)] => match mirrored(*op) {
+                Some(op) => (*variable, op, *bound),
+                None => return,
+            },
+            [Op::Variable(variable), Op::Variable(other), Op::Binary(op)] => {
+                match self.read_variable(*other, state).ok().as_ref().and_then(D::known) {
+                    Some(bound) => (*variable, *op, bound),
+                    None => return,
+                }
+            }
+            _ => return,
+        };
+        let Some(op) = (if holds { Some(op) } else { opposite(op) }) else { return };
+        let Ok(value) = self.read_variable(variable, state) else { return };
+        if D::known(&value).is_some() {
+            return;
+        }
+        if let Some(narrowed) = D::assume(&value, op, bound, self.model.semantics()) {
+            let is_system = self.model.system_variable(variable).is_some();
+            if !is_system {
+                self.write_plain(variable, narrowed, state);
+            }
+        }
+    }
+
+    fn assignee(&mut self, place: &Place, table: &BlockTable, target: &Target, state: &State<D>) -> Step<Place2<D>> {
+        Ok(match target {
+            Target::Variable(number) => Place2::Number(*number),
+            Target::Named(range) => Place2::Name(self.name(place, (range.start, range.end))),
+            Target::Computed(expr) => {
+                let value = self.evaluate(place, table, table.expr(*expr), state)?;
+                match D::known(&value) {
+                    Some(number) => Place2::Number(variable_number(number)?),
+                    None => Place2::Anywhere(std::marker::PhantomData),
+                }
+            }
+            Target::Invalid => return Err(Fault::Malformed),
+        })
+    }
+
+    /// Writes a variable. Some variables end the program.
+    fn assign(&mut self, target: Place2<D>, value: D::Value, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
+        match target {
+            Place2::Name(name) => {
+                let text = self.program.name_text(name);
+                if self.model.named_variable(&text).is_some() {
+                    return Err(Fault::ReadOnlyVariable(0));
+                }
+                let global = text.starts_with('_');
+                match state.frames.last_mut().and_then(|frame| frame.locals.as_mut()) {
+                    Some(locals) if !global => locals.set_named(name, value),
+                    _ => state.variables.set_named(name, value),
+                }
+                Ok(None)
+            }
+            Place2::Anywhere(_) => {
+                state.variables.forget();
+                if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
+                    locals.forget();
+                }
+                Ok(None)
+            }
+            Place2::Number(0) => Err(Fault::ReadOnlyVariable(0)),
+            Place2::Number(number) => {
+                if let Some((variable, row, column)) = self.model.system_variable(number) {
+                    return self.write_system(number, variable, row, column, value, state);
+                }
+                if !self.model.control().is_writable(number) {
+                    return Err(Fault::ReadOnlyVariable(number));
+                }
+                self.write_plain(number, value, state);
+                Ok(None)
+            }
+        }
+    }
+
+    fn write_plain(&mut self, number: u32, value: D::Value, state: &mut State<D>) {
+        let [first, last] = self.model.semantics().locals;
+        if (first..=last).contains(&number) {
+            if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
+                locals.set(number, value);
+            }
+        } else {
+            state.variables.set(number, value);
+        }
+    }
+
+    /// The configured or assumed value of a setting.
+    fn setting(&mut self, number: &str) -> Option<&'a str> {
+        if !self.machine.settings.contains_key(number) && self.model.control().setting(number).is_some() {
+            self.assumptions.insert(Assumption::Setting(number.to_owned()));
+        }
+        let machine: &'a Machine = self.machine;
+        machine.setting(self.model.control(), number)
+    }
+}
+
+/// What remains of a block after its statements.
+enum Statements<D: Domain> {
+    /// Its words.
+    Words,
+    /// Nothing.
+    Done(Outcome<D>),
+}
+
+/// A whole number, or a word whose value nobody knows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Count {
+    Known(u32),
+    Unknown,
+}
+
+/// A part of a block that acts at its place in the order.
+#[derive(Debug, Clone, Copy)]
+enum Action {
+    Code(CodeIx),
+    Feed,
+    Speed,
+    Tool,
+    Motion,
+}
+
+/// Codes of a block, and `F`, `S`, `T` and the motion.
+const MOST_ACTIONS: usize = 28;
+
+/// Words that make a block move without an axis word: a centre of a full circle, polar words.
+const BARE_MOTION: LetterSet = LetterSet::of("@^");
+
+fn variable_number(number: f64) -> Step<u32> {
+    let whole = number.round();
+    if (whole - number).abs() > 1e-4 || !(0.0..=f64::from(u32::MAX)).contains(&whole) {
+        return Err(Fault::VariableNumber);
+    }
+    #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+    Ok(whole as u32)
+}
+
+/// The comparison with its sides exchanged.
+fn mirrored(op: BinaryOp) -> Option<BinaryOp> {
+    Some(match op {
+        BinaryOp::Equal => BinaryOp::Equal,
+        BinaryOp::NotEqual => BinaryOp::NotEqual,
+        BinaryOp::Greater => BinaryOp::Less,
+        BinaryOp::GreaterEqual => BinaryOp::LessEqual,
+        BinaryOp::Less => BinaryOp::Greater,
+        BinaryOp::LessEqual => BinaryOp::GreaterEqual,
+        _ => return None,
+    })
+}
+
+/// The comparison that holds when this one does not.
+fn opposite(op: BinaryOp) -> Option<BinaryOp> {
+    Some(match op {
+        BinaryOp::Equal => BinaryOp::NotEqual,
+        BinaryOp::NotEqual => BinaryOp::Equal,
+        BinaryOp::Greater => BinaryOp::LessEqual,
+        BinaryOp::GreaterEqual => BinaryOp::Less,
+        BinaryOp::Less => BinaryOp::GreaterEqual,
+        BinaryOp::LessEqual => BinaryOp::Greater,
+        _ => return None,
+    })
+}
+
+/// How numbers without decimal point count on this machine.
+fn settle_unpointed(model: &Model<'_>, machine: &Machine, assumptions: &mut BTreeSet<Assumption>) -> Unpointed {
+    let numbers = model.control().numbers();
+    let Some(setting) = &numbers.unpointed_setting else { return model.unpointed() };
+    let number = setting.rsplit(' ').next().unwrap_or_default();
+    let Some(entry) = model.control().setting(number) else { return model.unpointed() };
+    match machine.settings.get(number) {
+        None => {
+            if model.unpointed() == Unpointed::ByParameter {
+                assumptions.insert(Assumption::Setting(number.to_owned()));
+            }
+            model.unpointed()
+        }
+        Some(value) if Some(value) == entry.as_written.as_ref() => Unpointed::AsWritten,
+        Some(_) => Unpointed::LeastIncrement,
+    }
+}

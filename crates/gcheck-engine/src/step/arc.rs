@@ -1,0 +1,167 @@
+//! Circular and helical moves.
+//!
+//! Knows: centres and radii from words, which words belong to which plane, the control's tolerance. Must not know: how an arc
+//! is measured (`gcheck-geometry`).
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_geometry::{Arc, ArcDirection, ArcError, ArcTolerance, Mm, Plane};
+
+use super::{Count, Executor, Step};
+use crate::event::{ArcMove, Event, Units};
+use crate::fault::{ArcFault, Fault};
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::State;
+use crate::value::Domain;
+
+/// Axes of a plane: first, second, normal, and the centre words of the three.
+pub(super) fn plane_axes(plane: Plane) -> ([Axis; 3], [Letter; 3]) {
+    let of = |index: usize| match index {
+        0 => (Axis::X, Letter::of('I')),
+        1 => (Axis::Y, Letter::of('J')),
+        _ => (Axis::Z, Letter::of('K')),
+    };
+    let (first, second, normal) = plane.axes();
+    let [(a, i), (b, j), (c, k)] = [of(first), of(second), of(normal)];
+    ([a, b, c], [i, j, k])
+}
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// `G2`, `G3`.
+    pub(super) fn arc(&mut self, counter_clockwise: bool, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        let result = self.arc_to(counter_clockwise, &target, state);
+        if result.is_err() && state.compensation.is_none() {
+            // The program means this point, whatever is wrong with the way there.
+            state.position = target;
+            state.actual = self.axes_of(&target, state);
+        }
+        result
+    }
+
+    fn arc_to(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
+        self.check_feed(state)?;
+        let Some(plane) = state.plane(self.model) else { return self.unknown_arc(target, state) };
+        let ([first, second, _], [i, j, k]) = plane_axes(plane);
+        let rules = self.model.semantics().arcs;
+        if self.words.has(k) && self.refuses_incomplete() {
+            return Err(Fault::Arc(ArcFault::WrongPlane(k)));
+        }
+        let turns = if rules.turns { self.count_turns()? } else { 1 };
+        let direction =
+            if counter_clockwise { ArcDirection::Ccw } else { ArcDirection::Cw };
+        let start = state.position.xyz();
+        let end = target.xyz();
+        let has_centre = self.words.has(i) || self.words.has(j);
+        let radius = self.length(Letter::of('R'), state);
+        let tolerance = self.arc_tolerance(state);
+        let arc = match (has_centre, radius) {
+            (true, Some(_)) if !rules.radius_wins => return Err(Fault::Arc(ArcFault::CentreAndRadius)),
+            (_, Some(radius)) => {
+                if self.refuses_incomplete() && !self.words.has(first.letter()) && !self.words.has(second.letter()) && !self.words.has(Letter::AT) && !self.words.has(Letter::CARET)
+                {
+                    return Err(Fault::NoAxisWords);
+                }
+                Arc::by_radius(plane, start, end, Mm(radius), direction, turns, &tolerance)
+            }
+            (true, None) => {
+                let centre = self.centre(state, [first, second], [i, j])?;
+                Arc::by_centre(plane, start, end, centre, direction, turns, &tolerance)
+            }
+            (false, None) => return Err(Fault::Arc(ArcFault::NoCentre)),
+        };
+        let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
+        if !arc.is_known() {
+            return self.unknown_arc(target, state);
+        }
+        let sign = if counter_clockwise { 1 } else { -1 };
+        let turns = sign * i32::try_from(turns).unwrap_or(i32::MAX);
+        if state.compensation.is_some() {
+            return self.compensated_arc(&arc, *target, turns, state);
+        }
+        let to = self.axes_of(target, state);
+        let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
+        let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
+        let event = ArcMove { plane, from: state.actual, programmed: *target, to, centre, turns, sweep, expanded: false };
+        state.actual = to;
+        state.position = *target;
+        self.emit(state, Event::Arc(event));
+        Ok(())
+    }
+
+    /// The end of an arc whose shape is not known.
+    fn unknown_arc(&mut self, target: &Position, state: &mut State<D>) -> Step {
+        let plane = state.plane(self.model).unwrap_or(Plane::Xy);
+        let to = self.axes_of(target, state);
+        let event = ArcMove {
+            plane,
+            from: state.actual,
+            programmed: *target,
+            to,
+            centre: (Mm::UNKNOWN, Mm::UNKNOWN),
+            turns: 1,
+            sweep: f64::NAN,
+            expanded: false,
+        };
+        state.actual = to;
+        state.position = *target;
+        self.emit(state, Event::Arc(event));
+        Ok(())
+    }
+
+    /// The centre in the plane's axes, programmed coordinates.
+    fn centre(&self, state: &State<D>, axes: [Axis; 2], letters: [Letter; 2]) -> Step<(Mm, Mm)> {
+        let absolute = state.effect(Role::ArcCentre, self.model) == Some(Effect::ArcCentreAbsolute);
+        let diameter = state.is_diameter(self.model) == Some(true);
+        let mut centre = [Mm(0.0); 2];
+        for ((slot, axis), letter) in centre.iter_mut().zip(axes).zip(letters) {
+            let from = state.position.raw(axis);
+            *slot = Mm(match (self.length(letter, state), absolute) {
+                (Some(value), true) if axis == Axis::X && diameter => value / 2.0,
+                (Some(value), true) => value,
+                (Some(value), false) => from + value,
+                (None, true) => return Err(Fault::MissingWord(letter)),
+                (None, false) => from,
+            });
+        }
+        let [first, second] = centre;
+        Ok((first, second))
+    }
+
+    fn count_turns(&self) -> Step<u32> {
+        match self.count(Letter::of('P')) {
+            Ok(None) => Ok(1),
+            Ok(Some(Count::Known(turns))) if turns >= 1 => Ok(turns),
+            Ok(Some(Count::Unknown)) => Err(Fault::Undecidable),
+            _ => Err(Fault::Arc(ArcFault::Turns)),
+        }
+    }
+
+    /// The control's tolerance. Its figures are whole numbers of the program's units, so inches have their own.
+    pub(super) fn arc_tolerance(&self, state: &State<D>) -> ArcTolerance {
+        let rules = self.model.semantics().arcs;
+        let scale = if state.units(self.model) == Some(Units::Inch) { rules.inch_factor } else { 1.0 };
+        ArcTolerance {
+            absolute: Mm(rules.radius_difference * scale),
+            hard: Mm(rules.radius_difference * rules.hard_factor * scale),
+            relative: rules.relative,
+            radius_slack: Mm(rules.radius_slack),
+            zero: Mm(rules.zero_radius),
+            coincident: Mm(0.0),
+        }
+    }
+}
+
+fn arc_fault(error: &ArcError) -> ArcFault {
+    match error {
+        ArcError::ZeroRadius => ArcFault::ZeroRadius,
+        ArcError::RadiusTooSmall { half_chord, radius } => {
+            ArcFault::RadiusTooSmall { half_chord: half_chord.0, radius: radius.0 }
+        }
+        ArcError::OffCircle { start_radius, end_radius } => {
+            ArcFault::OffCircle { start: start_radius.0, end: end_radius.0 }
+        }
+        ArcError::EndIsStart => ArcFault::FullCircleByRadius,
+    }
+}

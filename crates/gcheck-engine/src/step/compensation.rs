@@ -1,0 +1,351 @@
+//! Moves on their way to the observer: straight through, or by the cutter compensation.
+//!
+//! Knows: which events wait for the next move. Must not know: how the offset path is computed (`gcheck-geometry`).
+
+use gcheck_controls::{CompensationStyle, Effect, Letter, Semantics};
+use gcheck_geometry::{
+    Arc, CompensationConfig, CompensationError, Compensator, Cutter, CutterSide, LineKind, Mm, OffsetCourse,
+    OffsetEvent, OffsetSegment, PathPoint, Plane,
+};
+
+use crate::assumption::Assumption;
+use crate::event::{ArcMove, Event, Travel, TravelKind};
+use crate::fault::{CompensationFault, Fault};
+use crate::observer::{Observer, Origin};
+use crate::position::Position;
+use crate::state::State;
+use super::{Count, Executor, Step};
+use crate::value::Domain;
+
+/// Cutter compensation that is on, with the moves it holds back.
+#[derive(Debug, Clone)]
+pub struct Compensation {
+    compensator: Compensator<Programmed, (Origin, Event)>,
+    plane: Plane,
+    /// The last point given out, all axes.
+    at: Position,
+}
+
+impl PartialEq for Compensation {
+    /// What is held back makes two of them hardly ever equal; to say "never" is safe.
+    fn eq(&self, _: &Self) -> bool {
+        false
+    }
+}
+
+/// What a programmed move carries through the compensation.
+#[derive(Debug, Clone, Copy)]
+struct Programmed {
+    origin: Origin,
+    kind: TravelKind,
+    target: Position,
+}
+
+type Offset = OffsetEvent<Programmed, (Origin, Event)>;
+
+fn config(semantics: &Semantics) -> CompensationConfig {
+    match semantics.compensation.style {
+        CompensationStyle::TangentEntry => CompensationConfig::tangent_entry(),
+        CompensationStyle::Intersection => CompensationConfig::intersection(),
+    }
+}
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// An event while compensation is on: it keeps its place between the moves.
+    pub(crate) fn emit_compensated(&mut self, state: &mut State<D>, event: Event) {
+        let Some(mut compensation) = state.compensation.take() else { return };
+        let mut out = Vec::new();
+        compensation.compensator.pass((self.origin(), event), |offset| out.push(offset));
+        self.give_out(&mut compensation, out, state);
+        state.compensation = Some(compensation);
+    }
+
+    /// `G41`, `G42` and their kin.
+    pub(crate) fn compensation_on(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let left = matches!(effect, Effect::CompensationLeft | Effect::CompensationLeftByDiameter);
+        if effect == Effect::CompensationVector {
+            self.remember_offset_number(state)?;
+            return Ok(());
+        }
+        let Some(plane) = state.plane(self.model) else { return Ok(()) };
+        if plane == Plane::Yz && self.refuses_incomplete() {
+            return Err(Fault::Compensation(CompensationFault::Plane));
+        }
+        let by_diameter =
+            matches!(effect, Effect::CompensationLeftByDiameter | Effect::CompensationRightByDiameter);
+        let (radius, orientation) = if by_diameter {
+            let Some(diameter) = self.length(Letter::of('D'), state) else {
+                return Err(Fault::MissingWord(Letter::of('D')));
+            };
+            let orientation = match self.count(Letter::of('L'))? {
+                Some(Count::Known(l @ 0..=9)) => l as u8,
+                None => 0,
+                _ => return Err(Fault::WordRange(Letter::of('L'))),
+            };
+            (diameter / 2.0, orientation)
+        } else {
+            self.remember_offset_number(state)?;
+            self.cutter_radius(state)?
+        };
+        if orientation != 0 && plane == Plane::Xy && self.refuses_incomplete() && by_diameter {
+            return Err(Fault::Compensation(CompensationFault::Plane));
+        }
+        state.compensation = None;
+        let side = if left { CutterSide::Left } else { CutterSide::Right };
+        let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
+        let mut compensator = Compensator::new(config(self.model.semantics()));
+        // An unknown start or size is no mistake of the program: it is carried as an unknown path.
+        if compensator.start(cutter, planar(&state.actual, plane)).is_ok() {
+            state.compensation = Some(Box::new(Compensation { compensator, plane, at: state.actual }));
+        }
+        Ok(())
+    }
+
+    fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
+        if let Some(value) = self.words.get(Letter::of('D')).cloned() {
+            self.count(Letter::of('D'))?;
+            state.d = value;
+        } else if self.model.semantics().tools.radius_from_tool {
+            state.d = state.tool.clone();
+        }
+        Ok(())
+    }
+
+    /// Radius of the cutter that `D` names, NaN unknown, with the orientation of a lathe tool.
+    fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
+        let Some(number) = D::known(&state.d) else { return Ok((f64::NAN, 0)) };
+        if number == 0.0 {
+            return Ok((0.0, 0));
+        }
+        #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
+        let number = number as u32;
+        if self.offsets_are_diameters() {
+            self.assumptions.extend([]);
+        }
+        match state.tables.tool(number) {
+            Some(tool) => {
+                if tool.diameter.0.is_nan() {
+                    self.assumptions.insert(Assumption::ToolRadius(number));
+                }
+                let radius = if state.is_diameter(self.model) == Some(true) && tool.corner_radius.is_known() {
+                    tool.corner_radius.0
+                } else {
+                    tool.diameter.0 / 2.0
+                };
+                Ok((radius, tool.orientation))
+            }
+            None if state.tables.complete => Err(Fault::NoSuchTool(number)),
+            None => {
+                self.assumptions.insert(Assumption::ToolRadius(number));
+                Ok((f64::NAN, 0))
+            }
+        }
+    }
+
+    /// `G40`.
+    pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
+        let Some(mut compensation) = state.compensation.take() else {
+            if state.actual != state.position && !self.is_transformed(state) {
+                // The offset path was not known, so neither is where it ended.
+                return Ok(());
+            }
+            return Ok(());
+        };
+        let mut out = Vec::new();
+        let result = compensation.compensator.stop(|offset| out.push(offset));
+        self.give_out(&mut compensation, out, state);
+        match result {
+            Ok(exit) => {
+                state.actual = above(&state.actual, exit.position, compensation.plane);
+                if self.refuses_incomplete() {
+                    // The interpreter goes on from where the tool stands.
+                    let programmed = above(&state.position, exit.programmed, compensation.plane);
+                    state.position = programmed;
+                }
+                Ok(())
+            }
+            Err(error) => Err(fault(&error)),
+        }
+    }
+
+    /// The program ends, or something needs every move given out.
+    pub(crate) fn flush_compensation(&mut self, state: &mut State<D>) -> Step {
+        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
+        let mut out = Vec::new();
+        let result = compensation.compensator.flush(|offset| out.push(offset));
+        self.give_out(&mut compensation, out, state);
+        state.actual = compensation.at;
+        if result.is_ok() && compensation.compensator.is_on() {
+            state.compensation = Some(compensation);
+        }
+        result.map_err(|error| fault(&error))
+    }
+
+    /// A straight move under compensation.
+    pub(crate) fn compensated_line(&mut self, kind: TravelKind, target: Position, state: &mut State<D>) -> Step {
+        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
+        let to = planar(&target, compensation.plane);
+        let line = if kind == TravelKind::Rapid { LineKind::Rapid } else { LineKind::Feed };
+        let payload = Programmed { origin: self.origin(), kind, target };
+        let mut out = Vec::new();
+        let result = compensation.compensator.line(to, line, payload, |offset| out.push(offset));
+        self.finish_compensated(compensation, out, result, target, state)
+    }
+
+    /// An arc under compensation.
+    pub(crate) fn compensated_arc(&mut self, arc: &Arc, target: Position, turns: i32, state: &mut State<D>) -> Step {
+        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
+        let to = planar(&target, compensation.plane);
+        let (first, second) = arc.centre();
+        let payload = Programmed { origin: self.origin(), kind: TravelKind::Feed, target };
+        let mut out = Vec::new();
+        let result = compensation.compensator.arc(
+            to,
+            [first.0, second.0],
+            turns > 0,
+            turns.unsigned_abs(),
+            payload,
+            |offset| out.push(offset),
+        );
+        self.finish_compensated(compensation, out, result, target, state)
+    }
+
+    fn finish_compensated(
+        &mut self,
+        mut compensation: Box<Compensation>,
+        out: Vec<Offset>,
+        result: Result<(), CompensationError>,
+        target: Position,
+        state: &mut State<D>,
+    ) -> Step {
+        self.give_out(&mut compensation, out, state);
+        state.position = target;
+        match result {
+            Ok(()) => {
+                state.actual = above(&target, compensation.compensator.position(), compensation.plane);
+                state.compensation = Some(compensation);
+                Ok(())
+            }
+            Err(CompensationError::NotFinite) => {
+                state.actual = Position::UNKNOWN;
+                Ok(())
+            }
+            Err(error) => {
+                state.actual = Position::UNKNOWN;
+                Err(fault(&error))
+            }
+        }
+    }
+
+    fn give_out(&mut self, compensation: &mut Compensation, out: Vec<Offset>, state: &State<D>) {
+        for offset in out {
+            match offset {
+                OffsetEvent::Passed((origin, event)) => self.observer.event(origin, state, &event),
+                OffsetEvent::Programmed { segment, payload } => {
+                    self.segment(compensation, &segment, &payload, payload.target, false, state);
+                }
+                OffsetEvent::Inserted { segment, before, after } => {
+                    let others = before.map_or(compensation.at, |before| before.target);
+                    self.segment(compensation, &segment, &after, others, true, state);
+                }
+            }
+        }
+    }
+
+    /// One segment of the offset path; `others` gives the axes outside the compensation.
+    fn segment(
+        &mut self,
+        compensation: &mut Compensation,
+        segment: &OffsetSegment,
+        payload: &Programmed,
+        others: Position,
+        inserted: bool,
+        state: &State<D>,
+    ) {
+        let from = compensation.at;
+        let to = above(&others, segment.end, compensation.plane);
+        compensation.at = to;
+        let event = match segment.course {
+            OffsetCourse::Line(kind) => {
+                let kind = if kind == LineKind::Rapid { TravelKind::Rapid } else { TravelKind::Feed };
+                Event::Travel(Travel { kind, from, programmed: payload.target, to, expanded: inserted })
+            }
+            OffsetCourse::Arc { centre: [first, second], ccw, turns } => {
+                let turns = i32::try_from(turns).unwrap_or(i32::MAX) * if ccw { 1 } else { -1 };
+                Event::Arc(ArcMove {
+                    plane: compensation.plane,
+                    from,
+                    programmed: payload.target,
+                    to,
+                    centre: (Mm(first), Mm(second)),
+                    turns,
+                    sweep: sweep([first, second], segment, ccw, turns),
+                    expanded: inserted,
+                })
+            }
+        };
+        self.observer.event(payload.origin, state, &event);
+    }
+
+    fn is_transformed(&self, state: &State<D>) -> bool {
+        self.axes_of(state.position(), state) != *state.position()
+    }
+}
+
+/// Angle of an offset arc in radians, counter-clockwise positive.
+fn sweep([first, second]: [f64; 2], segment: &OffsetSegment, ccw: bool, turns: i32) -> f64 {
+    let angle = |point: PathPoint| (point.second - second).atan2(point.first - first);
+    let mut sweep = angle(segment.end) - angle(segment.start);
+    let turn = std::f64::consts::TAU;
+    if ccw {
+        if sweep <= 1e-12 {
+            sweep += turn;
+        }
+    } else if sweep >= -1e-12 {
+        sweep -= turn;
+    }
+    sweep + turn * f64::from(turns - turns.signum())
+}
+
+/// The point in the compensation's own coordinates.
+fn planar(position: &Position, plane: Plane) -> PathPoint {
+    let [first, second, normal] = plane.to_local(position.xyz());
+    PathPoint::new(first.0, second.0, normal.0)
+}
+
+/// The point with its coordinates in the plane replaced.
+fn above(position: &Position, point: PathPoint, plane: Plane) -> Position {
+    position.with_xyz(plane.to_xyz([Mm(point.first), Mm(point.second), Mm(point.normal)]))
+}
+
+/// Where the imaginary tip of a lathe tool lies from the centre of its nose, by orientation: units of the radius along Z
+/// and X.
+fn tip(orientation: u8) -> [i8; 2] {
+    match orientation {
+        1 => [1, 1],
+        2 => [-1, 1],
+        3 => [-1, -1],
+        4 => [1, -1],
+        5 => [1, 0],
+        6 => [0, 1],
+        7 => [-1, 0],
+        8 => [0, -1],
+        _ => [0, 0],
+    }
+}
+
+fn fault(error: &CompensationError) -> Fault {
+    Fault::Compensation(match error {
+        CompensationError::AlreadyOn => CompensationFault::AlreadyOn,
+        CompensationError::EntryTooShort { needed, got, .. } => {
+            CompensationFault::EntryTooShort { needed: *needed, got: *got }
+        }
+        CompensationError::EntryIsArc => CompensationFault::EntryIsArc,
+        CompensationError::ExitIsArc => CompensationFault::ExitIsArc,
+        CompensationError::NotOn
+        | CompensationError::NotFinite
+        | CompensationError::ZeroLength
+        | CompensationError::ArcTooSmall { .. }
+        | CompensationError::Gouge { .. } => CompensationFault::Gouge,
+    })
+}

@@ -1,0 +1,337 @@
+//! Canned cycles: which words count, where the holes are, how the strokes go out.
+//!
+//! Knows: words that stay from block to block, repeats, incremental levels. Must not know: the strokes of one hole ([`crate::cycles`]).
+
+use gcheck_controls::{CodeIx, DwellWord, Effect, Letter};
+use gcheck_geometry::{Mm, Plane, Seconds};
+
+use super::arc::plane_axes;
+use super::{Count, Executor, Step};
+use crate::cycles::{CycleError, Hole, Overrides, Stroke, hole};
+use crate::event::{ArcMove, Event, FeedMode, Override, PathMode, Spindle, Stop, TravelKind, Units};
+use crate::fault::{CycleFault, Fault};
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::State;
+use crate::value::{Domain, Truth};
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// A block under a canned cycle.
+    pub(super) fn cycle(&mut self, code: CodeIx, state: &mut State<D>) -> Step {
+        let effect = self.model.effect(code);
+        let rules = &self.model.semantics().cycles;
+        let names_code = self.words.codes().contains(&code);
+        let Some(plane) = state.plane(self.model) else { return self.lose_cycle(state) };
+        let plane = if rules.all_planes { plane } else { Plane::Xy };
+        let ([first, second, depth], _) = plane_axes(plane);
+        let has_point = self.words.has(first.letter()) || self.words.has(second.letter());
+        let has_words = has_point || self.words.has(depth.letter());
+        if effect == Effect::CycleAlongTool || effect == Effect::CycleRadial {
+            return self.lose_cycle(state);
+        }
+        let words = self.cycle_words(effect, depth, names_code, state);
+        if let Err(fault) = words {
+            self.skip_to_hole(state)?;
+            return Err(fault);
+        }
+        let repeats = match self.count(Letter::of(rules.repeat))? {
+            None => 1,
+            Some(Count::Known(n)) => n,
+            Some(Count::Unknown) => return Err(Fault::Undecidable),
+        };
+        if repeats == 0 && self.refuses_incomplete() {
+            return Err(Fault::Cycle(CycleFault::ZeroRepeats));
+        }
+        if rules.needs_axis && !has_words && !names_code {
+            return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
+        }
+        if !rules.needs_axis && !has_point && !(names_code && self.runs_without_point()) {
+            return Ok(());
+        }
+        self.check_cycle(state)?;
+        self.holes(effect, plane, repeats, state)
+    }
+
+    /// A first block without a point may drill where the tool stands: a setting decides where there is one.
+    fn runs_without_point(&mut self) -> bool {
+        match self.model.control().setting("28") {
+            Some(_) => self.setting("28").is_none_or(|value| value == "on" || value == "true"),
+            None => true,
+        }
+    }
+
+    /// What cycles need of the state, on controls that refuse them without.
+    fn check_cycle(&self, state: &State<D>) -> Step {
+        if self.refuses_incomplete() {
+            if self.compensates(state) {
+                return Err(Fault::Cycle(CycleFault::Compensated));
+            }
+            if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
+                return Err(Fault::Cycle(CycleFault::InverseTime));
+            }
+            if ['A', 'B', 'C'].into_iter().any(|l| self.words.has(Letter::of(l))) {
+                return Err(Fault::Cycle(CycleFault::Rotary));
+            }
+        }
+        if D::known(&state.feed) == Some(0.0) {
+            return Err(Fault::NoFeed);
+        }
+        Ok(())
+    }
+
+    /// Keeps the words of the block that stay in effect.
+    fn cycle_words(&mut self, effect: Effect, depth: Axis, names_code: bool, state: &mut State<D>) -> Step {
+        let unit = self.unit(state);
+        let rules = &self.model.semantics().cycles;
+        let mut words = state.cycle;
+        if names_code && rules.rise_to_r {
+            // A cycle named anew takes nothing but R, Z and what it repeats from the one before.
+            words.ijk = [f64::NAN; 3];
+        }
+        let mut put = |letter: char, slot: &mut f64, scale: f64| {
+            if let Some(value) = self.words.number(Letter::of(letter)) {
+                *slot = value * scale;
+            }
+        };
+        put('R', &mut words.r, unit);
+        put('Q', &mut words.q, unit);
+        put(depth.name(), &mut words.z, unit);
+        let repeat = rules.repeat;
+        let [i, j, k] = &mut words.ijk;
+        for (letter, slot) in [('I', i), ('J', j), ('K', k)] {
+            if letter != repeat {
+                put(letter, slot, unit);
+            }
+        }
+        put('E', &mut words.e, unit);
+        if let Some(p) = self.words.number(Letter::of('P')) {
+            let milliseconds = match self.model.semantics().dwell.get("P") {
+                Some(DwellWord::Milliseconds) => true,
+                Some(DwellWord::SecondsOrMilliseconds) => !self.words.is_pointed(Letter::of('P')),
+                _ => false,
+            };
+            words.p = if milliseconds { p / 1000.0 } else { p };
+        }
+        let starts = words.initial.is_nan() && state.cycle.initial.is_nan();
+        if starts {
+            words.initial = state.position.raw(depth);
+        }
+        state.cycle = words;
+        if self.words.number(Letter::of('R')).is_some_and(f64::is_nan) {
+            return Ok(());
+        }
+        if words.r.is_nan() && !self.words.has(Letter::of('R')) {
+            return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
+        }
+        if words.z.is_nan() && !self.words.has(depth.letter()) && effect != Effect::CycleCancel {
+            return Err(Fault::Cycle(CycleFault::Missing(depth.letter())));
+        }
+        Ok(())
+    }
+
+    /// The tool goes to the hole's place though the cycle is refused, so that what follows is judged from there.
+    fn skip_to_hole(&mut self, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        state.position.set(Axis::X, target.raw(Axis::X));
+        state.position.set(Axis::Y, target.raw(Axis::Y));
+        state.actual = self.axes_of(&state.position, state);
+        Ok(())
+    }
+
+    /// A cycle whose geometry is not followed: the axes it names end at its point, the depth nobody knows where.
+    fn lose_cycle(&mut self, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        state.position = target;
+        state.position.set(Axis::Z, f64::NAN);
+        state.actual = self.axes_of(&state.position, state);
+        Ok(())
+    }
+
+    fn holes(&mut self, effect: Effect, plane: Plane, repeats: u32, state: &mut State<D>) -> Step {
+        let ([first, second, depth], _) = plane_axes(plane);
+        let incremental = state.is_incremental(self.model);
+        let rules = self.model.semantics().cycles.clone();
+        let target = self.target(state)?;
+        let step = |axis: Axis| {
+            if self.words.has(axis.letter()) { target.raw(axis) - state.position.raw(axis) } else { 0.0 }
+        };
+        let (along, across) = (step(first), step(second));
+        let words = state.cycle;
+        let level = state.position.raw(depth);
+        let relative = incremental != Some(false) && rules.incremental_r;
+        let (r, bottom) = if relative {
+            // R counts from the level before the series, or from where the tool stands.
+            let base = if rules.rise_to_r { level } else { words.initial };
+            (base + words.r, base + words.r + words.z)
+        } else {
+            (words.r, words.z)
+        };
+        let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (r, bottom) };
+        let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
+        let number = |value: f64| if value.is_nan() { None } else { Some(value) };
+        let units = state.units(self.model).unwrap_or(Units::Mm);
+        let exact = self.changes_path_mode(state);
+        if relative && rules.rise_to_r && level < r {
+            // The rise comes before the path mode changes.
+            let mut up = state.position;
+            up.set(depth, r);
+            self.travel(TravelKind::Rapid, up, true, state)?;
+        }
+        if exact {
+            self.path_mode(PathMode::ExactPath, state);
+        }
+        let mut at = (state.position.raw(first), state.position.raw(second));
+        if !relative || incremental == Some(false) {
+            at = (target.raw(first), target.raw(second));
+        }
+        let mut result = Ok(());
+        let most = repeats.min(crate::cycles::MAX_STROKES);
+        for turn in 0..most {
+            if relative || incremental == Some(true) {
+                at = (at.0 + along, at.1 + across);
+            }
+            let facts = Hole {
+                plane,
+                at: (Mm(at.0), Mm(at.1)),
+                initial: Mm(words.initial),
+                r: Mm(r),
+                bottom: Mm(bottom),
+                dwell: number(words.p).map(Seconds),
+                peck: number(words.q).map(Mm),
+                ijk: words.ijk.map(|v| number(v).map(Mm)),
+                incremental: incremental == Some(true),
+                return_to_r,
+                first_of_block: turn == 0,
+                overrides: Overrides {
+                    feed: state.feed_override != Truth::False,
+                    speed: state.speed_override != Truth::False,
+                },
+                units,
+            };
+            result = self.hole(effect, &facts, plane, &rules, state);
+            if result.is_err() {
+                break;
+            }
+        }
+        if repeats == 0 {
+            // The cycle is kept for a pattern that follows; the tool goes nowhere.
+            return Ok(());
+        }
+        if exact {
+            let mode = self.current_path_mode(state);
+            self.path_mode(mode, state);
+        }
+        result
+    }
+
+    fn hole(
+        &mut self,
+        effect: Effect,
+        facts: &Hole,
+        plane: Plane,
+        rules: &gcheck_controls::CycleRules,
+        state: &mut State<D>,
+    ) -> Step {
+        let from = state.position.xyz();
+        let mut strokes = Vec::new();
+        let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        self.strokes(&strokes, plane, state)?;
+        match result {
+            Ok(end) => {
+                state.position = state.position.with_xyz(end);
+                state.actual = self.axes_of(&state.position, state);
+                Ok(())
+            }
+            Err(CycleError::Fault(fault)) => Err(Fault::Cycle(fault)),
+            Err(CycleError::Profile(_)) => Err(Fault::Profile),
+            Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
+            Err(CycleError::Unknown | CycleError::NotThisKind) => {
+                let mut end = state.position;
+                let ([first, second, depth], _) = plane_axes(plane);
+                end.set(first, facts.at.0.0);
+                end.set(second, facts.at.1.0);
+                end.set(depth, f64::NAN);
+                state.position = end;
+                state.actual = self.axes_of(&end, state);
+                Ok(())
+            }
+        }
+    }
+
+    /// Some controls pass the points of a cycle exactly, whatever the path mode is.
+    pub(super) fn changes_path_mode(&self, state: &State<D>) -> bool {
+        self.model.semantics().cycles.rise_to_r && self.current_path_mode(state) != PathMode::ExactPath
+    }
+
+    /// Gives out the strokes of an operation.
+    pub(super) fn strokes(&mut self, strokes: &[Stroke], plane: Plane, state: &mut State<D>) -> Step {
+        let spindle = state.spindle;
+        for stroke in strokes {
+            match *stroke {
+                Stroke::Rapid(to) => {
+                    let to = state.position.with_xyz(to);
+                    self.travel(TravelKind::Rapid, to, true, state)?;
+                }
+                Stroke::Feed(to) => {
+                    let to = state.position.with_xyz(to);
+                    self.travel(TravelKind::Feed, to, true, state)?;
+                }
+                Stroke::Thread { to, lead } => {
+                    let to = state.position.with_xyz(to);
+                    self.emit(state, Event::SpindleSync { lead: Some(lead), velocity: false });
+                    self.travel(TravelKind::Thread, to, true, state)?;
+                    self.emit(state, Event::SpindleSync { lead: None, velocity: false });
+                }
+                Stroke::Arc { to, centre, turns } => self.stroke_arc(to, centre, turns, plane, state),
+                Stroke::Dwell(seconds) => self.emit(state, Event::Dwell(seconds)),
+                Stroke::SpindleStop => self.spindle(Spindle::Stopped, state)?,
+                Stroke::SpindleRestart => self.spindle(spindle.unwrap_or(Spindle::Clockwise), state)?,
+                Stroke::SpindleReverse => {
+                    let other = match spindle {
+                        Some(Spindle::CounterClockwise) => Spindle::Clockwise,
+                        _ => Spindle::CounterClockwise,
+                    };
+                    self.spindle(other, state)?;
+                }
+                Stroke::SpindleTurn { clockwise } => {
+                    let way = if clockwise { Spindle::Clockwise } else { Spindle::CounterClockwise };
+                    self.spindle(way, state)?;
+                }
+                Stroke::Orient => self.emit(state, Event::OrientSpindle { angle: 0.0, way: 3 }),
+                Stroke::ExactPath => {
+                    if self.changes_path_mode(state) {
+                        self.path_mode(PathMode::ExactPath, state);
+                    }
+                }
+                Stroke::Sync(lead) => self.emit(state, Event::SpindleSync { lead, velocity: false }),
+                Stroke::FeedOverride(on) => self.emit(state, Event::Override { kind: Override::Feed, on }),
+                Stroke::SpeedOverride(on) => self.emit(state, Event::Override { kind: Override::Speed, on }),
+                Stroke::OperatorStop => self.emit(state, Event::Stop(Stop::Program)),
+            }
+        }
+        Ok(())
+    }
+
+    fn stroke_arc(&mut self, to: [Mm; 3], centre: (Mm, Mm), turns: i32, plane: Plane, state: &mut State<D>) {
+        let programmed = state.position.with_xyz(to);
+        let end: Position = self.axes_of(&programmed, state);
+        let (moved, turns) = self.arc_of_axes(plane, centre, turns, state);
+        let [f0, s0, _] = plane.to_local(state.actual.xyz());
+        let [f1, s1, _] = plane.to_local(end.xyz());
+        let angle = |f: Mm, s: Mm| (s.0 - moved.1.0).atan2(f.0 - moved.0.0);
+        let mut sweep = angle(f1, s1) - angle(f0, s0);
+        let turn = std::f64::consts::TAU;
+        if turns > 0 && sweep <= 1e-12 {
+            sweep += turn;
+        } else if turns < 0 && sweep >= -1e-12 {
+            sweep -= turn;
+        }
+        sweep += turn * f64::from(turns - turns.signum());
+        let event =
+            ArcMove { plane, from: state.actual, programmed, to: end, centre: moved, turns, sweep, expanded: true };
+        state.actual = end;
+        state.position = programmed;
+        self.emit(state, Event::Arc(event));
+    }
+}

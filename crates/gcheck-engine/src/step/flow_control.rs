@@ -1,0 +1,636 @@
+//! Jumps, loops, calls and returns.
+//!
+//! Knows: where control goes, what a call keeps and what it gives. Must not know: conditions' values (the domain decides), motion.
+
+use std::ops::Range;
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
+use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
+
+use super::{Count, Ending, Executor, Flow, Outcome, Step};
+use crate::assumption::Assumption;
+use crate::fault::Fault;
+use crate::observer::Observer;
+use crate::state::{At, Frame, FrameKind, ModalCall, State};
+use crate::value::{Domain, Truth};
+use crate::variables::Locals;
+
+/// A program about to be entered.
+#[derive(Debug, Clone)]
+pub(super) struct Callee<D: Domain> {
+    kind: FrameKind,
+    target: At,
+    repeats: Option<u32>,
+    arguments: Option<Vec<(u32, D::Value)>>,
+}
+
+/// Calls that nest deeper than this are taken for a recursion without end where the control names no limit.
+const DEEPEST: usize = 64;
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Goes where the block's codes said.
+    pub(super) fn follow(&mut self, flow: Flow<D>, state: &mut State<D>) -> Step<Outcome<D>> {
+        match flow {
+            Flow::Jump(at) => Ok(Outcome::Jump(at)),
+            Flow::End(ending) => Ok(Outcome::End(ending)),
+            Flow::Call(callee) => self.enter(callee, state),
+            Flow::Return { label } => self.leave(label, None, state),
+            Flow::MayJump(at) => {
+                Ok(Outcome::Fork(vec![(self.origin.at.next(), state.clone()), (at, state.clone())]))
+            }
+        }
+    }
+
+    // ---- jumps ----
+
+    /// `GOTO`: the label of a value.
+    pub(super) fn jump_to_label(&mut self, value: &D::Value, state: &State<D>) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let Some(number) = D::known(value) else { return self.jump_anywhere(value, state) };
+        match self.label(number, at)? {
+            Some(to) => Ok(Outcome::Jump(to)),
+            #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
+            None => Err(Fault::NoSuchLabel(number as u32)),
+        }
+    }
+
+    fn label(&self, number: f64, at: At) -> Step<Option<At>> {
+        let whole = number.round();
+        if !(0.0..=f64::from(u32::MAX)).contains(&whole) {
+            return Err(Fault::WordRange(Letter::of('N')));
+        }
+        let Some(file) = self.file(at.file) else { return Ok(None) };
+        let forward = self.model.semantics().goto_forward_first;
+        #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+        let block = file.loaded.outline().label(whole as u32, at.block, forward);
+        Ok(block.map(|block| At { file: at.file, block }))
+    }
+
+    /// A computed jump whose target is not known: every label of the program that it may be.
+    fn jump_anywhere(&mut self, value: &D::Value, state: &State<D>) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let Some(file) = self.file(at.file) else { return Err(Fault::Undecidable) };
+        let outline = file.loaded.outline();
+        let part = outline.part_of(at.block);
+        let (low, high) = D::bounds(value).unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let fits = |number: u32| (low - 0.5..=high + 0.5).contains(&f64::from(number));
+        let targets: Vec<(At, State<D>)> = outline
+            .labels_in(part)
+            .filter(|(number, _)| fits(*number))
+            .take(256)
+            .map(|(_, block)| (At { file: at.file, block }, state.clone()))
+            .collect();
+        if targets.is_empty() { Err(Fault::Undecidable) } else { Ok(Outcome::Fork(targets)) }
+    }
+
+    /// `M96 P… Q…`: on an input that nobody knows.
+    pub(super) fn jump_unless_input(&mut self, state: &mut State<D>) -> Step {
+        let Some(Count::Known(number)) = self.count(Letter::of('P'))? else { return Err(Fault::MissingWord(Letter::of('P'))) };
+        let at = self.origin.at;
+        let Some(to) = self.label(f64::from(number), at)? else { return Err(Fault::NoSuchLabel(number)) };
+        let _ = state;
+        self.flow = Some(Flow::MayJump(to));
+        Ok(())
+    }
+
+    // ---- loops ----
+
+    /// `WHILE […] DO n`, `DO n`.
+    pub(super) fn loop_head(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        condition: Option<ExprIx>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let end = self.file(at.file).and_then(|file| file.loaded.outline().end_of(at.block));
+        let Some(end) = end else { return Err(Fault::LoopMismatch) };
+        let behind = At { file: at.file, block: end + 1 };
+        let Some(condition) = condition else { return Ok(Outcome::Next) };
+        match self.condition(place, table, condition, state)? {
+            Truth::True => {
+                self.assume(table, condition, true, state);
+                Ok(Outcome::Next)
+            }
+            Truth::False => {
+                self.assume(table, condition, false, state);
+                Ok(Outcome::Jump(behind))
+            }
+            Truth::Unknown => Ok(self.both_ways(table, condition, at.next(), behind, state)),
+        }
+    }
+
+    /// Forks on a condition, each way with what the condition then says.
+    fn both_ways(&mut self, table: &BlockTable, condition: ExprIx, holds: At, fails: At, state: &State<D>) -> Outcome<D> {
+        let mut yes = state.clone();
+        self.assume(table, condition, true, &mut yes);
+        let mut no = state.clone();
+        self.assume(table, condition, false, &mut no);
+        Outcome::Fork(vec![(holds, yes), (fails, no)])
+    }
+
+    /// `END n`.
+    pub(super) fn loop_end(&mut self) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let head = self.file(at.file).and_then(|file| file.loaded.outline().do_of(at.block));
+        head.map_or(Err(Fault::LoopMismatch), |block| Ok(Outcome::Jump(At { file: at.file, block })))
+    }
+
+    // ---- calls ----
+
+    /// `M97`, `M98`.
+    pub(super) fn call_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let letter = Letter::of('P');
+        let Some(count) = self.count(letter)? else { return Err(Fault::MissingWord(letter)) };
+        let mut repeats = match self.call_repeats()? {
+            None => 1,
+            Some(Count::Known(n)) => n,
+            Some(Count::Unknown) => return Err(Fault::Undecidable),
+        };
+        if repeats == 0 {
+            if self.model.semantics().zero_repeats_skip {
+                return Ok(());
+            }
+            repeats = 1;
+        }
+        let Count::Known(mut number) = count else {
+            self.lose_everything(state);
+            return Ok(());
+        };
+        let at = self.origin.at;
+        let (kind, target) = if effect == Effect::CallLocal {
+            (FrameKind::Local, self.label(f64::from(number), at)?)
+        } else {
+            let mut target = self.program.find_number(number, at.file);
+            if target.is_none() && self.packs_repeats() && number > 9999 {
+                // Digits in front of the last four count the repeats.
+                repeats = (number / 10_000).max(1);
+                number %= 10_000;
+                target = self.program.find_number(number, at.file);
+            }
+            (FrameKind::Subprogram, target)
+        };
+        let Some(target) = target else {
+            return self.missing_program(number, effect == Effect::CallLocal, state);
+        };
+        self.flow = Some(Flow::Call(Callee { kind, target, repeats: Some(repeats - 1), arguments: None }));
+        Ok(())
+    }
+
+    fn call_repeats(&self) -> Step<Option<Count>> {
+        match self.model.semantics().call_repeats {
+            Some(letter) => self.count(Letter::of(letter)),
+            None => Ok(None),
+        }
+    }
+
+    fn packs_repeats(&self) -> bool {
+        let packs = |code: gcheck_controls::Code<'_>| code.entry().words.iter().any(|word| word.packed_repeats);
+        self.model.control().codes().any(packs)
+    }
+
+    /// A program that is not here may be in the control's memory: after it, hardly anything is known.
+    fn missing_program(&mut self, number: u32, local: bool, state: &mut State<D>) -> Step {
+        if local {
+            return Err(Fault::NoSuchLabel(number));
+        }
+        self.assumptions.insert(Assumption::MissingProgram(number));
+        if self.refuses_incomplete() {
+            return Err(Fault::NoSuchProgram);
+        }
+        self.lose_everything(state);
+        Ok(())
+    }
+
+    /// Something ran that we do not know.
+    pub(super) fn lose_everything(&mut self, state: &mut State<D>) {
+        state.compensation = None;
+        let frames = state.frames.clone();
+        let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
+        *state = unknown;
+        state.frames = frames;
+        if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
+            locals.forget();
+        }
+    }
+
+    /// `G65`, `G66`, a code that is an alias of a macro.
+    pub(super) fn macro_call(
+        &mut self,
+        effect: Effect,
+        ix: CodeIx,
+        _place: &Place,
+        words: &[Word],
+        state: &mut State<D>,
+    ) -> Step {
+        let letter = Letter::of('P');
+        let number = match self.alias_of(ix) {
+            Some(number) => Some(Count::Known(number)),
+            None => self.count(letter)?,
+        };
+        let Some(number) = number else { return Err(Fault::MissingWord(letter)) };
+        let repeats = match self.count(Letter::of('L'))? {
+            None => 1,
+            Some(Count::Known(n)) => n.max(1),
+            Some(Count::Unknown) => return Err(Fault::Undecidable),
+        };
+        let Count::Known(number) = number else {
+            self.lose_everything(state);
+            return Ok(());
+        };
+        let arguments = self.arguments(words);
+        let Some(target) = self.program.find_number(number, self.origin.at.file) else {
+            if effect == Effect::MacroModal {
+                self.assumptions.insert(Assumption::MissingProgram(number));
+                state.macro_modal = None;
+                return Ok(());
+            }
+            return self.missing_program(number, false, state);
+        };
+        if effect == Effect::MacroModal {
+            state.macro_modal = Some(Rc::new(ModalCall { target, arguments, repeats }));
+            return Ok(());
+        }
+        self.flow = Some(Flow::Call(Callee {
+            kind: FrameKind::Macro,
+            target,
+            repeats: Some(repeats - 1),
+            arguments: Some(arguments),
+        }));
+        Ok(())
+    }
+
+    fn alias_of(&self, ix: CodeIx) -> Option<u32> {
+        let code = self.model.control().code_at(ix)?;
+        if !code.is_user() {
+            return None;
+        }
+        code.alias()?.trim_start_matches(['O', 'o']).parse().ok()
+    }
+
+    /// The argument words as local variables. Repeated `I`, `J`, `K` go to the next three.
+    fn arguments(&mut self, words: &[Word]) -> Vec<(u32, D::Value)> {
+        let mut arguments: Vec<(u32, D::Value)> = Vec::new();
+        let mut seen = [0_u32; 3];
+        let several = "IJK".chars().any(|l| words.iter().filter(|w| w.letter == Letter::of(l)).count() > 1);
+        for word in words {
+            let Some((_, first)) = self.model.argument_letters.iter().find(|(letter, _)| *letter == word.letter) else {
+                continue;
+            };
+            let mut number = *first;
+            if several && let Some(turn) = "IJK".chars().position(|l| word.letter == Letter::of(l)) {
+                if let Some(count) = seen.get_mut(turn) {
+                    number = 4 + turn as u32 + 3 * *count;
+                    *count += 1;
+                }
+            }
+            let value = match word.value {
+                // The value that the block's words hold is scaled; of a repeated address only the last is there.
+                Value::Number(literal) if several => D::number(literal),
+                _ => self.words.get(word.letter).cloned().unwrap_or_else(D::vacant),
+            };
+            arguments.push((number, value));
+        }
+        arguments
+    }
+
+    /// Calls the modal macro after a block that moved.
+    pub(super) fn modal_call(&mut self, state: &State<D>) {
+        if let Some(call) = &state.macro_modal {
+            self.flow = Some(Flow::Call(Callee {
+                kind: FrameKind::Macro,
+                target: call.target,
+                repeats: Some(call.repeats.saturating_sub(1)),
+                arguments: Some(call.arguments.clone()),
+            }));
+        }
+    }
+
+    fn enter(&mut self, callee: Callee<D>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let limit = self.model.control().limits().call_depth.map_or(DEEPEST, usize::from);
+        if state.frames.len() > limit.min(DEEPEST) {
+            return Err(Fault::TooDeep);
+        }
+        let semantics = self.model.semantics();
+        let own_locals = match callee.kind {
+            FrameKind::Macro | FrameKind::OWord => true,
+            FrameKind::Subprogram => semantics.locals_per_subprogram,
+            FrameKind::Main | FrameKind::Local => false,
+        };
+        let locals = own_locals.then(|| {
+            let unset = match semantics.unset {
+                Unset::Vacant => D::vacant(),
+                Unset::Zero => D::number(0.0),
+            };
+            let mut locals = Locals::new(semantics.locals[1], &unset);
+            for (number, value) in callee.arguments.into_iter().flatten() {
+                locals.set(number, value);
+            }
+            locals
+        });
+        state.frames.push(Frame {
+            kind: callee.kind,
+            entry: callee.target,
+            caller: self.origin.at,
+            repeats: callee.repeats,
+            locals,
+            counters: Vec::new(),
+            saved: None,
+            restore_on_return: false,
+            wanted_branch: None,
+        });
+        Ok(Outcome::Jump(callee.target))
+    }
+
+    /// `M99`, `ENDSUB`, `RETURN`.
+    fn leave(&mut self, label: Option<D::Value>, result: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
+        if state.frames.len() <= 1 {
+            return self.leave_main(label, state);
+        }
+        let semantics = self.model.semantics();
+        if let Some(label) = &label {
+            match semantics.return_to {
+                ReturnTo::Same => return self.jump_to_label(label, state),
+                ReturnTo::Ignored if self.refuses_incomplete() => return Err(Fault::Conflict),
+                ReturnTo::Ignored | ReturnTo::Caller => {}
+            }
+        }
+        let Some(frame) = state.frames.last_mut() else { return Err(Fault::StrayReturn) };
+        match frame.repeats {
+            Some(0) => {}
+            Some(left) => {
+                frame.repeats = Some(left - 1);
+                frame.counters.clear();
+                return Ok(Outcome::Jump(frame.entry));
+            }
+            None => {
+                // Once more, or not.
+                let mut again = state.clone();
+                let entry = again.frames.last_mut().map_or(self.origin.at, |frame| {
+                    frame.counters.clear();
+                    frame.entry
+                });
+                return match self.pop(label, result, state)? {
+                    Outcome::Jump(at) => Ok(Outcome::Fork(vec![(entry, again), (at, state.clone())])),
+                    other => Ok(other),
+                };
+            }
+        }
+        self.pop(label, result, state)
+    }
+
+    fn pop(&mut self, label: Option<D::Value>, result: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
+        let Some(frame) = state.frames.pop() else { return Err(Fault::StrayReturn) };
+        if frame.restore_on_return && let Some(saved) = &frame.saved {
+            self.restore(saved, state);
+        }
+        if frame.kind == FrameKind::OWord {
+            let value = result.unwrap_or_else(|| D::number(0.0));
+            let (name, flag) = (self.program.name("_value"), self.program.name("_value_returned"));
+            state.variables.set_named(name, value);
+            state.variables.set_named(flag, D::number(f64::from(u8::from(self.returned))));
+        }
+        if let Some(label) = label
+            && self.model.semantics().return_to == ReturnTo::Caller
+        {
+            let Some(number) = D::known(&label) else { return Err(Fault::Undecidable) };
+            return match self.label(number, frame.caller)? {
+                Some(at) => Ok(Outcome::Jump(at)),
+                #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
+                None => Err(Fault::NoSuchLabel(number as u32)),
+            };
+        }
+        Ok(Outcome::Jump(frame.caller.next()))
+    }
+
+    /// `M99` in a main program.
+    fn leave_main(&mut self, label: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
+        if let Some(label) = label {
+            return match self.model.semantics().return_to {
+                ReturnTo::Ignored if self.refuses_incomplete() => Err(Fault::Conflict),
+                _ => self.jump_to_label(&label, state),
+            };
+        }
+        if self.refuses_incomplete() {
+            self.end_program(false, state)?;
+        }
+        Ok(Outcome::End(Ending::Restart))
+    }
+
+    // ---- O-words ----
+
+    #[expect(clippy::too_many_lines, reason = "one arm for each keyword")]
+    pub(super) fn o_word(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        label: &OLabel,
+        keyword: OKeyword,
+        arguments: Range<u32>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        let at = self.origin.at;
+        let to = |block: u32| At { file: at.file, block };
+        let links = self.file(at.file).and_then(|file| file.loaded.outline().o_word(at.block));
+        let Some(links) = links else { return Err(Fault::LoopMismatch) };
+        let first = StatementKind::arguments(&arguments).next();
+        match keyword {
+            OKeyword::Sub => match links.end {
+                // The body runs only when it is called.
+                Some(end) if state.frames.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) => {
+                    Ok(Outcome::Jump(to(end + 1)))
+                }
+                Some(_) => Ok(Outcome::Next),
+                None => Err(Fault::LoopMismatch),
+            },
+            OKeyword::EndSub | OKeyword::Return => {
+                let is_called = state.frames.last().is_some_and(|f| f.kind == FrameKind::OWord);
+                if !is_called {
+                    return Err(Fault::StrayReturn);
+                }
+                let result = match first {
+                    Some(expr) => Some(self.evaluate(place, table, table.expr(expr), state)?),
+                    None => None,
+                };
+                self.returned = result.is_some();
+                self.leave(None, result, state)
+            }
+            OKeyword::Call => {
+                let mut values = Vec::new();
+                for (number, expr) in StatementKind::arguments(&arguments).enumerate() {
+                    let value = self.evaluate(place, table, table.expr(expr), state)?;
+                    values.push((number as u32 + 1, value));
+                }
+                if values.len() > self.model.semantics().locals[1] as usize {
+                    return Err(Fault::Conflict);
+                }
+                let Some(target) = self.program.find_subroutine(label, at.file) else {
+                    if let OLabel::Computed = label {
+                        return Err(Fault::Undecidable);
+                    }
+                    self.assumptions.insert(Assumption::MissingSubroutine(match label {
+                        OLabel::Name(name) => name.clone(),
+                        OLabel::Number(number) => number.to_string(),
+                        OLabel::Computed => String::new(),
+                    }));
+                    return Err(Fault::NoSuchProgram);
+                };
+                self.enter(
+                    Callee { kind: FrameKind::OWord, target, repeats: Some(0), arguments: Some(values) },
+                    state,
+                )
+            }
+            OKeyword::If | OKeyword::ElseIf => {
+                // An ELSEIF met by running into it ends the branch before.
+                if keyword == OKeyword::ElseIf && !self.branch_wanted(at, state) {
+                    return links.end.map_or(Err(Fault::LoopMismatch), |end| Ok(Outcome::Jump(to(end + 1))));
+                }
+                let Some(condition) = first else { return Err(Fault::Malformed) };
+                let Some(next) = links.next.or(links.end) else { return Err(Fault::LoopMismatch) };
+                let truth = self.condition(place, table, condition, state)?;
+                match truth {
+                    Truth::True => {
+                        self.assume(table, condition, true, state);
+                        self.want_branch(None, state);
+                        Ok(Outcome::Next)
+                    }
+                    Truth::False => {
+                        self.assume(table, condition, false, state);
+                        self.want_branch(Some(to(next)), state);
+                        Ok(Outcome::Jump(to(next)))
+                    }
+                    Truth::Unknown => {
+                        let mut yes = state.clone();
+                        self.assume(table, condition, true, &mut yes);
+                        self.want_branch(None, &mut yes);
+                        let mut no = state.clone();
+                        self.assume(table, condition, false, &mut no);
+                        self.want_branch(Some(to(next)), &mut no);
+                        Ok(Outcome::Fork(vec![(at.next(), yes), (to(next), no)]))
+                    }
+                }
+            }
+            OKeyword::Else => {
+                if self.branch_wanted(at, state) {
+                    self.want_branch(None, state);
+                    Ok(Outcome::Next)
+                } else {
+                    links.end.map_or(Err(Fault::LoopMismatch), |end| Ok(Outcome::Jump(to(end + 1))))
+                }
+            }
+            OKeyword::EndIf => {
+                self.want_branch(None, state);
+                Ok(Outcome::Next)
+            }
+            OKeyword::While => {
+                let Some(condition) = first else { return Err(Fault::Malformed) };
+                let (holds, fails) = match (links.head, links.end) {
+                    // The end of DO … WHILE.
+                    (Some(head), _) => (to(head + 1), at.next()),
+                    (None, Some(end)) => (at.next(), to(end + 1)),
+                    (None, None) => return Err(Fault::LoopMismatch),
+                };
+                match self.condition(place, table, condition, state)? {
+                    Truth::True => {
+                        self.assume(table, condition, true, state);
+                        Ok(Outcome::Jump(holds))
+                    }
+                    Truth::False => {
+                        self.assume(table, condition, false, state);
+                        Ok(Outcome::Jump(fails))
+                    }
+                    Truth::Unknown => Ok(self.both_ways(table, condition, holds, fails, state)),
+                }
+            }
+            OKeyword::EndWhile => links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(to(head)))),
+            OKeyword::Do => {
+                if links.end.is_none() {
+                    return Err(Fault::LoopMismatch);
+                }
+                Ok(Outcome::Next)
+            }
+            OKeyword::Repeat => {
+                let Some(count) = first else { return Err(Fault::Malformed) };
+                let Some(end) = links.end else { return Err(Fault::LoopMismatch) };
+                let value = self.evaluate(place, table, table.expr(count), state)?;
+                let turns = D::known(&value).map(|n| n.round().max(0.0));
+                #[expect(clippy::cast_sign_loss, reason = "not negative")]
+                match turns {
+                    Some(0.0) => Ok(Outcome::Jump(to(end + 1))),
+                    Some(turns) => {
+                        self.set_counter(at, Some(turns.min(f64::from(u32::MAX)) as u32), state);
+                        Ok(Outcome::Next)
+                    }
+                    None => {
+                        let skipped = state.clone();
+                        self.set_counter(at, None, state);
+                        Ok(Outcome::Fork(vec![(at.next(), state.clone()), (to(end + 1), skipped)]))
+                    }
+                }
+            }
+            OKeyword::EndRepeat => {
+                let Some(head) = links.head.map(to) else { return Err(Fault::LoopMismatch) };
+                let counter = state.frames.last().and_then(|f| f.counters.iter().find(|(block, _)| *block == head));
+                match counter.map(|(_, count)| *count) {
+                    Some(Some(left)) if left > 1 => {
+                        self.set_counter(head, Some(left - 1), state);
+                        Ok(Outcome::Jump(head.next()))
+                    }
+                    Some(Some(_)) | None => {
+                        self.drop_counter(head, state);
+                        Ok(Outcome::Next)
+                    }
+                    Some(None) => {
+                        let mut done = state.clone();
+                        self.drop_counter(head, &mut done);
+                        Ok(Outcome::Fork(vec![(head.next(), state.clone()), (at.next(), done)]))
+                    }
+                }
+            }
+            OKeyword::Break => match links.leads_to {
+                Some(end) => {
+                    if let Some(head) = links.head {
+                        self.drop_counter(to(head), state);
+                    }
+                    Ok(Outcome::Jump(to(end + 1)))
+                }
+                None => Err(Fault::LoopMismatch),
+            },
+            OKeyword::Continue => links.leads_to.map_or(Err(Fault::LoopMismatch), |end| {
+                let block = match (links.head, end) {
+                    // A WHILE decides at its head.
+                    (Some(head), end) if end == head => head,
+                    (_, end) => end,
+                };
+                Ok(Outcome::Jump(to(block)))
+            }),
+        }
+    }
+
+    /// The branch of an IF that was jumped to because the condition before it failed.
+    fn want_branch(&mut self, branch: Option<At>, state: &mut State<D>) {
+        if let Some(frame) = state.frames.last_mut() {
+            frame.wanted_branch = branch;
+        }
+    }
+
+    fn branch_wanted(&self, at: At, state: &State<D>) -> bool {
+        state.frames.last().is_some_and(|frame| frame.wanted_branch == Some(at))
+    }
+
+    fn set_counter(&mut self, block: At, count: Option<u32>, state: &mut State<D>) {
+        let Some(frame) = state.frames.last_mut() else { return };
+        match frame.counters.iter_mut().find(|(at, _)| *at == block) {
+            Some((_, slot)) => *slot = count,
+            None => frame.counters.push((block, count)),
+        }
+    }
+
+    fn drop_counter(&mut self, block: At, state: &mut State<D>) {
+        if let Some(frame) = state.frames.last_mut() {
+            frame.counters.retain(|(at, _)| *at != block);
+        }
+    }
+}

@@ -1,0 +1,397 @@
+//! Codes: what each effect changes.
+//!
+//! Knows: modes and which handler an effect has. Must not know: motion.
+
+use gcheck_controls::{CodeIx, Effect, Letter, LocalShift};
+use gcheck_geometry::{Mm, Plane};
+use gcheck_program::{Place, Word};
+
+use super::{Count, Ending, Executor, Flow, Step};
+use crate::assumption::Assumption;
+use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Spindle, Stop, Units};
+use crate::fault::{CompensationFault, Fault};
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::{CycleWords, State};
+use crate::value::{Domain, Truth};
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Carries out one code of the block.
+    pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
+        let Some(code) = self.model.code(ix).copied() else { return Ok(()) };
+        if let Some(role) = code.role {
+            self.guard_frozen(role, ix, state)?;
+            self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);
+        }
+        self.effect(code.effect, ix, place, words, state)
+    }
+
+    /// Planes, units, offsets and tools must not change under cutter compensation on some controls.
+    fn guard_frozen(&self, role: Role, ix: CodeIx, state: &State<D>) -> Step {
+        if !self.model.semantics().compensation.freezes_modes || !self.compensates(state) {
+            return Ok(());
+        }
+        match role {
+            Role::Plane | Role::Length | Role::WorkOffset if state.mode(role).only() != Some(ix) || role != Role::Plane => {
+                Err(Fault::Compensation(CompensationFault::NotWhileOn))
+            }
+            Role::Compensation
+                if !matches!(self.model.effect(ix), Effect::CompensationOff) =>
+            {
+                Err(Fault::Compensation(CompensationFault::AlreadyOn))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Is cutter compensation on, as far as is known?
+    pub(super) fn compensates(&self, state: &State<D>) -> bool {
+        matches!(
+            state.effect(Role::Compensation, self.model),
+            Some(
+                Effect::CompensationLeft
+                    | Effect::CompensationRight
+                    | Effect::CompensationLeftByDiameter
+                    | Effect::CompensationRightByDiameter
+            )
+        )
+    }
+
+    /// Makes a code the one in effect of its role.
+    fn switch(&mut self, role: Role, ix: CodeIx, lasts: bool, state: &mut State<D>) {
+        match role {
+            Role::Motion => {
+                state.set_mode(Role::Motion, ix);
+                if self.model.semantics().cycles.motion_ends_cycle {
+                    self.end_cycle(state);
+                }
+            }
+            Role::Cycle if self.model.effect(ix) == Effect::CycleCancel => {
+                self.end_cycle(state);
+                if self.shares_motion_group(ix) {
+                    state.set_mode(Role::Motion, CodeIx::NONE);
+                }
+            }
+            Role::Cycle => {
+                let running = state.active_cycle(self.model).is_some_and(CodeIx::is_some);
+                if !running {
+                    let sticky = state.cycle;
+                    state.cycle = CycleWords::NONE;
+                    if self.shares_motion_group(ix) {
+                        // Words of an earlier series stay known there: `R` may be left out of the next one.
+                        state.cycle = CycleWords { initial: f64::NAN, ..sticky };
+                    }
+                }
+                state.set_mode(Role::Cycle, ix);
+                if self.shares_motion_group(ix) {
+                    state.set_mode(Role::Motion, CodeIx::NONE);
+                }
+            }
+            _ if lasts => state.set_mode(role, ix),
+            _ => {}
+        }
+        self.emit(state, Event::Modal(ix));
+    }
+
+    fn end_cycle(&mut self, state: &mut State<D>) {
+        let cancel = self.model.code_with(Effect::CycleCancel);
+        if state.mode(Role::Cycle).only() != Some(cancel) {
+            state.set_mode(Role::Cycle, cancel);
+            state.cycle.initial = f64::NAN;
+        }
+    }
+
+    /// Cycles and motion are one modal group on this control, so that a cycle replaces the motion mode.
+    fn shares_motion_group(&self, _: CodeIx) -> bool {
+        let group = |effect| self.model.code(self.model.code_with(effect)).map(|code| code.group);
+        group(Effect::CycleDrill) == group(Effect::Linear)
+    }
+
+    #[expect(clippy::too_many_lines, reason = "one arm for each effect: the table that ties codes to handlers")]
+    fn effect(
+        &mut self,
+        effect: Effect,
+        ix: CodeIx,
+        place: &Place,
+        words: &[Word],
+        state: &mut State<D>,
+    ) -> Step {
+        use Effect as E;
+        match effect {
+            E::PlaneXy => self.emit(state, Event::Plane(Plane::Xy)),
+            E::PlaneZx => self.emit(state, Event::Plane(Plane::Zx)),
+            E::PlaneYz => self.emit(state, Event::Plane(Plane::Yz)),
+            E::Inch => self.emit(state, Event::Units(Units::Inch)),
+            E::Millimetre => self.emit(state, Event::Units(Units::Mm)),
+            E::FeedInverseTime => self.feed_mode(FeedMode::InverseTime, state),
+            E::FeedPerMinute => self.feed_mode(FeedMode::PerMinute, state),
+            E::FeedPerRevolution => self.feed_mode(FeedMode::PerRevolution, state),
+            E::ExactPath => self.path_mode(PathMode::ExactPath, state),
+            E::ExactStop => self.path_mode(PathMode::ExactStop, state),
+            E::PathBlending => self.blending(state),
+            E::SurfaceSpeed | E::ConstantSpeed => self.spindle_mode(effect, state)?,
+            E::CompensationOff => self.compensation_off(state)?,
+            E::CompensationLeft
+            | E::CompensationRight
+            | E::CompensationLeftByDiameter
+            | E::CompensationRightByDiameter
+            | E::CompensationVector => self.compensation_on(effect, state)?,
+            E::LengthOff
+            | E::LengthPlus
+            | E::LengthMinus
+            | E::LengthFromBlock
+            | E::LengthAdd
+            | E::LengthFiveAxis
+            | E::ToolCentrePoint => self.length_code(effect, state)?,
+            E::WorkOffset(number) => self.select_work_offset(Some(number), state),
+            E::WorkOffsetByP(first) => {
+                let number = match self.count(Letter::of('P'))? {
+                    Some(Count::Known(p)) if p > 0 => u16::try_from(p).ok().and_then(|p| first.checked_add(p - 1)),
+                    Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('P'))),
+                    Some(Count::Unknown) => None,
+                    None => return Err(Fault::MissingWord(Letter::of('P'))),
+                };
+                self.select_work_offset(number, state);
+            }
+            E::ScalingOn | E::ScalingOff | E::RotationOn | E::RotationOff | E::MirrorOn | E::MirrorOff => {
+                self.transform_code(effect, state)?;
+            }
+            E::PolarOn | E::PolarOff => state.polar = [0.0; 2],
+            E::CylinderMapping => self.cylinder(ix, state)?,
+            E::PolarInterpolationOn
+            | E::PolarInterpolationOff
+            | E::DynamicOffsetOn
+            | E::DynamicOffsetOff
+            | E::TiltedPlaneOn
+            | E::TiltedPlaneOff => self.unknown_frame(ix, state),
+
+            E::Dwell => self.dwell(state)?,
+            E::WriteOffsets => self.write_offsets(state)?,
+            E::LocalShift => self.local_shift(state)?,
+            E::SetPosition => self.set_position(state)?,
+            E::SpeedLimitOrSetPosition => {
+                if self.words.has(Letter::of('S')) {
+                    state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+                } else {
+                    self.set_position(state)?;
+                }
+            }
+            E::ClearShift => self.clear_shift(state, false),
+            E::SuspendShift => self.clear_shift(state, true),
+            E::RestoreShift => self.restore_shift(state),
+            E::ReturnReference(number) => self.return_reference(number, state)?,
+            E::ReturnFromReference => self.return_from_reference(state)?,
+            E::StoreReference(number) => self.store_reference(number, state),
+
+            E::Skip => self.skip_move(state)?,
+            E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => self.measure(effect, state)?,
+            E::KeepTouch => {}
+
+            E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => self.profile_cycle(effect, ix, state)?,
+            E::GrooveFace | E::GrooveDiameter => self.groove_cycle(effect, state)?,
+            E::ThreadCycle => self.thread_cycle(state)?,
+            E::CircularPocketClockwise | E::CircularPocketCounterClockwise => self.circular_pocket(effect, state)?,
+            E::GeneralPocket => self.general_pocket(state)?,
+            E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
+            E::Engrave | E::BarFeed => self.opaque_operation(ix, state),
+            E::NurbsClose => self.nurbs_close(state)?,
+
+            E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
+            E::MacroModalOff => state.macro_modal = None,
+            E::CallProgram | E::CallLocal => self.call_code(effect, state)?,
+            E::Return => {
+                let label = self.words.get(Letter::of('P')).cloned();
+                self.flow = Some(Flow::Return { label });
+            }
+            E::JumpUnlessInput => self.jump_unless_input(state)?,
+
+            E::Stop => self.emit(state, Event::Stop(Stop::Program)),
+            E::OptionalStop => {
+                if !self.options.optional_stop {
+                    self.assumptions.insert(Assumption::OptionalStop);
+                }
+                self.emit(state, Event::Stop(Stop::Optional));
+            }
+            E::PalletStop => {
+                self.emit(state, Event::PalletChange);
+                self.emit(state, Event::Stop(Stop::Pallet));
+            }
+            E::ProgramEnd | E::ProgramEndWithPallet => {
+                self.end_program(effect == E::ProgramEndWithPallet, state)?;
+                self.flow = Some(Flow::End(Ending::Program));
+            }
+            E::SaveModes | E::SaveModesUntilReturn => self.save_modes(effect == E::SaveModesUntilReturn, state),
+            E::ForgetModes => {
+                if let Some(frame) = state.frames.last_mut() {
+                    frame.saved = None;
+                }
+            }
+            E::RestoreModes => self.restore_modes(state)?,
+            E::UserCommand => self.user_command(ix, state),
+
+            E::SpindleClockwise => self.spindle(Spindle::Clockwise, state)?,
+            E::SpindleCounterClockwise => self.spindle(Spindle::CounterClockwise, state)?,
+            E::SpindleClockwiseWithCoolant => {
+                self.spindle(Spindle::Clockwise, state)?;
+                self.coolant(Coolant::Flood, true, state);
+            }
+            E::SpindleCounterClockwiseWithCoolant => {
+                self.spindle(Spindle::CounterClockwise, state)?;
+                self.coolant(Coolant::Flood, true, state);
+            }
+            E::SpindleStop => self.spindle(Spindle::Stopped, state)?,
+            E::SpindleOrient => self.orient(state)?,
+            E::LiveToolOn => state.live_tool = Truth::True,
+            E::LiveToolOff => state.live_tool = Truth::False,
+            E::ToolChange => self.tool_change(state)?,
+            E::SetToolNumber => self.set_tool_number(state)?,
+            E::MistOn => self.coolant(Coolant::Mist, true, state),
+            E::FloodOn => self.coolant(Coolant::Flood, true, state),
+            E::ThroughCoolantOn => self.coolant(Coolant::Through, true, state),
+            E::ThroughCoolantOff => self.coolant(Coolant::Through, false, state),
+            E::CoolantOff => {
+                self.coolant(Coolant::Mist, false, state);
+                self.coolant(Coolant::Flood, false, state);
+            }
+            E::OverridesOn | E::OverridesOff => {
+                let on = effect == E::OverridesOn;
+                state.feed_override = if on { Truth::True } else { Truth::False };
+                state.speed_override = state.feed_override;
+                self.emit(state, Event::Override { kind: Override::Feed, on });
+                self.emit(state, Event::Override { kind: Override::Speed, on });
+            }
+            E::FeedOverride | E::SpeedOverride | E::AdaptiveFeed | E::FeedStopInput => self.switch_override(effect, state),
+            E::OutputOnWithMove | E::OutputOffWithMove | E::OutputOn | E::OutputOff => self.digital_output(effect, state)?,
+            E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
+            E::WaitForInput => self.wait_for_input(state)?,
+            E::ChuckClamp => self.emit(state, Event::Chuck(true)),
+            E::ChuckUnclamp => self.emit(state, Event::Chuck(false)),
+            // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn feed_mode(&mut self, mode: FeedMode, state: &mut State<D>) {
+        self.emit(state, Event::FeedMode(mode));
+        if self.model.semantics().feed_mode_clears_feed {
+            state.feed = D::number(0.0);
+            if mode != FeedMode::InverseTime {
+                self.emit(state, Event::FeedRate(0.0));
+            }
+        }
+    }
+
+    pub(super) fn path_mode(&mut self, mode: PathMode, state: &mut State<D>) {
+        self.emit(state, Event::PathMode(mode));
+    }
+
+    fn blending(&mut self, state: &mut State<D>) {
+        let tolerance = self.length(Letter::of('P'), state).map_or(0.0, |p| p.max(0.0));
+        let naive = self.length(Letter::of('Q'), state).filter(|q| *q >= 0.0);
+        state.blending = (tolerance, naive);
+        self.path_mode(blending_mode(state.blending), state);
+    }
+
+    /// The path mode in effect, as it is announced.
+    pub(super) fn current_path_mode(&self, state: &State<D>) -> PathMode {
+        match state.effect(Role::PathControl, self.model) {
+            Some(Effect::ExactPath) => PathMode::ExactPath,
+            Some(Effect::ExactStop) => PathMode::ExactStop,
+            _ => blending_mode(state.blending),
+        }
+    }
+
+    fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {
+        let on = self.words.number(Letter::of('P')).is_none_or(|p| p != 0.0);
+        let truth = if on { Truth::True } else { Truth::False };
+        let kind = match effect {
+            Effect::FeedOverride => {
+                state.feed_override = truth;
+                Override::Feed
+            }
+            Effect::SpeedOverride => {
+                state.speed_override = truth;
+                Override::Speed
+            }
+            Effect::AdaptiveFeed => {
+                state.adaptive = truth;
+                Override::Adaptive
+            }
+            _ => {
+                state.feed_hold = truth;
+                Override::FeedStop
+            }
+        };
+        self.emit(state, Event::Override { kind, on });
+    }
+
+    pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
+        let truth = if on { Truth::True } else { Truth::False };
+        match kind {
+            Coolant::Mist => state.mist = truth,
+            Coolant::Flood => state.flood = truth,
+            Coolant::Through => {}
+        }
+        self.emit(state, Event::Coolant { kind, on });
+    }
+
+    /// A frame whose geometry depends on the machine: from here on positions are not known.
+    fn unknown_frame(&mut self, ix: CodeIx, state: &mut State<D>) {
+        let on = matches!(
+            self.model.effect(ix),
+            Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn
+        );
+        if on {
+            self.assumptions.insert(Assumption::Code(ix));
+        }
+        let mut unknown = state.actual;
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            unknown.set(axis, f64::NAN);
+        }
+        state.actual = unknown;
+        state.position = unknown;
+    }
+
+    /// Work done by the machine that gcheck does not follow: the axes end nobody knows where.
+    pub(super) fn opaque_operation(&mut self, ix: CodeIx, state: &mut State<D>) {
+        self.assumptions.insert(Assumption::Code(ix));
+        state.actual = Position::UNKNOWN;
+        state.position = Position::UNKNOWN;
+    }
+
+    fn user_command(&mut self, ix: CodeIx, state: &mut State<D>) {
+        let number = self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() / 10);
+        let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
+        let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
+        self.emit(state, Event::UserCommand { number, p, q });
+    }
+
+    /// `G107`: mapping on, off, or a new default diameter.
+    fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+        let diameter = self
+            .length(Letter::of('Q'), state)
+            .or_else(|| self.length(Letter::of('R'), state).map(|r| 2.0 * r));
+        let rotary = self.words.has(Letter::of('A')) || self.words.has(Letter::of('B')) || self.words.has(Letter::of('C'));
+        let linear = ['X', 'Y', 'Z'].into_iter().any(|l| self.words.has(Letter::of(l)));
+        if linear || diameter.is_some() || rotary {
+            state.cylinder = Some(diameter.map_or(f64::NAN, |d| d / 2.0));
+        } else {
+            state.cylinder = None;
+            state.set_mode(Role::Cylinder, CodeIx::NONE);
+        }
+        self.unknown_frame(ix, state);
+        Ok(())
+    }
+
+    /// Both shifts together, as one on controls where they are one.
+    pub(super) fn shifts_are_one(&self) -> bool {
+        self.model.semantics().local_shift == LocalShift::Shared
+    }
+}
+
+/// Blending as it is announced.
+pub(super) fn blending_mode((tolerance, naive): (f64, Option<f64>)) -> PathMode {
+    PathMode::Blending { tolerance: Mm(tolerance), naive: naive.map(Mm) }
+}

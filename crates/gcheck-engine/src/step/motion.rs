@@ -1,0 +1,401 @@
+//! Straight moves, and which kind of motion a block makes.
+//!
+//! Knows: targets from words (absolute, incremental, polar, machine coordinates), feed conditions. Must not know: arcs' centres,
+//! cycles' strokes, offsets' values.
+
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
+use gcheck_geometry::{Bezier, Mm};
+use nalgebra::Point2;
+
+use super::{Executor, Step};
+use crate::event::{Curve, CurvePiece, Event, FeedMode, Travel, TravelKind};
+use crate::fault::{CompensationFault, Fault};
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::State;
+use crate::value::Domain;
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Moves as the active mode says.
+    pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
+        let present = self.words.present();
+        let has_axes = present.intersects(self.model.axis_letters) || present.intersects(LetterSet::of("@^"));
+        let Some(cycle) = state.active_cycle(self.model) else { return self.lose_position(state) };
+        if cycle.is_some() {
+            return self.cycle(cycle, state);
+        }
+        let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_position(state) };
+        let effect = self.model.effect(mode);
+        if has_axes && self.machine_coordinates && !matches!(effect, Effect::Rapid | Effect::Linear) {
+            if self.model.semantics().machine_coordinates_rapid {
+                return self.straight(TravelKind::Rapid, state);
+            }
+            return Err(Fault::NoMotionMode);
+        }
+        match effect {
+            Effect::Rapid if has_axes => self.straight(TravelKind::Rapid, state),
+            Effect::Linear if has_axes => self.straight(TravelKind::Feed, state),
+            Effect::ArcClockwise | Effect::ArcCounterClockwise => {
+                if has_axes || present.intersects(LetterSet::of("IJKR")) {
+                    self.arc(effect == Effect::ArcCounterClockwise, state)
+                } else if self.words.codes().contains(&mode) {
+                    // `G2` alone chooses the mode; some controls refuse it.
+                    self.bare_motion_code()
+                } else {
+                    Ok(())
+                }
+            }
+            Effect::Thread | Effect::RigidTap if has_axes => self.thread_move(effect, state),
+            Effect::ProbeToward
+            | Effect::ProbeTowardOptional
+            | Effect::ProbeAway
+            | Effect::ProbeAwayOptional
+                if has_axes =>
+            {
+                self.probe_move(effect, state)
+            }
+            Effect::TurningPass | Effect::ThreadingPass | Effect::FacingPass if has_axes => {
+                self.turning_pass(effect, state)
+            }
+            Effect::SplineCubic | Effect::SplineQuadratic if has_axes => self.spline(effect, state),
+            Effect::NurbsOpen => self.nurbs_point(state),
+            Effect::Rapid => Ok(()),
+            Effect::Linear => {
+                // `G1` without axis words is the place where a missing feed is found on some controls.
+                if self.words.codes().contains(&mode) { self.check_feed_of_code(state) } else { Ok(()) }
+            }
+            Effect::None if mode == CodeIx::NONE && has_axes => Err(Fault::NoMotionMode),
+            Effect::None if has_axes => self.lose_position(state),
+            _ => self.bare_motion_code(),
+        }
+    }
+
+    fn bare_motion_code(&self) -> Step {
+        if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) }
+    }
+
+    /// Controls that refuse words and codes that do not fit together.
+    pub(super) fn refuses_incomplete(&self) -> bool {
+        self.model.semantics().compensation.freezes_modes
+    }
+
+    fn check_feed_of_code(&self, state: &State<D>) -> Step {
+        if self.refuses_incomplete() && D::known(&state.feed) == Some(0.0) && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
+        {
+            return Err(Fault::NoFeed);
+        }
+        Ok(())
+    }
+
+    /// A move whose mode is not known: the named axes end nobody knows where.
+    fn lose_position(&mut self, state: &mut State<D>) -> Step {
+        for letter in self.words.present().iter() {
+            if let Some((axis, _)) = self.model.axis_of(letter) {
+                state.position.set(axis, f64::NAN);
+                state.actual.set(axis, f64::NAN);
+            }
+        }
+        Ok(())
+    }
+
+    /// The programmed point of the block: axes that it does not name stay.
+    pub(super) fn target(&mut self, state: &State<D>) -> Step<Position> {
+        let mut target = state.position;
+        let incremental = state.is_incremental(self.model);
+        let unit = self.unit(state);
+        let axes = self.words.present().and(self.model.axis_letters);
+        for letter in axes.iter() {
+            let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
+            let Some(mut value) = self.words.number(letter) else { continue };
+            if let Some(machine) = &self.machine.axes
+                && !machine.contains(&axis)
+            {
+                return Err(Fault::NoSuchAxis(letter));
+            }
+            if !axis.is_rotary() {
+                value *= unit;
+            }
+            if axis == Axis::X && state.is_diameter(self.model) != Some(false) {
+                value = if state.is_diameter(self.model).is_some() { value / 2.0 } else { f64::NAN };
+            }
+            let value = match (is_increment, incremental) {
+                (true, _) | (false, Some(true)) => target.raw(axis) + value,
+                (false, Some(false)) => value,
+                (false, None) => f64::NAN,
+            };
+            target.set(axis, value);
+        }
+        if self.words.present().intersects(LetterSet::of("@^")) {
+            self.polar_target(&mut target, state)?;
+        } else if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) {
+            self.polar_words(&mut target, state);
+        }
+        Ok(target)
+    }
+
+    /// `@` and `^`: distance and angle from the XY origin.
+    fn polar_target(&mut self, target: &mut Position, state: &State<D>) -> Step {
+        let (x, y) = (state.position.raw(Axis::X), state.position.raw(Axis::Y));
+        if self.words.has(Letter::of('X')) || self.words.has(Letter::of('Y')) || self.machine_coordinates {
+            return Err(Fault::Conflict);
+        }
+        let incremental = state.is_incremental(self.model) == Some(true);
+        let (old_radius, old_angle) = (x.hypot(y), y.atan2(x).to_degrees());
+        let unit = self.unit(state);
+        let radius = self.words.number(Letter::AT).map(|r| r * unit);
+        let angle = self.words.number(Letter::CARET);
+        if incremental && old_radius == 0.0 && angle.is_some() && !self.words.has(Letter::AT) {
+            return Ok(());
+        }
+        let radius = match (radius, incremental) {
+            (Some(r), true) => old_radius + r,
+            (Some(r), false) => r,
+            (None, _) => old_radius,
+        };
+        let angle = match (angle, incremental) {
+            (Some(a), true) => old_angle + a,
+            (Some(a), false) => a,
+            (None, _) => old_angle,
+        };
+        let (sin, cos) = angle.to_radians().sin_cos();
+        target.set(Axis::X, radius * cos);
+        target.set(Axis::Y, radius * sin);
+        Ok(())
+    }
+
+    /// `G16`: the plane's first word is a radius, the second an angle in degrees.
+    fn polar_words(&mut self, target: &mut Position, state: &State<D>) {
+        let Some(plane) = state.plane(self.model) else { return };
+        let (first, second, _) = plane.axes();
+        let (Some(first), Some(second)) = (Axis::ALL.get(first), Axis::ALL.get(second)) else { return };
+        if !self.words.has(first.letter()) && !self.words.has(second.letter()) {
+            return;
+        }
+        let (x, y) = (state.position.raw(*first), state.position.raw(*second));
+        let radius = self.words.number(first.letter()).map_or(x.hypot(y), |r| r * self.unit(state));
+        let angle = self.words.number(second.letter()).unwrap_or_else(|| y.atan2(x).to_degrees());
+        let (sin, cos) = angle.to_radians().sin_cos();
+        target.set(*first, radius * cos);
+        target.set(*second, radius * sin);
+    }
+
+    /// `G0`, `G1`.
+    fn straight(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
+        if self.machine_coordinates {
+            return self.machine_move(kind, state);
+        }
+        let target = self.target(state)?;
+        let checked = if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) };
+        self.travel(kind, target, false, state)?;
+        checked
+    }
+
+    /// Is the feed good for a cut in this block?
+    pub(super) fn check_feed(&self, state: &State<D>) -> Step {
+        match state.feed_mode(self.model) {
+            Some(FeedMode::InverseTime) => {
+                if !self.words.has(Letter::of('F')) {
+                    return Err(Fault::NoInverseTimeFeed);
+                }
+                if self.words.number(Letter::of('F')).is_some_and(|f| f <= 0.0) {
+                    return Err(Fault::NoFeed);
+                }
+            }
+            Some(FeedMode::PerRevolution) => {
+                if D::known(&state.feed) == Some(0.0) {
+                    return Err(Fault::NoFeed);
+                }
+                if self.refuses_incomplete() && D::known(&state.speed) == Some(0.0) {
+                    return Err(Fault::SpindleStopped);
+                }
+            }
+            _ => {
+                if D::known(&state.feed) == Some(0.0) {
+                    return Err(Fault::NoFeed);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// `G53`: the words are machine coordinates.
+    fn machine_move(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
+        if state.is_incremental(self.model) == Some(true) && self.refuses_incomplete() {
+            return Err(Fault::Conflict);
+        }
+        if self.compensates(state) && self.refuses_incomplete() {
+            return Err(Fault::Compensation(CompensationFault::NotWhileOn));
+        }
+        let unit = self.unit(state);
+        let mut machine = state.machine();
+        let axes = self.words.present().and(self.model.axis_letters);
+        let diameter = state.is_diameter(self.model) == Some(true);
+        for letter in axes.iter() {
+            let Some((axis, _)) = self.model.axis_of(letter) else { continue };
+            let Some(value) = self.words.number(letter) else { continue };
+            let value = if axis.is_rotary() { value } else { value * unit };
+            machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
+        }
+        let target = state.from_machine(&machine);
+        let checked = if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) };
+        // Axes that the block does not name stay where they are, known or not.
+        let mut to = state.actual;
+        for axis in Axis::ALL {
+            let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
+            if axes.contains(axis.letter()) || rotated {
+                to.set(axis, target.raw(axis));
+            }
+        }
+        self.travel_to(kind, to, to, false, state);
+        state.position = self.programmed_of(&to, state);
+        checked
+    }
+
+    /// A straight move to a programmed point.
+    pub(super) fn travel(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) -> Step {
+        if state.compensation.is_some() {
+            return self.compensated_line(kind, target, state);
+        }
+        let to = self.axes_of(&target, state);
+        self.travel_to(kind, target, to, expanded, state);
+        state.position = target;
+        Ok(())
+    }
+
+    fn travel_to(
+        &mut self,
+        kind: TravelKind,
+        programmed: Position,
+        to: Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) {
+        let travel = Travel { kind, from: state.actual, programmed, to, expanded };
+        state.actual = to;
+        self.emit(state, Event::Travel(travel));
+    }
+
+    /// `G33`, `G33.1`, lathe `G32`.
+    fn thread_move(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        let lead = self.length(Letter::of('K'), state).or_else(|| {
+            let per_turn = self.words.number(Letter::of('F')).map(|f| f * self.unit(state));
+            per_turn.or_else(|| D::known(&state.feed).filter(|f| *f > 0.0))
+        });
+        let Some(lead) = lead else {
+            let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
+            self.travel(TravelKind::Thread, target, false, state)?;
+            return Err(Fault::MissingWord(Letter::of(missing)));
+        };
+        if self.refuses_incomplete() && Self::spindle_turns(state) == Some(false) {
+            return Err(Fault::SpindleStopped);
+        }
+        if effect == Effect::RigidTap {
+            if self.refuses_incomplete()
+                && [Axis::X, Axis::Y].into_iter().any(|a| target.raw(a).to_bits() != state.position.raw(a).to_bits())
+            {
+                return Err(Fault::Conflict);
+            }
+            let scale = self.words.number(Letter::of('I')).unwrap_or(1.0);
+            self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
+            self.emit(state, Event::RigidTap { from: state.actual, to: target, scale });
+            self.emit(state, Event::SpindleSync { lead: None, velocity: false });
+            return Ok(());
+        }
+        self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
+        self.travel(TravelKind::Thread, target, false, state)?;
+        self.emit(state, Event::SpindleSync { lead: None, velocity: false });
+        Ok(())
+    }
+
+    /// `G5`, `G5.1`: Bézier curves in XY.
+    fn spline(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        if self.compensates(state) {
+            return Err(Fault::Compensation(CompensationFault::NotWhileOn));
+        }
+        let target = self.target(state)?;
+        self.check_feed(state)?;
+        let offset = |letter: char| self.length(Letter::of(letter), state);
+        let (i, j) = (offset('I'), offset('J'));
+        let (p, q) = (offset('P'), offset('Q'));
+        let start = [state.position.raw(Axis::X), state.position.raw(Axis::Y)];
+        let end = [target.raw(Axis::X), target.raw(Axis::Y)];
+        let points = if effect == Effect::SplineQuadratic {
+            let (Some(i), Some(j)) = (i, j) else { return Err(Fault::MissingWord(Letter::of('I'))) };
+            if i == 0.0 && j == 0.0 {
+                return Err(Fault::WordRange(Letter::of('I')));
+            }
+            vec![start, [start[0] + i, start[1] + j], end]
+        } else {
+            let (Some(p), Some(q)) = (p, q) else { return Err(Fault::MissingWord(Letter::of('P'))) };
+            let first = match (i, j, &state.nurbs) {
+                (Some(i), Some(j), _) => [i, j],
+                (None, None, Some(last)) => last.first().map_or([0.0; 2], |l| [-l[0], -l[1]]),
+                (None, None, None) => [0.0; 2],
+                _ => return Err(Fault::MissingWord(Letter::of('I'))),
+            };
+            state.nurbs = Some(Rc::new(vec![[p, q, 0.0]]));
+            vec![start, [start[0] + first[0], start[1] + first[1]], [end[0] + p, end[1] + q], end]
+        };
+        let count = points.len() as u32;
+        let chords = chords(&points);
+        let curve = Curve { from: state.actual, to: target, points: count, pieces: chords };
+        state.actual = target;
+        state.position = target;
+        self.emit(state, Event::Curve(curve));
+        Ok(())
+    }
+
+    /// A control point of a NURBS block.
+    fn nurbs_point(&mut self, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        let weight = self.words.number(Letter::of('P')).unwrap_or(1.0);
+        if weight <= 0.0 {
+            return Err(Fault::WordRange(Letter::of('P')));
+        }
+        let mut points = match state.nurbs.take() {
+            Some(points) if !self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::NurbsOpen) => {
+                (*points).clone()
+            }
+            _ => {
+                self.check_feed(state)?;
+                vec![[state.position.raw(Axis::X), state.position.raw(Axis::Y), 1.0]]
+            }
+        };
+        points.push([target.raw(Axis::X), target.raw(Axis::Y), weight]);
+        state.nurbs = Some(Rc::new(points));
+        Ok(())
+    }
+
+    /// `G5.3`: the curve is cut.
+    pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
+        let Some(points) = state.nurbs.take() else { return Err(Fault::NoMotionMode) };
+        let mut to = state.position;
+        if let Some([x, y, _]) = points.last() {
+            to.set(Axis::X, *x);
+            to.set(Axis::Y, *y);
+        }
+        let polygon: Vec<[f64; 2]> = points.iter().map(|[x, y, _]| [*x, *y]).collect();
+        let pieces: Rc<[CurvePiece]> = polygon.iter().skip(1).map(|[x, y]| CurvePiece::Line([Mm(*x), Mm(*y)])).collect();
+        let curve = Curve { from: state.actual, to, points: points.len() as u32, pieces };
+        state.actual = to;
+        state.position = to;
+        self.emit(state, Event::Curve(curve));
+        state.set_mode(Role::Motion, CodeIx::NONE);
+        Ok(())
+    }
+}
+
+/// A Bézier curve as chords within a hundredth of a millimetre.
+fn chords(points: &[[f64; 2]]) -> Rc<[CurvePiece]> {
+    let control: Vec<Point2<f64>> = points.iter().map(|[x, y]| Point2::new(*x, *y)).collect();
+    let curve = match control.as_slice() {
+        [a, b, c] => Bezier::Quadratic([*a, *b, *c]),
+        [a, b, c, d] => Bezier::Cubic([*a, *b, *c, *d]),
+        _ => return Rc::from([]),
+    };
+    curve.linearised(Mm(0.01)).into_iter().map(|point| CurvePiece::Line([Mm(point.x), Mm(point.y)])).collect()
+}

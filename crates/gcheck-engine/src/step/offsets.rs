@@ -1,0 +1,556 @@
+//! Work offsets, shifts, tool lengths: codes that move the coordinates, not the axes.
+//!
+//! Knows: G10, G43 to G49, G52, G54 and its kin, G92. Must not know: moves.
+//!
+//! The axes stay where they are, so the position in work coordinates changes by what the offsets change.
+
+use std::rc::Rc;
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_geometry::Mm;
+
+use super::{Count, Executor, Step};
+use crate::assumption::Assumption;
+use crate::event::{Event, ToolEntry};
+use crate::fault::Fault;
+use crate::machine::WorkOffset;
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::{State, rotate};
+use crate::value::Domain;
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Changes offsets while the axes stand still.
+    fn reframe(&mut self, state: &mut State<D>, change: impl FnOnce(&mut State<D>)) {
+        let before = Frame::of(state);
+        let old = state.actual;
+        change(state);
+        let after = Frame::of(state);
+        if before.same(&after) {
+            return;
+        }
+        state.actual = if before.rotation == 0.0 && after.rotation == 0.0 {
+            old + before.less(&after)
+        } else {
+            after.from_machine(&before.to_machine(&old))
+        };
+        state.position = self.programmed_of(&state.actual, state);
+    }
+
+    /// `G54` and its kin.
+    pub(super) fn select_work_offset(&mut self, number: Option<u16>, state: &mut State<D>) {
+        self.reframe(state, |state| state.work = number);
+        if let Some(number) = number
+            && !state.tables.offset(number).origin.is_known()
+        {
+            self.assumptions.insert(Assumption::WorkOffset(number));
+        }
+        self.announce_offset(state);
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
+        self.announce_rotation(state);
+    }
+
+    pub(super) fn announce_offset(&mut self, state: &mut State<D>) {
+        let WorkOffset { origin, rotation } = state.work_offset();
+        let number = state.work.unwrap_or(0);
+        self.emit(state, Event::WorkOffset { number, offset: origin, rotation });
+    }
+
+    pub(super) fn announce_rotation(&mut self, state: &mut State<D>) {
+        let rotation = state.work_offset().rotation;
+        self.emit(state, Event::Rotation(rotation));
+    }
+
+    /// The words' values by axis, lengths in millimetres; NaN on axes that the block does not name.
+    fn named_axes(&self, state: &State<D>) -> Position {
+        let mut values = Position::UNKNOWN;
+        let diameter = state.is_diameter(self.model) == Some(true);
+        let unit = self.unit(state);
+        for axis in &self.model.axes {
+            if let Some(value) = self.words.number(axis.letter()) {
+                let value = if axis.is_rotary() { value } else { value * unit };
+                values.set(*axis, if *axis == Axis::X && diameter { value / 2.0 } else { value });
+            }
+        }
+        values
+    }
+
+    /// Axes that the block names, with their values.
+    fn named(&self, state: &State<D>) -> Vec<(Axis, f64)> {
+        let values = self.named_axes(state);
+        let named = self.model.axes.iter().filter(|axis| self.words.has(axis.letter()));
+        named.map(|axis| (*axis, values.raw(*axis))).collect()
+    }
+
+    /// `G92`: the present position reads as programmed.
+    pub(super) fn set_position(&mut self, state: &mut State<D>) -> Step {
+        let named = self.named(state);
+        if named.is_empty() {
+            return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
+        }
+        let position = if state.compensation.is_some() { state.position } else { state.actual };
+        for (axis, value) in &named {
+            // Machine = work + shift stays, so the shift grows by what the position loses.
+            let base = if state.shift_on || !self.shifts_are_one() { state.shift.raw(*axis) } else { 0.0 };
+            state.shift.set(*axis, base + position.raw(*axis) - value);
+            state.actual.set(*axis, *value);
+            state.position.set(*axis, *value);
+        }
+        if !state.shift_on {
+            for axis in Axis::ALL {
+                if !named.iter().any(|(a, _)| *a == axis) {
+                    state.shift.set(axis, 0.0);
+                }
+            }
+            state.shift_on = true;
+        }
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
+        Ok(())
+    }
+
+    /// `G52`.
+    pub(super) fn local_shift(&mut self, state: &mut State<D>) -> Step {
+        let named = self.named(state);
+        let shared = self.shifts_are_one();
+        self.reframe(state, |state| {
+            for (axis, value) in &named {
+                if shared {
+                    state.shift.set(*axis, *value);
+                    state.shift_on = true;
+                } else {
+                    state.local.set(*axis, *value);
+                }
+            }
+        });
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
+        Ok(())
+    }
+
+    /// `G92.1`, `G92.2`.
+    pub(super) fn clear_shift(&mut self, state: &mut State<D>, keep: bool) {
+        self.reframe(state, |state| {
+            state.shift_on = false;
+            if !keep {
+                state.shift = Position::ZERO;
+            }
+        });
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
+    }
+
+    /// `G92.3`.
+    pub(super) fn restore_shift(&mut self, state: &mut State<D>) {
+        self.reframe(state, |state| state.shift_on = true);
+        let shift = state.shift();
+        self.emit(state, Event::Shift(shift));
+    }
+
+    // ---- tool length ----
+
+    pub(super) fn length_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        match effect {
+            Effect::LengthOff => {
+                self.cancel_length(state);
+                Ok(())
+            }
+            Effect::LengthFromBlock => {
+                // With X Y Z as offsets; where the code takes H it is a length along the tool.
+                if self.words.has(Letter::of('H')) {
+                    return self.length_number(1.0, state);
+                }
+                let named = self.named(state);
+                let mut length = Position::ZERO;
+                for (axis, value) in named {
+                    length.set(axis, value);
+                }
+                self.set_length(length, state);
+                Ok(())
+            }
+            Effect::LengthAdd => self.add_length(state),
+            Effect::LengthMinus => self.length_number(-1.0, state),
+            _ => self.length_number(1.0, state),
+        }
+    }
+
+    /// `G43 H…`.
+    fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
+        let rules = self.model.semantics().tools;
+        match self.count(Letter::of('H'))? {
+            Some(Count::Known(number)) => {
+                if number == 0 && !rules.length_from_tool {
+                    // H0 is length zero, and ends the compensation on some controls.
+                    state.h = D::number(0.0);
+                    self.set_length(Position::ZERO, state);
+                    return Ok(());
+                }
+                self.apply_length(number, sign, state)
+            }
+            Some(Count::Unknown) => {
+                state.h = self.words.get(Letter::of('H')).cloned().unwrap_or_else(D::unknown);
+                self.set_length(self.unknown_length(state), state);
+                Ok(())
+            }
+            None if rules.length_from_tool => match D::known(&state.tool) {
+                #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
+                Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
+                Some(_) => {
+                    state.h = D::number(0.0);
+                    self.set_length(Position::ZERO, state);
+                    Ok(())
+                }
+                None => {
+                    state.h = D::unknown();
+                    self.set_length(self.unknown_length(state), state);
+                    Ok(())
+                }
+            },
+            // H stays in effect from before.
+            None => match D::known(&state.h) {
+                #[expect(clippy::cast_sign_loss, reason = "offset numbers are counts")]
+                Some(h) if h > 0.0 => self.apply_length(h as u32, sign, state),
+                _ => {
+                    self.set_length(self.unknown_length(state), state);
+                    Ok(())
+                }
+            },
+        }
+    }
+
+    /// Offsets of a tool of which nothing is known: only along Z on mills.
+    fn unknown_length(&self, state: &State<D>) -> Position {
+        let mut length = Position::ZERO;
+        length.set(Axis::Z, f64::NAN);
+        if state.is_diameter(self.model) == Some(true) {
+            length.set(Axis::X, f64::NAN);
+        }
+        length
+    }
+
+    pub(super) fn apply_length(&mut self, number: u32, sign: f64, state: &mut State<D>) -> Step {
+        state.h = D::number(f64::from(number));
+        if number == 0 && !self.model.semantics().tools.length_from_tool {
+            self.set_length(Position::ZERO, state);
+            return Ok(());
+        }
+        let length = match state.tables.tool(number) {
+            Some(tool) => tool.offset,
+            None if number == 0 => Position::ZERO,
+            None if state.tables.complete => return Err(Fault::NoSuchTool(number)),
+            None => self.unknown_length(state),
+        };
+        if !length.is_known() {
+            self.assumptions.insert(Assumption::ToolLength(number));
+        }
+        let mut signed = length;
+        for axis in Axis::ALL {
+            signed.set(axis, sign * length.raw(axis));
+        }
+        self.set_length(signed, state);
+        Ok(())
+    }
+
+    fn add_length(&mut self, state: &mut State<D>) -> Step {
+        let added = match self.count(Letter::of('H'))? {
+            Some(Count::Known(number)) => match state.tables.tool(number) {
+                Some(tool) => tool.offset,
+                None if state.tables.complete => return Err(Fault::NoSuchTool(number)),
+                None => self.unknown_length(state),
+            },
+            Some(Count::Unknown) => self.unknown_length(state),
+            None => {
+                let mut added = Position::ZERO;
+                for (axis, value) in self.named(state) {
+                    added.set(axis, value);
+                }
+                added
+            }
+        };
+        let length = state.length + added;
+        self.set_length(length, state);
+        Ok(())
+    }
+
+    pub(super) fn cancel_length(&mut self, state: &mut State<D>) {
+        state.h = D::number(0.0);
+        self.set_length(Position::ZERO, state);
+    }
+
+    pub(super) fn set_length(&mut self, length: Position, state: &mut State<D>) {
+        let old = state.length;
+        self.reframe(state, |state| state.length = length);
+        for axis in Axis::ALL {
+            // One unknown length took the place of another.
+            if old.raw(axis).is_nan() && length.raw(axis).is_nan() {
+                state.actual.set(axis, f64::NAN);
+                state.position.set(axis, f64::NAN);
+            }
+        }
+        self.emit(state, Event::LengthOffset(length));
+    }
+
+    // ---- G10 ----
+
+    /// `G10`: writes offsets and tool data.
+    pub(super) fn write_offsets(&mut self, state: &mut State<D>) -> Step {
+        let Some(kind) = self.count(Letter::of('L'))? else {
+            // Without L the forms differ from control to control.
+            self.forget_offsets(state);
+            return if self.refuses_incomplete() { Err(Fault::MissingWord(Letter::of('L'))) } else { Ok(()) };
+        };
+        let Count::Known(kind) = kind else {
+            self.forget_offsets(state);
+            return Ok(());
+        };
+        let number = self.count(Letter::of('P'))?;
+        match kind {
+            2 => self.write_work_offset(number, false, state),
+            20 if self.refuses_incomplete() => self.write_work_offset(number, true, state),
+            20 => {
+                // Extra work offsets: P counts from the first of them.
+                let first = self.model.control().codes().find_map(|code| match code.effect() {
+                    Effect::WorkOffsetByP(first) => Some(first),
+                    _ => None,
+                });
+                let system = match (number, first) {
+                    (Some(Count::Known(p)), Some(first)) if p > 0 => u16::try_from(p).ok().map(|p| first + p - 1),
+                    _ => None,
+                };
+                self.write_work_system(system, false, state);
+                Ok(())
+            }
+            1 | 10..=13 => self.write_tool(kind, number, state),
+            _ if self.refuses_incomplete() => Err(Fault::WordRange(Letter::of('L'))),
+            _ => Ok(()),
+        }
+    }
+
+    fn forget_offsets(&mut self, state: &mut State<D>) {
+        self.reframe(state, |state| Rc::make_mut(&mut state.tables).unsure = true);
+    }
+
+    fn write_work_offset(&mut self, number: Option<Count>, here: bool, state: &mut State<D>) -> Step {
+        let system = match number {
+            Some(Count::Known(0)) if self.refuses_incomplete() => state.work,
+            // P0 is the shift of all systems on other controls.
+            Some(Count::Known(0)) => return Ok(()),
+            Some(Count::Known(p)) => match u16::try_from(p) {
+                Ok(p) if p <= 9 || !self.refuses_incomplete() => Some(p),
+                _ => return Err(Fault::WordRange(Letter::of('P'))),
+            },
+            Some(Count::Unknown) => None,
+            None if self.refuses_incomplete() => return Err(Fault::MissingWord(Letter::of('P'))),
+            None => state.work,
+        };
+        if here && self.words.has(Letter::of('R')) && self.refuses_incomplete() {
+            return Err(Fault::Conflict);
+        }
+        self.write_work_system(system, here, state);
+        Ok(())
+    }
+
+    /// Writes a work coordinate system: its origin, or so that the present position reads as programmed.
+    fn write_work_system(&mut self, system: Option<u16>, here: bool, state: &mut State<D>) {
+        let Some(system) = system else {
+            self.forget_offsets(state);
+            return;
+        };
+        let named = self.named(state);
+        let incremental = state.is_incremental(self.model) == Some(true) && !self.refuses_incomplete();
+        let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
+        let old = state.tables.offset(system);
+        let mut offset = old;
+        if let Some(rotation) = rotation {
+            offset.rotation = rotation;
+        }
+        if here {
+            // Machine position without the shift and tool, turned into the system's own directions.
+            let machine = state.machine() - state.length;
+            let turned = rotate(machine, -offset.rotation);
+            let origin = rotate(offset.origin, -offset.rotation);
+            let mut wanted = origin;
+            for (axis, value) in &named {
+                wanted.set(*axis, turned.raw(*axis) - value - state.shift().raw(*axis));
+            }
+            let back = rotate(wanted, offset.rotation);
+            for axis in Axis::ALL {
+                let turned = offset.rotation != 0.0 && matches!(axis, Axis::X | Axis::Y);
+                if turned || named.iter().any(|(a, _)| *a == axis) {
+                    offset.origin.set(axis, back.raw(axis));
+                }
+            }
+        } else {
+            for (axis, value) in &named {
+                let base = if incremental { old.origin.raw(*axis) } else { 0.0 };
+                offset.origin.set(*axis, base + value);
+            }
+        }
+        let active = state.work == Some(system);
+        self.reframe(state, |state| Rc::make_mut(&mut state.tables).set_offset(system, offset));
+        if active {
+            self.announce_offset(state);
+            self.announce_rotation(state);
+        }
+    }
+
+    /// Writes a tool's length or radius.
+    fn write_tool(&mut self, kind: u32, number: Option<Count>, state: &mut State<D>) -> Step {
+        let Some(number) = number else { return Err(Fault::MissingWord(Letter::of('P'))) };
+        let Count::Known(number) = number else {
+            let tables = Rc::make_mut(&mut state.tables);
+            for (_, tool) in &mut tables.tools {
+                tool.offset = Position::UNKNOWN;
+                tool.diameter = Mm::UNKNOWN;
+            }
+            tables.complete = false;
+            return Ok(());
+        };
+        if !self.refuses_incomplete() {
+            return self.write_register(kind, number, state);
+        }
+        if number == 0 || state.tables.complete && state.tables.tool(number).is_none() {
+            return Err(Fault::NoSuchTool(number));
+        }
+        let named = self.named(state);
+        let radius = self.length(Letter::of('R'), state);
+        let angles = [self.words.number(Letter::of('I')), self.words.number(Letter::of('J'))];
+        let orientation = self.count(Letter::of('Q'))?;
+        let machine = state.machine() - state.length;
+        let work = state.work_offset();
+        let shift = state.shift();
+        let fixture = state.tables.offset(9);
+        let tool = Rc::make_mut(&mut state.tables).tool_mut(number);
+        for (axis, value) in &named {
+            let value = match kind {
+                1 => *value,
+                // So that the present position reads as programmed, with the offsets in effect or with the last system's.
+                10 => rotate(machine - work.origin, -work.rotation).raw(*axis) - shift.raw(*axis) - value,
+                _ => rotate(machine - fixture.origin, -fixture.rotation).raw(*axis) - value,
+            };
+            tool.offset.set(*axis, value);
+        }
+        if let Some(radius) = radius {
+            tool.diameter = Mm(2.0 * radius);
+        }
+        for (slot, angle) in tool.angles.iter_mut().zip(angles) {
+            if let Some(angle) = angle {
+                *slot = angle;
+            }
+        }
+        match orientation {
+            Some(Count::Known(q @ 0..=9)) => tool.orientation = q as u8,
+            Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('Q'))),
+            _ => {}
+        }
+        let entry = ToolEntry {
+            pocket: tool.pocket,
+            tool: number,
+            offset: tool.offset,
+            diameter: tool.diameter,
+            angles: tool.angles,
+            orientation: tool.orientation,
+        };
+        self.emit(state, Event::ToolTableEntry(entry));
+        if D::known(&state.tool) == Some(f64::from(number)) {
+            self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
+        }
+        Ok(())
+    }
+
+    /// Registers of other controls: length (L10), its wear (L11, L1), size (L12) and its wear (L13), by `R`.
+    fn write_register(&mut self, kind: u32, number: u32, state: &mut State<D>) -> Step {
+        let Some(value) = self.length(Letter::of('R'), state) else { return Ok(()) };
+        let incremental = state.is_incremental(self.model) == Some(true);
+        let is_diameter = self.offsets_are_diameters();
+        let tool = Rc::make_mut(&mut state.tables).tool_mut(number);
+        match kind {
+            10 => {
+                let base = if incremental { tool.offset.raw(Axis::Z) } else { 0.0 };
+                tool.offset.set(Axis::Z, base + value);
+                for axis in [Axis::X, Axis::Y] {
+                    if tool.offset.raw(axis).is_nan() {
+                        tool.offset.set(axis, 0.0);
+                    }
+                }
+            }
+            12 => {
+                let base = if incremental { tool.diameter.0 } else { 0.0 };
+                tool.diameter = Mm(base + if is_diameter { value } else { 2.0 * value });
+            }
+            // Wear adds to a value that it does not replace, and its old value is not known.
+            1 | 11 => tool.offset.set(Axis::Z, f64::NAN),
+            _ => tool.diameter = Mm::UNKNOWN,
+        }
+        Ok(())
+    }
+
+    /// Is a cutter's register a diameter? A setting may say so.
+    pub(super) fn offsets_are_diameters(&mut self) -> bool {
+        let rules = &self.model.semantics().compensation;
+        match &rules.setting {
+            Some(number) => self.setting(number).is_some_and(|value| value.contains("diameter")),
+            None => rules.value == gcheck_controls::OffsetValue::Diameter,
+        }
+    }
+
+    /// Does any length compensation act?
+    pub(super) fn has_length(&self, state: &State<D>) -> bool {
+        !matches!(state.effect(Role::Length, self.model), Some(Effect::LengthOff | Effect::None))
+    }
+}
+
+/// Everything between work and machine coordinates.
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    work: Option<u16>,
+    origin: Position,
+    rotation: f64,
+    shift: Position,
+    length: Position,
+}
+
+impl Frame {
+    fn of<D: Domain>(state: &State<D>) -> Self {
+        let WorkOffset { origin, rotation } = state.work_offset();
+        Self { work: state.work, origin, rotation, shift: state.shift(), length: state.length }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self.work == other.work
+            && self.origin == other.origin
+            && self.rotation.to_bits() == other.rotation.to_bits()
+            && self.shift == other.shift
+            && self.length == other.length
+    }
+
+    fn to_machine(self, work: &Position) -> Position {
+        rotate(*work + self.shift, self.rotation) + self.origin + self.length
+    }
+
+    fn from_machine(self, machine: &Position) -> Position {
+        rotate(*machine - self.length - self.origin, -self.rotation) - self.shift
+    }
+
+    /// What a position in work coordinates gains when this frame becomes another. Parts that did not change cancel out, known
+    /// or not; an unknown part that was replaced leaves its axes unknown.
+    fn less(&self, after: &Self) -> Position {
+        let part = |old: &Position, new: &Position, same: bool| if same && old == new { Position::ZERO } else { per_axis(old, new, same) };
+        part(&self.origin, &after.origin, self.work.is_some() && self.work == after.work)
+            + part(&self.shift, &after.shift, true)
+            + part(&self.length, &after.length, true)
+    }
+}
+
+/// The difference by axis; unknown stays unknown unless `same` says that an unknown value is still the same one.
+fn per_axis(old: &Position, new: &Position, same: bool) -> Position {
+    let mut difference = *old - *new;
+    for axis in Axis::ALL {
+        if same && old.raw(axis).to_bits() == new.raw(axis).to_bits() {
+            difference.set(axis, 0.0);
+        }
+    }
+    difference
+}

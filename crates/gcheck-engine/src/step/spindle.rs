@@ -1,0 +1,266 @@
+//! Feed, spindle, tools, dwell, inputs and outputs.
+//!
+//! Knows: what their words and codes change. Must not know: motion.
+
+use gcheck_controls::{DwellWord, Effect, Letter};
+use gcheck_geometry::Seconds;
+
+use super::{Count, Executor, Step};
+use crate::event::{Event, FeedMode, Spindle};
+use crate::fault::Fault;
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::Position;
+use crate::state::State;
+use crate::value::Domain;
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// `F`.
+    pub(super) fn feed_word(&mut self, state: &mut State<D>) -> Step {
+        let Some(value) = self.words.get(Letter::of('F')).cloned() else { return Ok(()) };
+        if D::known(&value).is_some_and(|f| f < 0.0) {
+            return Err(Fault::WordRange(Letter::of('F')));
+        }
+        let mode = state.feed_mode(self.model);
+        state.feed = match (mode, D::known(&value)) {
+            (Some(FeedMode::InverseTime), _) => value,
+            (_, Some(number)) => D::number(number * self.unit(state)),
+            (_, None) => D::unknown(),
+        };
+        let rate = D::known(&state.feed).unwrap_or(f64::NAN);
+        self.emit(state, Event::FeedRate(rate));
+        Ok(())
+    }
+
+    /// `S`.
+    pub(super) fn speed_word(&mut self, state: &mut State<D>) -> Step {
+        let Some(value) = self.words.get(Letter::of('S')).cloned() else { return Ok(()) };
+        if D::known(&value).is_some_and(|s| s < 0.0) {
+            return Err(Fault::WordRange(Letter::of('S')));
+        }
+        let limits = self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::SpeedLimitOrSetPosition);
+        if limits {
+            return Ok(());
+        }
+        let rate = D::known(&value).unwrap_or(f64::NAN);
+        state.speed = value;
+        self.emit(state, Event::SpindleSpeed(rate));
+        Ok(())
+    }
+
+    /// `G96`, `G97`: `D` limits the speed where it is read.
+    pub(super) fn spindle_mode(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        if effect == Effect::ConstantSpeed {
+            self.emit(state, Event::SpindleMode(None));
+            return Ok(());
+        }
+        if let Some(limit) = self.words.number(Letter::of('D')) {
+            state.speed_limit = limit.abs();
+        } else if self.model.semantics().feed_mode_clears_feed {
+            state.speed_limit = f64::INFINITY;
+        }
+        self.emit(state, Event::SpindleMode(Some(state.speed_limit)));
+        Ok(())
+    }
+
+    /// `M3`, `M4`, `M5`.
+    pub(super) fn spindle(&mut self, spindle: Spindle, state: &mut State<D>) -> Step {
+        state.spindle = Some(spindle);
+        self.emit(state, Event::Spindle(spindle));
+        Ok(())
+    }
+
+    /// `M19`.
+    pub(super) fn orient(&mut self, state: &mut State<D>) -> Step {
+        let angle = self.words.number(Letter::of('R')).unwrap_or(0.0);
+        let way = match self.count(Letter::of('P'))? {
+            Some(Count::Known(way @ 0..=2)) => way as u8,
+            Some(Count::Known(_)) if self.model.semantics().compensation.freezes_modes => {
+                return Err(Fault::WordRange(Letter::of('P')));
+            }
+            _ => 0,
+        };
+        if !(0.0..=360.0).contains(&angle) && self.model.semantics().compensation.freezes_modes {
+            return Err(Fault::WordRange(Letter::of('R')));
+        }
+        state.spindle = Some(Spindle::Stopped);
+        self.emit(state, Event::OrientSpindle { angle, way });
+        if let Some(timeout) = self.words.number(Letter::of('Q')) {
+            if timeout <= 0.0 {
+                return Err(Fault::WordRange(Letter::of('Q')));
+            }
+            self.emit(state, Event::WaitOrient(Seconds(timeout)));
+        }
+        Ok(())
+    }
+
+    /// `G4`.
+    pub(super) fn dwell(&mut self, state: &mut State<D>) -> Step {
+        let mut found = None;
+        for (letter, kind) in &self.model.semantics().dwell {
+            let Some(letter) = Letter::parse(letter) else { continue };
+            let Some(number) = self.words.number(letter) else { continue };
+            let seconds = match kind {
+                DwellWord::Seconds => number,
+                DwellWord::Milliseconds => number / 1000.0,
+                DwellWord::SecondsOrMilliseconds if self.words.is_pointed(letter) => number,
+                DwellWord::SecondsOrMilliseconds => number / 1000.0,
+            };
+            found = Some(seconds);
+        }
+        match found {
+            Some(seconds) if seconds < 0.0 => Err(Fault::WordRange(Letter::of('P'))),
+            Some(seconds) => {
+                self.emit(state, Event::Dwell(Seconds(seconds)));
+                Ok(())
+            }
+            // Elsewhere a dwell without time is an exact stop.
+            None if self.model.semantics().compensation.freezes_modes => Err(Fault::NoDwellTime),
+            None => Ok(()),
+        }
+    }
+
+    /// `T`.
+    pub(super) fn tool_word(&mut self, state: &mut State<D>) -> Step {
+        let rules = self.model.semantics().tools;
+        let Some(word) = self.count(Letter::of('T'))? else { return Ok(()) };
+        let Count::Known(mut number) = word else {
+            state.selected = self.words.get(Letter::of('T')).cloned().unwrap_or_else(D::unknown);
+            self.emit(state, Event::SelectTool(None));
+            if rules.change_by_t {
+                state.tool = D::unknown();
+                state.length = Position::UNKNOWN;
+                state.h = D::unknown();
+                self.emit(state, Event::ToolChange(None));
+            }
+            return Ok(());
+        };
+        let mut offset = None;
+        if rules.offset_in_t && number >= 100 {
+            offset = Some(number % 100);
+            number /= 100;
+        } else if rules.offset_in_t && number < 100 && rules.change_by_t {
+            // `T1` is tool 0, offset 1 on some controls, tool 1 on others: the tool stays unknown.
+            offset = None;
+        }
+        if state.tables.complete && number != 0 && state.tables.tool(number).is_none() {
+            return Err(Fault::NoSuchTool(number));
+        }
+        state.selected = D::number(f64::from(number));
+        self.emit(state, Event::SelectTool(Some(number)));
+        if rules.change_by_t {
+            self.put_tool(Some(number), state);
+        }
+        if let Some(offset) = offset {
+            self.apply_length(offset, 1.0, state)?;
+            state.d = D::number(f64::from(offset));
+        }
+        Ok(())
+    }
+
+    /// `M6`.
+    pub(super) fn tool_change(&mut self, state: &mut State<D>) -> Step {
+        let rules = self.model.semantics().tools;
+        if self.model.semantics().compensation.freezes_modes && self.compensates(state) {
+            return Err(Fault::Compensation(crate::fault::CompensationFault::NotWhileOn));
+        }
+        if rules.change_needs_t && D::known(&state.selected).is_some_and(|t| t < 0.0) {
+            return Err(Fault::NoToolSelected);
+        }
+        self.emit(state, Event::StartChange);
+        if rules.change_stops_spindle {
+            self.spindle(Spindle::Stopped, state)?;
+        }
+        #[expect(clippy::cast_sign_loss, reason = "a tool number is a count: negative ones were refused at `T`")]
+        let number = D::known(&state.selected).map(|t| t.max(0.0) as u32);
+        self.put_tool(number, state);
+        if rules.change_cancels_length {
+            self.cancel_length(state);
+        }
+        Ok(())
+    }
+
+    fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {
+        state.tool = number.map_or_else(D::unknown, |n| D::number(f64::from(n)));
+        self.emit(state, Event::ToolChange(number));
+    }
+
+    /// `M61`.
+    pub(super) fn set_tool_number(&mut self, state: &mut State<D>) -> Step {
+        match self.count(Letter::of('Q'))? {
+            Some(Count::Known(number)) => {
+                if state.tables.complete && number != 0 && state.tables.tool(number).is_none() {
+                    return Err(Fault::NoSuchTool(number));
+                }
+                state.tool = D::number(f64::from(number));
+                self.emit(state, Event::SetToolNumber(Some(number)));
+            }
+            Some(Count::Unknown) => {
+                state.tool = D::unknown();
+                self.emit(state, Event::SetToolNumber(None));
+            }
+            None => return Err(Fault::MissingWord(Letter::of('Q'))),
+        }
+        Ok(())
+    }
+
+    pub(super) fn digital_output(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let index = self.index(Letter::of('P'))?;
+        let on = matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
+        let with_move = matches!(effect, Effect::OutputOnWithMove | Effect::OutputOffWithMove);
+        self.emit(state, Event::Output { index, value: f64::from(u8::from(on)), analog: false, with_move });
+        Ok(())
+    }
+
+    pub(super) fn analog_output(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let index = self.index(Letter::of('E'))?;
+        let value = self.words.number(Letter::of('Q')).unwrap_or(-1.0);
+        let with_move = effect == Effect::AnalogOutputWithMove;
+        self.emit(state, Event::Output { index, value, analog: true, with_move });
+        Ok(())
+    }
+
+    pub(super) fn wait_for_input(&mut self, state: &mut State<D>) -> Step {
+        let analog = match (self.words.has(Letter::of('P')), self.words.has(Letter::of('E'))) {
+            (true, true) => return Err(Fault::Conflict),
+            (false, false) => return Err(Fault::MissingWord(Letter::of('P'))),
+            (_, analog) => analog,
+        };
+        let index = self.index(Letter::of(if analog { 'E' } else { 'P' }))?;
+        let what = match self.count(Letter::of('L'))? {
+            Some(Count::Known(what @ 0..=4)) => what as u8,
+            Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('L'))),
+            _ => 0,
+        };
+        let timeout = self.words.number(Letter::of('Q')).unwrap_or(0.0);
+        if analog && what != 0 {
+            return Err(Fault::WordRange(Letter::of('L')));
+        }
+        if what != 0 && timeout <= 0.0 {
+            return Err(Fault::WordRange(Letter::of('Q')));
+        }
+        self.emit(state, Event::WaitInput { index, analog, what, timeout: Seconds(timeout) });
+        Ok(())
+    }
+
+    fn index(&self, letter: Letter) -> Step<u32> {
+        match self.count(letter)? {
+            Some(Count::Known(index)) => Ok(index),
+            Some(Count::Unknown) => Err(Fault::Undecidable),
+            None => Err(Fault::MissingWord(letter)),
+        }
+    }
+
+    /// Does anything turn that could cut?
+    pub(super) fn spindle_turns(state: &State<D>) -> Option<bool> {
+        state.spindle.map(|s| s != Spindle::Stopped)
+    }
+
+    /// The programmed speed in turns a minute, if it is constant and known.
+    pub(super) fn rpm(&self, state: &State<D>) -> Option<f64> {
+        match state.effect(Role::SpindleMode, self.model) {
+            Some(Effect::SurfaceSpeed) | None => None,
+            Some(_) => D::known(&state.speed),
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! System variables: what the state itself answers, and what writing one does.
+//!
+//! Knows: positions, offsets, modes and tools behind variable numbers. Must not know: which control has which number (data).
+
+use std::rc::Rc;
+
+use gcheck_controls::{CodeNumber, Effect, Letter, SystemValue, SystemVariable, Unset};
+
+use super::{Ending, Executor, Outcome, Step};
+use crate::event::{Event, FeedMode, Spindle, Stop, Units};
+use crate::fault::Fault;
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::State;
+use crate::value::{Domain, Truth};
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// The value of a system variable.
+    #[expect(clippy::too_many_lines, reason = "one arm for each thing a variable may hold")]
+    pub(super) fn read_system(
+        &mut self,
+        variable: &SystemVariable,
+        row: u32,
+        column: u32,
+        state: &State<D>,
+    ) -> Step<D::Value> {
+        use SystemValue as V;
+        let axis = axis_of(variable, column);
+        let number = |value: f64| if value.is_nan() { D::unknown() } else { D::number(value) };
+        let flag = |truth: Option<bool>| truth.map_or_else(D::unknown, |t| D::number(f64::from(u8::from(t))));
+        let truth = |t: Truth| match t {
+            Truth::True => D::number(1.0),
+            Truth::False => D::number(0.0),
+            Truth::Unknown => D::unknown(),
+        };
+        let coordinate = |position: &Position| {
+            axis.map_or_else(D::unknown, |axis| number(self.in_program_units(axis, position.raw(axis), state)))
+        };
+        let machine_units = |position: &Position| {
+            axis.map_or_else(D::unknown, |axis| number(self.in_table_units(axis, position.raw(axis), state)))
+        };
+        Ok(match variable.holds {
+            V::WorkPosition | V::EndPosition => coordinate(&state.actual),
+            V::MachinePosition => coordinate(&state.machine()),
+            V::ProbePosition => coordinate(&state.probed),
+            V::ProbeResult => truth(state.probe_result),
+            V::LengthOffset => coordinate(&state.length),
+            V::WorkOffset => {
+                let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
+                machine_units(&state.tables.offset((first + row) as u16).origin)
+            }
+            V::WorkRotation => number(state.tables.offset((row + 1) as u16).rotation),
+            V::Shift => machine_units(&state.shift),
+            V::ShiftActive => D::number(f64::from(u8::from(state.shift_on))),
+            V::WorkOffsetNumber => state.work.map_or_else(D::unknown, |n| {
+                if variable.name.is_some() { self.work_code(n) } else { D::number(f64::from(n)) }
+            }),
+            V::Reference1 => machine_units(&state.tables.references[0]),
+            V::Reference2 => machine_units(&state.tables.references[1]),
+            V::ToolNumber => state.tool.clone(),
+            V::SelectedTool => state.selected.clone(),
+            V::ToolLength | V::ToolDiameter | V::ToolRadius => {
+                let tool = match &variable.of {
+                    // A table by tool number.
+                    Some(first) => Some(first.parse::<u32>().unwrap_or(1) + column),
+                    #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
+                    None => D::known(&state.tool).map(|t| t as u32),
+                };
+                let Some(tool) = tool else { return Ok(D::unknown()) };
+                let Some(entry) = state.tables.tool(tool) else {
+                    return Ok(if state.tables.complete { D::number(0.0) } else { D::unknown() });
+                };
+                match variable.holds {
+                    V::ToolLength => match (&variable.of, axis) {
+                        (None, Some(axis)) => number(self.in_table_units(axis, entry.offset.raw(axis), state)),
+                        _ => number(self.in_table_units(Axis::Z, entry.offset.raw(Axis::Z), state)),
+                    },
+                    V::ToolDiameter => number(self.in_table_units(Axis::X, entry.diameter.0, state)),
+                    _ => number(self.in_table_units(Axis::X, entry.diameter.0 / 2.0, state)),
+                }
+            }
+            V::ModalCode => self.modal_code(variable, state),
+            V::LastWord => match variable.of.as_deref() {
+                Some("F") => self.feed_in_units(state),
+                Some("S") => state.speed.clone(),
+                Some("T") => state.selected.clone(),
+                Some("H") => state.h.clone(),
+                Some("D") => state.d.clone(),
+                _ => D::unknown(),
+            },
+            V::Feed => self.feed_in_units(state),
+            V::Speed => state.speed.clone(),
+            V::IsMetric => flag(state.units(self.model).map(|u| u == Units::Mm)),
+            V::IsInch => flag(state.units(self.model).map(|u| u == Units::Inch)),
+            V::IsAbsolute => flag(state.is_incremental(self.model).map(|i| !i)),
+            V::IsIncremental => flag(state.is_incremental(self.model)),
+            V::IsInverseTime => flag(state.feed_mode(self.model).map(|m| m == FeedMode::InverseTime)),
+            V::IsPerMinute => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerMinute)),
+            V::IsPerRevolution => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerRevolution)),
+            V::SpindleOn => flag(state.spindle.map(|s| s != Spindle::Stopped)),
+            V::SpindleClockwise => flag(state.spindle.map(|s| s == Spindle::Clockwise)),
+            V::MistOn => truth(state.mist),
+            V::FloodOn => truth(state.flood),
+            V::CompensationOn => flag(Some(self.compensates(state))),
+            V::CallLevel => D::number((state.frames.len() - 1) as f64),
+            V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
+                Unset::Vacant => D::vacant(),
+                Unset::Zero => D::number(0.0),
+            },
+            V::Unknown => D::unknown(),
+        })
+    }
+
+    fn in_program_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+        let diameter = axis == Axis::X && state.is_diameter(self.model) == Some(true);
+        let value = if diameter { value * 2.0 } else { value };
+        if axis.is_rotary() { value } else { value / self.unit(state) }
+    }
+
+    /// Tables may count in the machine's own units.
+    fn in_table_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+        if axis.is_rotary() {
+            return value;
+        }
+        match self.machine.table_units {
+            Some(units) => value / units.in_mm(),
+            None => value / self.unit(state),
+        }
+    }
+
+    fn feed_in_units(&self, state: &State<D>) -> D::Value {
+        match (state.feed_mode(self.model), D::known(&state.feed)) {
+            (Some(FeedMode::InverseTime), _) => state.feed.clone(),
+            (_, Some(feed)) => {
+                let value = feed / self.unit(state);
+                if value.is_nan() { D::unknown() } else { D::number(value) }
+            }
+            (_, None) => D::unknown(),
+        }
+    }
+
+    fn work_code(&self, number: u16) -> D::Value {
+        let code = self.model.control().codes().find(|code| code.effect() == Effect::WorkOffset(number));
+        code.map_or_else(D::unknown, |code| D::number(f64::from(code.number().tenths())))
+    }
+
+    /// The code in effect of a modal group: ten times its number for named parameters, its number else.
+    fn modal_code(&self, variable: &SystemVariable, state: &State<D>) -> D::Value {
+        let Some(group) = variable.of.as_deref().and_then(|of| self.model.control().group_by_id(of)) else {
+            return D::unknown();
+        };
+        let role = Role::ALL.into_iter().find(|role| {
+            self.model.control().codes().any(|code| code.group_ix() == group && Role::of(code.effect()) == Some(*role))
+        });
+        let cycle = state.active_cycle(self.model);
+        let code = match role {
+            // A cycle stands in for the motion where they are one group.
+            Some(Role::Motion) if cycle.is_some_and(|c| c.is_some()) => cycle,
+            Some(role) => state.mode(role).only(),
+            None => None,
+        };
+        let tenths = variable.name.is_some();
+        match code.map(|ix| self.model.control().code_at(ix)) {
+            Some(Some(code)) => {
+                let number: CodeNumber = code.number();
+                let value = f64::from(number.tenths());
+                D::number(if tenths { value } else { value / 10.0 })
+            }
+            Some(None) if tenths => D::number(-10.0),
+            _ => D::unknown(),
+        }
+    }
+
+    /// Writes a system variable. An alarm ends the program.
+    pub(super) fn write_system(
+        &mut self,
+        number: u32,
+        variable: &SystemVariable,
+        row: u32,
+        column: u32,
+        value: D::Value,
+        state: &mut State<D>,
+    ) -> Step<Option<Outcome<D>>> {
+        let axis = axis_of(variable, column);
+        let known = D::known(&value);
+        match variable.holds {
+            SystemValue::Alarm => {
+                self.flush_compensation(state)?;
+                #[expect(clippy::cast_possible_truncation, reason = "alarm numbers are small; the cast saturates")]
+                let alarm = known.unwrap_or(0.0) as i64;
+                return Ok(Some(Outcome::End(Ending::Alarm(alarm))));
+            }
+            SystemValue::StopWithMessage => {
+                self.emit(state, Event::Stop(Stop::Message(Rc::from(""))));
+            }
+            _ if !self.model.control().is_writable(number) => return Err(Fault::ReadOnlyVariable(number)),
+            SystemValue::WorkOffset | SystemValue::WorkRotation => {
+                let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
+                let system = (first + row) as u16;
+                let mut offset = state.tables.offset(system);
+                let value = known.unwrap_or(f64::NAN);
+                match (variable.holds, axis) {
+                    (SystemValue::WorkRotation, _) => offset.rotation = value,
+                    (_, Some(axis)) => offset.origin.set(axis, self.from_table_units(axis, value, state)),
+                    _ => {}
+                }
+                // Written, but in effect only when the system is chosen again; elsewhere at once.
+                if state.work == Some(system) && !self.refuses_incomplete() {
+                    state.actual = Position::UNKNOWN;
+                    state.position = Position::UNKNOWN;
+                }
+                Rc::make_mut(&mut state.tables).set_offset(system, offset);
+            }
+            SystemValue::Reference1 | SystemValue::Reference2 => {
+                if let Some(axis) = axis {
+                    let value = self.from_table_units(axis, known.unwrap_or(f64::NAN), state);
+                    let index = usize::from(variable.holds == SystemValue::Reference2);
+                    if let Some(slot) = Rc::make_mut(&mut state.tables).references.get_mut(index) {
+                        slot.set(axis, value);
+                    }
+                }
+            }
+            SystemValue::ToolLength | SystemValue::ToolDiameter | SystemValue::ToolRadius => {
+                let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
+                let tool = first.parse::<u32>().unwrap_or(1) + column;
+                let value = self.from_table_units(Axis::Z, known.unwrap_or(f64::NAN), state);
+                let entry = Rc::make_mut(&mut state.tables).tool_mut(tool);
+                match variable.holds {
+                    SystemValue::ToolLength => {
+                        entry.offset.set(Axis::Z, value);
+                        for axis in [Axis::X, Axis::Y] {
+                            if entry.offset.raw(axis).is_nan() {
+                                entry.offset.set(axis, 0.0);
+                            }
+                        }
+                    }
+                    SystemValue::ToolDiameter => entry.diameter = gcheck_geometry::Mm(value),
+                    _ => entry.diameter = gcheck_geometry::Mm(value * 2.0),
+                }
+            }
+            SystemValue::Shift => {
+                if let Some(axis) = axis {
+                    let value = self.from_table_units(axis, known.unwrap_or(f64::NAN), state);
+                    state.shift.set(axis, value);
+                }
+            }
+            _ => self.write_plain(number, value, state),
+        }
+        Ok(None)
+    }
+
+    fn from_table_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+        if axis.is_rotary() {
+            return value;
+        }
+        value * self.machine.table_units.map_or_else(|| self.unit(state), Units::in_mm)
+    }
+}
+
+/// The axis of a variable in a row by axis.
+fn axis_of(variable: &SystemVariable, column: u32) -> Option<Axis> {
+    match &variable.of {
+        Some(axes) if !axes.is_empty() && axes.chars().all(|c| "XYZABCUVW".contains(c)) => {
+            axes.chars().nth(column as usize).and_then(|c| Axis::of(Letter::of(c)))
+        }
+        _ => Axis::ALL.get(column as usize).copied(),
+    }
+}

@@ -1,0 +1,154 @@
+//! A file ready to be executed: its chunks, its outline, and block tables on demand.
+//!
+//! Knows: how a text is cut and lowered, which tables are worth keeping. Must not know: what executing means. Memory stays
+//! bounded: of a large file only the tables in use are kept, and the others are lowered again when a jump needs them.
+
+use std::borrow::Cow;
+use std::cell::RefCell;
+use std::ops::Range;
+use std::rc::Rc;
+
+use gcheck_syntax::cut;
+
+use crate::block::{Block, BlockIx, BlockTable};
+use crate::lower::{Dialect, lower};
+use crate::outline::Outline;
+use crate::survey::code_region;
+
+/// Bytes of text whose tables are kept.
+const KEPT: usize = 2 << 20;
+
+/// A file of one or more programs, cut, lowered and outlined.
+#[derive(Debug)]
+pub struct Loaded<'a> {
+    text: Cow<'a, str>,
+    chunks: Vec<Range<u32>>,
+    region_end: u32,
+    outline: Outline,
+    tables: RefCell<Tables>,
+}
+
+#[derive(Debug)]
+struct Tables {
+    slots: Vec<Option<Rc<BlockTable>>>,
+    /// Chunks whose tables are kept, the oldest first.
+    kept: std::collections::VecDeque<u32>,
+    bytes: usize,
+}
+
+/// A block with everything needed to read it.
+#[derive(Debug, Clone)]
+pub struct Place {
+    /// The table of its chunk.
+    pub table: Rc<BlockTable>,
+    /// Where it stands in the table.
+    pub ix: BlockIx,
+    /// The chunk's index.
+    pub chunk: u32,
+    /// Offset of the chunk in the file.
+    pub base: u32,
+}
+
+impl Place {
+    /// The block.
+    pub fn block(&self) -> &Block {
+        self.table.block(self.ix)
+    }
+
+    /// Bytes of the file.
+    pub fn range(&self) -> Range<u32> {
+        let block = self.block();
+        self.base + block.range.start..self.base + block.range.end
+    }
+}
+
+impl<'a> Loaded<'a> {
+    /// Cuts, lowers and outlines a text; `see` looks at each table on the way, with its offset in the file.
+    pub fn new(text: impl Into<Cow<'a, str>>, dialect: &Dialect<'_>, mut see: impl FnMut(u32, &BlockTable, &str)) -> Self {
+        let text = text.into();
+        let region_end = code_region(&text).end as u32;
+        let mut builder = Outline::builder();
+        let mut chunks = Vec::new();
+        let mut tables = Tables { slots: Vec::new(), kept: std::collections::VecDeque::new(), bytes: 0 };
+        for chunk in cut(&text) {
+            if chunk.start as u32 >= region_end && !chunks.is_empty() {
+                break;
+            }
+            let base = chunk.start as u32;
+            let part = text.get(chunk.clone()).unwrap_or_default();
+            let table = lower(part, dialect);
+            see(base, &table, part);
+            builder.add(&table, base, region_end, part, dialect);
+            chunks.push(base..chunk.end as u32);
+            tables.slots.push(None);
+            // The first chunks are those that execution begins with.
+            if tables.bytes + chunk.len() <= KEPT {
+                tables.keep(chunks.len() as u32 - 1, Rc::new(table), chunk.len());
+            }
+        }
+        Self { chunks, region_end, outline: builder.finish(), tables: RefCell::new(tables), text }
+    }
+
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Where the part ends that the control reads.
+    pub fn region_end(&self) -> u32 {
+        self.region_end
+    }
+
+    /// Labels, loops, programs, O-words by block number.
+    pub fn outline(&self) -> &Outline {
+        &self.outline
+    }
+
+    /// The text of a chunk.
+    pub fn chunk_text(&self, chunk: u32) -> &str {
+        let range = self.chunks.get(chunk as usize).cloned().unwrap_or_default();
+        self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
+    }
+
+    /// A block by its number in the file.
+    pub fn place(&self, block: u32, dialect: &Dialect<'_>) -> Option<Place> {
+        if block >= self.outline.blocks() {
+            return None;
+        }
+        let (chunk, index) = self.outline.chunk_of(block)?;
+        let base = self.chunks.get(chunk as usize)?.start;
+        let chunk = chunk as u32;
+        let table = self.table(chunk, dialect);
+        let ix = table.ix(index)?;
+        Some(Place { table, ix, chunk, base })
+    }
+
+    fn table(&self, chunk: u32, dialect: &Dialect<'_>) -> Rc<BlockTable> {
+        let mut tables = self.tables.borrow_mut();
+        if let Some(Some(table)) = tables.slots.get(chunk as usize) {
+            return Rc::clone(table);
+        }
+        let text = self.chunk_text(chunk);
+        let table = Rc::new(lower(text, dialect));
+        tables.keep(chunk, Rc::clone(&table), text.len());
+        while tables.bytes > KEPT && tables.kept.len() > 1 {
+            let Some(oldest) = tables.kept.pop_front() else { break };
+            let len = self.chunks.get(oldest as usize).map_or(0, |r| (r.end - r.start) as usize);
+            tables.bytes = tables.bytes.saturating_sub(len);
+            if let Some(slot) = tables.slots.get_mut(oldest as usize) {
+                *slot = None;
+            }
+        }
+        table
+    }
+}
+
+impl Tables {
+    fn keep(&mut self, chunk: u32, table: Rc<BlockTable>, bytes: usize) {
+        if let Some(slot) = self.slots.get_mut(chunk as usize) {
+            *slot = Some(table);
+            self.kept.push_back(chunk);
+            self.bytes += bytes;
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! What is made of moves: the canonical form, move lists as JSON lines, CSV and text, times, statistics.
+//!
+//! Knows: the engine's events and what other programs and machinists want to read of them. Must not know: syntax,
+//! controls, how events are computed, terminals and files (writers are handed in).
+//!
+//! Everything here takes [`Step`]s, one per event of a run, in order.
+
+mod canonical;
+mod csv;
+mod jsonl;
+mod motion;
+mod number;
+mod record;
+mod sink;
+mod statistics;
+mod step;
+mod summary;
+mod text;
+mod time;
+
+pub use canonical::{Canonical, Ending, Start};
+pub use csv::Csv;
+pub use jsonl::JsonLines;
+pub use record::Kind;
+pub use statistics::{
+    Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
+};
+pub use step::{Step, View};
+pub use summary::Names;
+pub use text::Text;
+pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};

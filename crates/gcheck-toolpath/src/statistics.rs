@@ -1,0 +1,561 @@
+//! What a run amounts to, tool by tool: times, ways, extents, feeds, speeds, offsets.
+//!
+//! Knows: what is counted, and what cannot be. Must not know: how it is shown ([`crate::Names`] and the summary do that),
+//! what the figures are good for.
+
+use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
+
+use crate::motion::{Cover, Motion, Way, cover};
+use crate::step::{Step, View};
+use crate::time::{Clock, Timing, Untimed, length};
+
+/// More different values of a feed or a speed are not kept one by one.
+pub const MAX_DISTINCT: usize = 32;
+/// More tool sections are added to earlier ones of the same tool.
+pub const MAX_SECTIONS: usize = 1_000;
+/// More work offsets in a section are counted as one.
+const MAX_OFFSETS: usize = 512;
+
+/// Where the time goes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Times {
+    /// Moves at feed, threads and probing among them.
+    pub cutting: Seconds,
+    /// Rapid moves.
+    pub rapid: Seconds,
+    /// Standing still.
+    pub dwell: Seconds,
+    /// Tool changes.
+    pub tool_change: Seconds,
+}
+
+impl Times {
+    /// All of it.
+    pub fn total(&self) -> Seconds {
+        self.cutting + self.rapid + self.dwell + self.tool_change
+    }
+}
+
+/// Values that occurred: the smallest, the largest, and each while they are few.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Values {
+    /// Ascending, at most [`MAX_DISTINCT`].
+    distinct: Vec<f64>,
+    last: Option<f64>,
+    range: Option<(f64, f64)>,
+    more: bool,
+}
+
+impl Values {
+    fn add(&mut self, value: f64) {
+        // The same value comes again and again.
+        if !value.is_finite() || self.last.is_some_and(|last| last.to_bits() == value.to_bits()) {
+            return;
+        }
+        self.last = Some(value);
+        self.range = Some(self.range.map_or((value, value), |(low, high)| (low.min(value), high.max(value))));
+        let at = self.distinct.partition_point(|known| *known < value);
+        let near = |index: usize| {
+            self.distinct.get(index).is_some_and(|known| (known - value).abs() <= 1e-9 * value.abs())
+        };
+        // Values that differ by the noise of a conversion are one.
+        if near(at) || at.checked_sub(1).is_some_and(near) {
+            return;
+        }
+        if self.distinct.len() < MAX_DISTINCT {
+            self.distinct.insert(at, value);
+        } else {
+            self.more = true;
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        for value in &other.distinct {
+            self.add(*value);
+        }
+        if let Some((low, high)) = other.range {
+            self.add(low);
+            self.add(high);
+        }
+        self.more |= other.more;
+    }
+
+    /// The values in ascending order; not all of them when [`Self::has_more`].
+    pub fn distinct(&self) -> &[f64] {
+        &self.distinct
+    }
+
+    /// Were there more than are kept?
+    pub const fn has_more(&self) -> bool {
+        self.more
+    }
+
+    /// The smallest and the largest.
+    pub const fn range(&self) -> Option<(f64, f64)> {
+        self.range
+    }
+}
+
+/// Feeds of moves that cut, by feed mode.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Feeds {
+    /// Millimetres a minute (degrees a minute where only rotary axes moved, as many as millimetres).
+    pub per_minute: Values,
+    /// Millimetres a turn, leads among them.
+    pub per_revolution: Values,
+    /// Moves a minute.
+    pub inverse_time: Values,
+}
+
+/// A work coordinate system that was used.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OffsetUse {
+    /// Its number, 1 the first; `None` when it is unknown or was never said.
+    pub number: Option<u16>,
+    /// Where moves went in its coordinates.
+    pub extents: Bounds,
+}
+
+/// Moves that are missing in the figures, or partly so.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Unaccounted {
+    /// From or to a point that nobody knows: neither in ways nor in times.
+    pub points: u64,
+    /// Without a feed, or at feed zero: not in times.
+    pub feeds: u64,
+    /// Tied to a spindle whose speed is unknown or zero: not in times.
+    pub speeds: u64,
+    /// Beside an axis of which nobody knows anything: counted without it.
+    pub partly: u64,
+    /// Dwells of unknown time.
+    pub dwells: u64,
+    /// Arcs of which only the ends are in the extents in machine coordinates.
+    pub arcs_by_ends: u64,
+    /// Moves of which the place in machine coordinates is unknown on an axis that is shown.
+    pub machine: u64,
+}
+
+/// From one tool change to the next, or a whole run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Section {
+    /// The tool; `None` unknown.
+    pub tool: Option<u32>,
+    /// It began with a tool change.
+    pub changed: bool,
+    /// File in which it began.
+    pub file: String,
+    /// Line in which it began, counted from 1.
+    pub line: u32,
+    /// Where the time goes.
+    pub times: Times,
+    /// Way of rapid moves.
+    pub rapid: Mm,
+    /// Way of moves at feed.
+    pub cutting: Mm,
+    /// Angle turned where only rotary axes moved.
+    pub turned: Degrees,
+    /// Moves of any kind.
+    pub moves: u64,
+    /// Circular and helical moves among them.
+    pub arcs: u64,
+    /// Probing moves among them.
+    pub probes: u64,
+    /// Holes drilled, bored or tapped by canned cycles: strokes in and out along an axis, each place once.
+    pub holes: u64,
+    /// Tool changes.
+    pub tool_changes: u64,
+    /// Where moves at feed went, in work coordinates; probing left out.
+    pub cut: Bounds,
+    /// Where all moves went, in machine coordinates.
+    pub machine: Bounds,
+    /// Feeds of moves that cut.
+    pub feeds: Feeds,
+    /// Speeds of the spindle while cutting, turns a minute.
+    pub speeds: Values,
+    /// Surface speeds while cutting, metres a minute.
+    pub surface_speeds: Values,
+    /// Work coordinate systems in which something moved, with the way of all moves.
+    pub offsets: Vec<OffsetUse>,
+    /// What the figures lack.
+    pub unaccounted: Unaccounted,
+}
+
+impl Section {
+    fn new(tool: Option<u32>, changed: bool, step: &Step<'_>) -> Self {
+        Self {
+            tool,
+            changed,
+            file: step.file.to_owned(),
+            line: step.line,
+            times: Times::default(),
+            rapid: Mm::ZERO,
+            cutting: Mm::ZERO,
+            turned: Degrees::ZERO,
+            moves: 0,
+            arcs: 0,
+            probes: 0,
+            holes: 0,
+            tool_changes: 0,
+            cut: Bounds::EMPTY,
+            machine: Bounds::EMPTY,
+            feeds: Feeds::default(),
+            speeds: Values::default(),
+            surface_speeds: Values::default(),
+            offsets: Vec::new(),
+            unaccounted: Unaccounted::default(),
+        }
+    }
+
+    fn merge(&mut self, other: &Self) {
+        self.times.cutting += other.times.cutting;
+        self.times.rapid += other.times.rapid;
+        self.times.dwell += other.times.dwell;
+        self.times.tool_change += other.times.tool_change;
+        self.rapid += other.rapid;
+        self.cutting += other.cutting;
+        self.turned += other.turned;
+        self.moves += other.moves;
+        self.arcs += other.arcs;
+        self.probes += other.probes;
+        self.holes += other.holes;
+        self.tool_changes += other.tool_changes;
+        self.cut.include_bounds(&other.cut);
+        self.machine.include_bounds(&other.machine);
+        self.feeds.per_minute.merge(&other.feeds.per_minute);
+        self.feeds.per_revolution.merge(&other.feeds.per_revolution);
+        self.feeds.inverse_time.merge(&other.feeds.inverse_time);
+        self.speeds.merge(&other.speeds);
+        self.surface_speeds.merge(&other.surface_speeds);
+        for used in &other.offsets {
+            self.offset(used.number).include_bounds(&used.extents);
+        }
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } = other.unaccounted;
+        self.unaccounted.points += points;
+        self.unaccounted.feeds += feeds;
+        self.unaccounted.speeds += speeds;
+        self.unaccounted.partly += partly;
+        self.unaccounted.dwells += dwells;
+        self.unaccounted.arcs_by_ends += arcs_by_ends;
+        self.unaccounted.machine += machine;
+    }
+
+    /// Where all moves went, in the work coordinates that were active.
+    pub fn work(&self) -> Bounds {
+        self.offsets.iter().fold(Bounds::EMPTY, |all, used| all.union(&used.extents))
+    }
+
+    fn offset(&mut self, number: Option<u16>) -> &mut Bounds {
+        let found = self.offsets.iter().position(|used| used.number == number);
+        let at = found.unwrap_or_else(|| {
+            let number = number.filter(|_| self.offsets.len() < MAX_OFFSETS);
+            match self.offsets.iter().position(|used| used.number == number) {
+                Some(at) => at,
+                None => {
+                    self.offsets.push(OffsetUse { number, extents: Bounds::EMPTY });
+                    self.offsets.len() - 1
+                }
+            }
+        });
+        #[expect(clippy::indexing_slicing, reason = "`at` was found or pushed above")]
+        &mut self.offsets[at].extents
+    }
+}
+
+/// Something taken for granted because nobody said it, and the key of the configuration that would.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assumption {
+    /// What is assumed.
+    pub text: String,
+    /// The key in `[machine]`.
+    pub key: &'static str,
+}
+
+/// Gathers the figures of a run from its events.
+#[derive(Debug, Clone)]
+pub struct Statistics {
+    view: View,
+    clock: Clock,
+    /// The active work coordinate system.
+    work: Option<u16>,
+    sections: Vec<Section>,
+    /// The section being counted.
+    current: Option<usize>,
+    holes: Holes,
+    inch_moves: u64,
+    mm_moves: u64,
+    rotary_rapids: bool,
+}
+
+impl Statistics {
+    /// At the begin of a run, with the number of the work coordinate system active there (`None` unknown).
+    pub fn new(view: View, timing: Timing, work: Option<u16>) -> Self {
+        Self {
+            view,
+            clock: Clock::new(timing),
+            work,
+            sections: Vec::new(),
+            current: None,
+            holes: Holes::default(),
+            inch_moves: 0,
+            mm_moves: 0,
+            rotary_rapids: false,
+        }
+    }
+
+    /// Counts an event.
+    pub fn add(&mut self, step: &Step<'_>) {
+        match step.event {
+            Event::ToolChange(tool) => self.tool_change(step, *tool),
+            Event::SetToolNumber(tool) => self.begin(*tool, false, step),
+            Event::Dwell(seconds) => {
+                let time = self.clock.still(step);
+                let section = self.section(step);
+                section.times.dwell += time;
+                section.unaccounted.dwells += u64::from(!seconds.is_finite());
+            }
+            Event::WorkOffset { number, .. } => self.work = Some(*number),
+            Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => {
+                let tracker = self.clock.tracker;
+                tracker.motions(step, |motion| self.motion(step, motion));
+            }
+            _ => {}
+        }
+        self.clock.after(step);
+    }
+
+    /// The sections in the order in which they began.
+    pub fn sections(&self) -> &[Section] {
+        &self.sections
+    }
+
+    /// The whole run; its tool, file and line mean nothing.
+    pub fn total(&self) -> Section {
+        let mut sections = self.sections.iter();
+        let Some(first) = sections.next() else {
+            let event = Event::End;
+            let nowhere = Step {
+                event: &event,
+                n: None,
+                line: 0,
+                units: Units::Mm,
+                feed_mode: FeedMode::PerMinute,
+                feed: 0.0,
+                rpm: 0.0,
+                machine: Position::UNKNOWN,
+                tool: None,
+                file: "",
+            };
+            return Section::new(None, false, &nowhere);
+        };
+        sections.fold(first.clone(), |mut total, section| {
+            total.merge(section);
+            total
+        })
+    }
+
+    /// The units in which most moves were written.
+    pub const fn units(&self) -> Units {
+        if self.inch_moves > self.mm_moves { Units::Inch } else { Units::Mm }
+    }
+
+    /// The axes shown.
+    pub const fn view(&self) -> View {
+        self.view
+    }
+
+    /// What the times rest on that nobody configured, as far as it mattered.
+    pub fn assumptions(&self) -> Vec<Assumption> {
+        let timing = &self.clock.timing;
+        let total = self.total();
+        let mut assumptions = Vec::new();
+        if timing.rapid_assumed && total.rapid > Mm::ZERO {
+            let rapid = timing.rapid();
+            let rate = match self.units() {
+                Units::Inch => format!("{} inch/min", rapid.inch()),
+                Units::Mm => format!("{} mm/min", rapid.0),
+            };
+            assumptions.push(Assumption { text: format!("rapid moves at {rate} on every axis"), key: "rapid" });
+        }
+        if timing.rotary_assumed && self.rotary_rapids {
+            let text = format!("rapid moves of rotary axes at {} deg/min", crate::time::DEFAULT_ROTARY_RAPID);
+            assumptions.push(Assumption { text, key: "rotary_rapid" });
+        }
+        if timing.tool_change_assumed && total.times.tool_change > Seconds::ZERO {
+            let text = format!("{} s for a tool change", timing.tool_change().0);
+            assumptions.push(Assumption { text, key: "tool_change_seconds" });
+        }
+        assumptions
+    }
+
+    fn tool_change(&mut self, step: &Step<'_>, tool: Option<u32>) {
+        let time = self.clock.still(step);
+        self.begin(tool, true, step);
+        let section = self.section(step);
+        section.times.tool_change += time;
+        section.tool_changes += u64::from(time > Seconds::ZERO);
+    }
+
+    /// Begins a section, unless the tool is the one of the current section.
+    fn begin(&mut self, tool: Option<u32>, changed: bool, step: &Step<'_>) {
+        self.holes = Holes::default();
+        let same = |section: &Section| section.tool.is_some() && section.tool == tool;
+        if self.current.and_then(|at| self.sections.get(at)).is_some_and(same) {
+            return;
+        }
+        if self.sections.len() >= MAX_SECTIONS {
+            let earlier = self.sections.iter().rposition(same);
+            self.current = Some(earlier.unwrap_or(MAX_SECTIONS - 1));
+            return;
+        }
+        self.sections.push(Section::new(tool, changed, step));
+        self.current = Some(self.sections.len() - 1);
+    }
+
+    fn section(&mut self, step: &Step<'_>) -> &mut Section {
+        let at = self.current.unwrap_or_else(|| {
+            self.sections.push(Section::new(step.tool, false, step));
+            self.sections.len() - 1
+        });
+        self.current = Some(at);
+        #[expect(clippy::indexing_slicing, reason = "sections are never removed")]
+        &mut self.sections[at]
+    }
+
+    fn motion(&mut self, step: &Step<'_>, motion: &Motion) {
+        match step.units {
+            Units::Inch => self.inch_moves += 1,
+            Units::Mm => self.mm_moves += 1,
+        }
+        let (covered, partial) = cover(motion);
+        let time = self.clock.motion(step, motion);
+        let feed = self.clock.feed_of(step, motion);
+        let surface = self.clock.surface_speed();
+        let hole = self.holes.after(motion);
+        let machine_arc = motion.arc.map(|arc| (arc, self.clock.tracker.machine_arc(motion, &arc)));
+        let (view, work) = (self.view, self.work);
+        let rapid = motion.way == Way::Rapid;
+        self.rotary_rapids |= rapid && turns(motion);
+
+        let section = self.section(step);
+        section.moves += 1;
+        section.arcs += u64::from(motion.arc.is_some());
+        section.probes += u64::from(motion.way == Way::Probe);
+        section.holes += u64::from(hole);
+        section.unaccounted.partly += u64::from(
+            partial && covered != Cover::Unknown && view.axes().any(|axis| never_known(motion, axis)),
+        );
+        match time {
+            Ok(seconds) if rapid => section.times.rapid += seconds,
+            Ok(seconds) => section.times.cutting += seconds,
+            Err(Untimed::Point) => section.unaccounted.points += 1,
+            Err(Untimed::Feed) => section.unaccounted.feeds += 1,
+            Err(Untimed::Speed) => section.unaccounted.speeds += 1,
+        }
+        if rapid {
+            section.rapid += length(covered);
+        } else {
+            section.cutting += length(covered);
+        }
+        if let Cover::Turn(angle) = covered {
+            section.turned += Degrees(angle);
+        }
+        let cuts = !rapid && motion.way != Way::Probe;
+        if cuts && covered != Cover::Nothing {
+            match feed {
+                Some((feed, FeedMode::PerMinute)) => section.feeds.per_minute.add(feed),
+                Some((feed, FeedMode::PerRevolution)) => section.feeds.per_revolution.add(feed),
+                Some((feed, FeedMode::InverseTime)) => section.feeds.inverse_time.add(feed),
+                None => {}
+            }
+            match surface {
+                None => section.speeds.add(step.rpm),
+                Some(speed) => section.surface_speeds.add(speed),
+            }
+        }
+
+        let mut extents = Bounds::EMPTY;
+        include(&mut extents, &motion.from, false);
+        include(&mut extents, &motion.to, true);
+        if let Some(arc) = &motion.arc {
+            extents.include_bounds(&arc.bounds());
+        }
+        section.offset(work).include_bounds(&extents);
+        if cuts {
+            section.cut.include_bounds(&extents);
+        }
+        include(&mut section.machine, &motion.machine_from, false);
+        include(&mut section.machine, &motion.machine, true);
+        section.unaccounted.machine += u64::from(view.axes().any(|axis| motion.machine.raw(axis).is_nan()));
+        match machine_arc {
+            Some((arc, Some(machine))) => section.machine.include_bounds(&machine.bounds(motion, &arc)),
+            Some((_, None)) => section.unaccounted.arcs_by_ends += 1,
+            None => {}
+        }
+    }
+}
+
+/// Widens a box by the known coordinates of a point, and by the unknown ones where that is asked for.
+fn include(bounds: &mut Bounds, position: &Position, unknown: bool) {
+    for (axis, value) in position.values().iter().enumerate() {
+        if unknown || !value.is_nan() {
+            bounds.include_on(axis, *value);
+        }
+    }
+}
+
+fn turns(motion: &Motion) -> bool {
+    [Axis::A, Axis::B, Axis::C]
+        .into_iter()
+        .any(|axis| (motion.to.raw(axis) - motion.from.raw(axis)).abs() > 0.0)
+}
+
+fn never_known(motion: &Motion, axis: Axis) -> bool {
+    motion.from.raw(axis).is_nan() && motion.to.raw(axis).is_nan()
+}
+
+/// Finds holes among the moves of canned cycles: a stroke at feed along one axis, and later one back along it, with at
+/// most rapid moves beside it between. Strokes at one place in a row are one hole.
+#[derive(Debug, Clone, Copy, Default)]
+struct Holes {
+    stroke: Option<(Axis, bool)>,
+    /// The last hole was here: nothing has moved away since.
+    counted: bool,
+}
+
+impl Holes {
+    /// Does this move complete a hole?
+    fn after(&mut self, motion: &Motion) -> bool {
+        if motion.arc.is_some() || !motion.expanded {
+            *self = Self::default();
+            return false;
+        }
+        let mut moved = [Axis::X, Axis::Y, Axis::Z].into_iter().filter_map(|axis| {
+            let way = motion.to.raw(axis) - motion.from.raw(axis);
+            (way.abs() > 0.0).then_some((axis, way > 0.0))
+        });
+        let along = match (moved.next(), moved.next()) {
+            (None, _) => return false,
+            (Some(along), None) => Some(along),
+            (Some(_), Some(_)) => None,
+        };
+        let rapid = motion.way == Way::Rapid;
+        let back = matches!((self.stroke, along), (Some((axis, up)), Some((other, other_up)))
+            if axis == other && up != other_up);
+        if back {
+            let first = !self.counted;
+            *self = Self { stroke: None, counted: true };
+            return first;
+        }
+        if rapid {
+            // A move beside the stroke: the shift of a boring bar, or the way to the next hole.
+            if self.stroke.is_none() && along.is_none_or(|(axis, _)| axis != Axis::Z) {
+                self.counted = false;
+            }
+            return false;
+        }
+        self.stroke = along;
+        self.counted &= along.is_some();
+        false
+    }
+}

@@ -1,0 +1,78 @@
+//! An event of a run with what a reader needs to know about it, and which axes the reader wants to see.
+//!
+//! Knows: the form in which events come here. Must not know: who sends them.
+
+use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+
+/// One event with its place and the state in which it happens.
+#[derive(Debug, Clone, Copy)]
+pub struct Step<'a> {
+    /// What happens.
+    pub event: &'a Event,
+    /// The N word of the block; `None` when it has none or the event belongs to no block.
+    pub n: Option<u32>,
+    /// Line of the block in `file`, counted from 1.
+    pub line: u32,
+    /// Units in which the block's numbers are read.
+    pub units: Units,
+    /// The feed mode in effect.
+    pub feed_mode: FeedMode,
+    /// Feed in effect: millimetres a minute, millimetres a turn or moves a minute, as `feed_mode` says. NaN unknown.
+    pub feed: f64,
+    /// Turns of the spindle a minute, 0 when it stands. NaN unknown. Under constant surface speed it is not looked at: it
+    /// follows from the events of the spindle and from X.
+    pub rpm: f64,
+    /// Machine coordinates after the event; NaN unknown.
+    pub machine: Position,
+    /// The tool in the spindle; `None` unknown.
+    pub tool: Option<u32>,
+    /// Name of the file that holds the block.
+    pub file: &'a str,
+}
+
+/// Which axes are shown, and whether X is shown as a diameter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct View {
+    axes: u16,
+    diameter: bool,
+}
+
+impl View {
+    /// Shows these axes, always in the order of [`Axis::ALL`].
+    pub fn new(axes: &[Axis]) -> Self {
+        Self { axes: axes.iter().fold(0, |bits, axis| bits | 1 << axis.index()), diameter: false }
+    }
+
+    /// Shows coordinates of X doubled: events hold radii. Lengths stay lengths.
+    #[must_use]
+    pub const fn with_diameters(mut self) -> Self {
+        self.diameter = true;
+        self
+    }
+
+    /// The axes shown.
+    pub fn axes(self) -> impl Iterator<Item = Axis> + Clone {
+        Axis::ALL.into_iter().filter(move |axis| self.shows(*axis))
+    }
+
+    /// Is the axis shown?
+    pub const fn shows(self, axis: Axis) -> bool {
+        self.axes & (1 << axis.index()) != 0
+    }
+
+    /// Is X shown as a diameter?
+    pub const fn has_diameters(self) -> bool {
+        self.diameter
+    }
+
+    /// A coordinate as shown in `units`.
+    pub(crate) fn coordinate(self, axis: Axis, value: f64, units: Units) -> f64 {
+        let value = in_units(axis, value, units);
+        if self.diameter && axis == Axis::X { 2.0 * value } else { value }
+    }
+}
+
+/// A coordinate in the units of the program; angles stay degrees.
+pub(crate) fn in_units(axis: Axis, value: f64, units: Units) -> f64 {
+    if axis.is_rotary() { value } else { value / units.in_mm() }
+}

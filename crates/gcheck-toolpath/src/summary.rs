@@ -1,0 +1,572 @@
+//! Statistics as a table for machinists and as JSON.
+//!
+//! Knows: layout, words, rounding. Must not know: how the figures came about, terminals.
+
+use std::fmt::Write as _;
+
+use gcheck_engine::{Axis, Units};
+use gcheck_geometry::{Bounds, Seconds};
+use serde::Serialize;
+
+use crate::number::rounded;
+use crate::statistics::{Section, Statistics, Unaccounted, Values};
+use crate::step::{View, in_units};
+
+/// Names that only the caller knows.
+#[derive(Clone, Copy)]
+pub struct Names<'a> {
+    /// What a comment of the program calls a tool.
+    pub tool: &'a dyn Fn(u32) -> Option<String>,
+    /// What the control calls a work coordinate system (`G54`), by its number.
+    pub offset: &'a dyn Fn(u16) -> Option<String>,
+}
+
+impl std::fmt::Debug for Names<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Names")
+    }
+}
+
+impl Names<'static> {
+    /// Nothing has a name.
+    pub const NONE: Self = Self { tool: &|_| None, offset: &|_| None };
+}
+
+impl Names<'_> {
+    fn offset(&self, number: Option<u16>) -> String {
+        match number {
+            None => "unknown offset".to_owned(),
+            Some(number) => (self.offset)(number).unwrap_or_else(|| format!("offset {number}")),
+        }
+    }
+}
+
+/// How long comments of tools may be in the table.
+const COMMENT_WIDTH: usize = 28;
+
+impl Statistics {
+    /// The figures as text, in the units that most moves were written in.
+    pub fn to_text(&self, names: &Names<'_>) -> String {
+        let total = self.total();
+        let table = Table { names, view: self.view(), units: self.units(), total: &total };
+        let mut out = String::new();
+        table.headline(&mut out);
+        if total.moves > 0 || total.tool_changes > 0 {
+            table.tools(&mut out, self.sections());
+            table.extents(&mut out, self.sections());
+        }
+        table.missing(&mut out);
+        table.assumed(&mut out, self);
+        out
+    }
+
+    /// The figures as JSON, in the units that most moves were written in.
+    ///
+    /// ```text
+    /// {"units":"mm","total":{…},"tools":[{"tool":1,"name":…,"line":5,…}],"assumptions":[…]}
+    /// ```
+    pub fn to_json(&self, names: &Names<'_>) -> serde_json::Value {
+        let total = self.total();
+        let (view, units) = (self.view(), self.units());
+        let figures = |section: &Section| json::Figures::of(section, view, units, names);
+        let whole = json::Whole {
+            units: match units {
+                Units::Inch => "inch",
+                Units::Mm => "mm",
+            },
+            x_is_diameter: view.has_diameters(),
+            total: figures(&total),
+            tools: self
+                .sections()
+                .iter()
+                .map(|section| json::Tool {
+                    tool: section.tool,
+                    name: section.tool.and_then(names.tool),
+                    file: &section.file,
+                    line: section.line,
+                    figures: figures(section),
+                })
+                .collect(),
+            assumptions: self
+                .assumptions()
+                .into_iter()
+                .map(|assumption| json::Assumed { text: assumption.text, key: assumption.key })
+                .collect(),
+        };
+        serde_json::to_value(whole).unwrap_or_default()
+    }
+}
+
+struct Table<'a> {
+    names: &'a Names<'a>,
+    view: View,
+    units: Units,
+    total: &'a Section,
+}
+
+impl Table<'_> {
+    fn headline(&self, out: &mut String) {
+        let times = &self.total.times;
+        let all = times.total();
+        let _ = write!(out, "cycle time {}", self.time(all));
+        let parts = [("cutting", times.cutting), ("rapid", times.rapid), ("dwell", times.dwell)];
+        for (index, (name, time)) in parts.into_iter().filter(|(_, time)| *time > Seconds::ZERO).enumerate() {
+            let _ = write!(out, "{} {name} {}", if index == 0 { ":" } else { "," }, self.time(time));
+            if all > Seconds::ZERO {
+                let _ = write!(out, " ({:.0} %)", time / all * 100.0);
+            }
+        }
+        if self.total.tool_changes > 0 {
+            let plural = if self.total.tool_changes == 1 { "" } else { "s" };
+            let _ = write!(
+                out,
+                "; {} tool change{plural} {}",
+                self.total.tool_changes,
+                self.time(times.tool_change)
+            );
+        }
+        out.push('\n');
+    }
+
+    /// Minutes with tenths of a second for short runs, else hours.
+    fn time(&self, time: Seconds) -> String {
+        clock(time, self.total.times.total() >= Seconds(600.0))
+    }
+
+    fn tools(&self, out: &mut String, sections: &[Section]) {
+        let unit = match self.units {
+            Units::Inch => "inch",
+            Units::Mm => "mm",
+        };
+        let mut rows = Vec::with_capacity(sections.len() + 2);
+        rows.push(
+            [
+                "tool",
+                "",
+                "time",
+                "cutting",
+                "rapid",
+                &format!("cut {unit}"),
+                &format!("rapid {unit}"),
+                "feed",
+                "speed",
+                "holes",
+                "arcs",
+            ]
+            .map(str::to_owned),
+        );
+        for section in sections {
+            rows.push(self.row(label(section), section.tool.and_then(self.names.tool), section));
+        }
+        if sections.len() > 1 {
+            rows.push(self.row("total".to_owned(), None, self.total));
+        }
+        out.push('\n');
+        // Tool, comment, feed and speed are words; the rest are numbers.
+        columns(out, &rows, &[false, false, true, true, true, true, true, false, false, true, true]);
+    }
+
+    fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 11] {
+        let way = |mm: f64| {
+            let way = mm / self.units.in_mm();
+            if self.units == Units::Inch { format!("{way:.1}") } else { format!("{way:.0}") }
+        };
+        let count = |number: u64| if number == 0 { String::new() } else { number.to_string() };
+        let comment: String = comment
+            .unwrap_or_default()
+            .chars()
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .take(COMMENT_WIDTH)
+            .collect();
+        [
+            tool,
+            comment,
+            self.time(section.times.total()),
+            self.time(section.times.cutting),
+            self.time(section.times.rapid),
+            way(section.cutting.0),
+            way(section.rapid.0),
+            self.feeds(section),
+            self.speeds(section),
+            count(section.holes),
+            count(section.arcs),
+        ]
+    }
+
+    fn feeds(&self, section: &Section) -> String {
+        let scale = 1.0 / self.units.in_mm();
+        let parts = [
+            range(&section.feeds.per_minute, scale, "/min"),
+            range(&section.feeds.per_revolution, scale, "/rev"),
+            range(&section.feeds.inverse_time, 1.0, " inverse"),
+        ];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    fn speeds(&self, section: &Section) -> String {
+        let surface = match self.units {
+            Units::Inch => range(&section.surface_speeds, 1.0 / 0.3048, " ft/min"),
+            Units::Mm => range(&section.surface_speeds, 1.0, " m/min"),
+        };
+        [range(&section.speeds, 1.0, " rpm"), surface].into_iter().flatten().collect::<Vec<_>>().join(", ")
+    }
+
+    fn extents(&self, out: &mut String, sections: &[Section]) {
+        // Axes that never moved away from one place say nothing, but X, Y and Z are missed when they are not there.
+        let shown: Vec<Axis> = self
+            .view
+            .axes()
+            .filter(|axis| {
+                let moved = |bounds: &Bounds| bounds.extent(axis.index()).is_some_and(|extent| extent > 0.0);
+                !axis.is_rotary() || moved(&self.total.work()) || moved(&self.total.machine)
+            })
+            .collect();
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        let mut heading = vec![match (self.units, self.view.has_diameters()) {
+            (Units::Inch, false) => "extents, inch".to_owned(),
+            (Units::Inch, true) => "extents, inch, X as diameter".to_owned(),
+            (Units::Mm, false) => "extents, mm".to_owned(),
+            (Units::Mm, true) => "extents, mm, X as diameter".to_owned(),
+        }];
+        heading.extend(shown.iter().flat_map(|axis| [format!("{} from", axis.name()), "to".to_owned()]));
+        rows.push(heading);
+        let mut row = |name: String, bounds: &Bounds| {
+            if shown.iter().all(|axis| bounds.range(axis.index()).is_none()) {
+                return;
+            }
+            let mut cells = vec![name];
+            cells.extend(shown.iter().flat_map(|axis| self.range(*axis, bounds)));
+            rows.push(cells);
+        };
+        for section in sections {
+            row(format!("{} cutting", label(section)), &section.cut);
+        }
+        for used in &self.total.offsets {
+            row(format!("{} all moves", self.names.offset(used.number)), &used.extents);
+        }
+        row("machine, all moves".to_owned(), &self.total.machine);
+        if rows.len() > 1 {
+            out.push('\n');
+            let mut right = vec![true; 1 + 2 * shown.len()];
+            if let Some(first) = right.first_mut() {
+                *first = false;
+            }
+            columns(out, &rows, &right);
+        }
+    }
+
+    fn range(&self, axis: Axis, bounds: &Bounds) -> [String; 2] {
+        let Some((low, high)) = bounds.range(axis.index()) else { return ["?".to_owned(), "?".to_owned()] };
+        let decimals = if self.units == Units::Inch && !axis.is_rotary() { 4 } else { 3 };
+        [low, high].map(|value| {
+            let text = format!("{:.decimals$}", self.view.coordinate(axis, value, self.units));
+            // A negative zero is a zero to a reader.
+            match text.strip_prefix('-') {
+                Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
+                _ => text,
+            }
+        })
+    }
+
+    fn missing(&self, out: &mut String) {
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } = self.total.unaccounted;
+        let moves = |count: u64| if count == 1 { "1 move".to_owned() } else { format!("{count} moves") };
+        let mut lines = Vec::new();
+        if points > 0 {
+            lines.push(format!("{} from or to an unknown point: not in distance or time", moves(points)));
+        }
+        if feeds > 0 {
+            lines.push(format!("{} without a feed: not in time", moves(feeds)));
+        }
+        if speeds > 0 {
+            lines.push(format!("{} at an unknown spindle speed or at none: not in time", moves(speeds)));
+        }
+        if dwells > 0 {
+            let plural = if dwells == 1 { "" } else { "s" };
+            lines.push(format!("{dwells} dwell{plural} of unknown length: not in time"));
+        }
+        if partly > 0 {
+            lines.push(format!("{} while an axis is at an unknown place: counted without it", moves(partly)));
+        }
+        if machine > 0 && machine == self.total.moves {
+            lines.push("machine coordinates: work or tool offsets are not known".to_owned());
+        } else if machine > 0 {
+            lines.push(format!("machine coordinates of {}: offsets are not known", moves(machine)));
+        }
+        if arcs_by_ends > 0 {
+            let arcs = if arcs_by_ends == 1 { "1 arc".to_owned() } else { format!("{arcs_by_ends} arcs") };
+            lines.push(format!("machine coordinates of {arcs} between the ends"));
+        }
+        list(out, "missing in these figures", &lines);
+    }
+
+    fn assumed(&self, out: &mut String, statistics: &Statistics) {
+        let mut lines: Vec<String> = statistics
+            .assumptions()
+            .into_iter()
+            .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
+            .collect();
+        if self.total.moves > 0 {
+            lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
+        }
+        list(out, "assumed", &lines);
+    }
+}
+
+fn list(out: &mut String, title: &str, lines: &[String]) {
+    if lines.is_empty() {
+        return;
+    }
+    let _ = write!(out, "\n{title}\n");
+    for line in lines {
+        let _ = writeln!(out, "  {line}");
+    }
+}
+
+fn label(section: &Section) -> String {
+    match section.tool {
+        Some(tool) => format!("T{tool}"),
+        None if section.changed => "T?".to_owned(),
+        None => "no tool".to_owned(),
+    }
+}
+
+/// `800/min`, `120-800/min`.
+fn range(values: &Values, scale: f64, unit: &str) -> Option<String> {
+    let (low, high) = values.range()?;
+    let [low, high] = [low, high].map(|value| plain(value * scale));
+    Some(if low == high { format!("{low}{unit}") } else { format!("{low}-{high}{unit}") })
+}
+
+/// Without digits that nobody programmed.
+fn plain(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// `1:23.4`, or `0:01:23` where hours matter.
+fn clock(time: Seconds, hours: bool) -> String {
+    let seconds = time.0.max(0.0);
+    #[expect(clippy::cast_sign_loss, reason = "not negative")]
+    if hours {
+        let whole = seconds.round() as u64;
+        format!("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+    } else {
+        let tenths = (seconds * 10.0).round() as u64;
+        format!("{}:{:02}.{}", tenths / 600, tenths / 10 % 60, tenths % 10)
+    }
+}
+
+/// Rows in columns as wide as they have to be; empty columns are left out.
+fn columns<R: AsRef<[String]>>(out: &mut String, rows: &[R], right: &[bool]) {
+    let widths: Vec<usize> = (0..right.len())
+        .map(|column| {
+            let cells = || rows.iter().filter_map(|row| row.as_ref().get(column));
+            // A column with nothing below its heading says nothing.
+            if cells().skip(1).all(String::is_empty) {
+                return 0;
+            }
+            cells().map(|cell| cell.chars().count()).max().unwrap_or(0)
+        })
+        .collect();
+    for row in rows {
+        let mut line = String::new();
+        for ((cell, width), right) in row.as_ref().iter().zip(&widths).zip(right) {
+            if *width == 0 {
+                continue;
+            }
+            if !line.is_empty() {
+                line.push_str("  ");
+            }
+            let _ = if *right { write!(line, "{cell:>width$}") } else { write!(line, "{cell:<width$}") };
+        }
+        out.push_str(line.trim_end());
+        out.push('\n');
+    }
+}
+
+/// The shape of the JSON.
+mod json {
+    use std::collections::BTreeMap;
+
+    use super::{Axis, Bounds, Names, Section, Serialize, Units, Values, View, in_units, rounded};
+
+    #[derive(Serialize)]
+    pub(super) struct Whole<'a> {
+        pub(super) units: &'static str,
+        pub(super) x_is_diameter: bool,
+        pub(super) total: Figures,
+        pub(super) tools: Vec<Tool<'a>>,
+        pub(super) assumptions: Vec<Assumed>,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Assumed {
+        pub(super) text: String,
+        pub(super) key: &'static str,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Tool<'a> {
+        pub(super) tool: Option<u32>,
+        pub(super) name: Option<String>,
+        pub(super) file: &'a str,
+        pub(super) line: u32,
+        #[serde(flatten)]
+        pub(super) figures: Figures,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Figures {
+        seconds: Times,
+        distance: Ways,
+        moves: u64,
+        arcs: u64,
+        holes: u64,
+        probes: u64,
+        tool_changes: u64,
+        feeds: Feeds,
+        speeds: Speeds,
+        offsets: Vec<Offset>,
+        extents: Extents,
+        unaccounted: Unaccounted,
+    }
+
+    #[derive(Serialize)]
+    struct Times {
+        total: Option<f64>,
+        cutting: Option<f64>,
+        rapid: Option<f64>,
+        dwell: Option<f64>,
+        tool_change: Option<f64>,
+    }
+
+    #[derive(Serialize)]
+    struct Ways {
+        cutting: Option<f64>,
+        rapid: Option<f64>,
+        /// Degrees where only rotary axes moved.
+        rotary_deg: Option<f64>,
+    }
+
+    #[derive(Serialize)]
+    struct Range {
+        min: Option<f64>,
+        max: Option<f64>,
+        values: Vec<Option<f64>>,
+        /// There were more values than are listed.
+        more: bool,
+    }
+
+    #[derive(Serialize)]
+    struct Feeds {
+        per_minute: Option<Range>,
+        per_rev: Option<Range>,
+        inverse_time: Option<Range>,
+    }
+
+    #[derive(Serialize)]
+    struct Speeds {
+        rpm: Option<Range>,
+        metres_per_minute: Option<Range>,
+    }
+
+    type Box = BTreeMap<char, [Option<f64>; 2]>;
+
+    #[derive(Serialize)]
+    struct Offset {
+        number: Option<u16>,
+        name: String,
+        extents: Box,
+    }
+
+    #[derive(Serialize)]
+    struct Extents {
+        cutting: Box,
+        machine: Box,
+    }
+
+    #[derive(Serialize)]
+    struct Unaccounted {
+        unknown_point: u64,
+        no_feed: u64,
+        no_speed: u64,
+        unknown_dwell: u64,
+        partly: u64,
+        machine: u64,
+        machine_arcs: u64,
+    }
+
+    impl Figures {
+        pub(super) fn of(section: &Section, view: View, units: Units, names: &Names<'_>) -> Self {
+            let length = |mm: f64| rounded(in_units(Axis::X, mm, units));
+            let scale = 1.0 / units.in_mm();
+            let extents = |bounds: &Bounds| {
+                view.axes()
+                    .filter_map(|axis| {
+                        let (low, high) = bounds.range(axis.index())?;
+                        Some((axis.name(), [low, high].map(|value| rounded(view.coordinate(axis, value, units)))))
+                    })
+                    .collect()
+            };
+            let missing = section.unaccounted;
+            Self {
+                seconds: Times {
+                    total: rounded(section.times.total().0),
+                    cutting: rounded(section.times.cutting.0),
+                    rapid: rounded(section.times.rapid.0),
+                    dwell: rounded(section.times.dwell.0),
+                    tool_change: rounded(section.times.tool_change.0),
+                },
+                distance: Ways {
+                    cutting: length(section.cutting.0),
+                    rapid: length(section.rapid.0),
+                    rotary_deg: rounded(section.turned.0),
+                },
+                moves: section.moves,
+                arcs: section.arcs,
+                holes: section.holes,
+                probes: section.probes,
+                tool_changes: section.tool_changes,
+                feeds: Feeds {
+                    per_minute: range(&section.feeds.per_minute, scale),
+                    per_rev: range(&section.feeds.per_revolution, scale),
+                    inverse_time: range(&section.feeds.inverse_time, 1.0),
+                },
+                speeds: Speeds {
+                    rpm: range(&section.speeds, 1.0),
+                    metres_per_minute: range(&section.surface_speeds, 1.0),
+                },
+                offsets: section
+                    .offsets
+                    .iter()
+                    .map(|used| Offset {
+                        number: used.number,
+                        name: names.offset(used.number),
+                        extents: extents(&used.extents),
+                    })
+                    .collect(),
+                extents: Extents { cutting: extents(&section.cut), machine: extents(&section.machine) },
+                unaccounted: Unaccounted {
+                    unknown_point: missing.points,
+                    no_feed: missing.feeds,
+                    no_speed: missing.speeds,
+                    unknown_dwell: missing.dwells,
+                    partly: missing.partly,
+                    machine: missing.machine,
+                    machine_arcs: missing.arcs_by_ends,
+                },
+            }
+        }
+    }
+
+    fn range(values: &Values, scale: f64) -> Option<Range> {
+        let (low, high) = values.range()?;
+        Some(Range {
+            min: rounded(low * scale),
+            max: rounded(high * scale),
+            values: values.distinct().iter().map(|value| rounded(value * scale)).collect(),
+            more: values.has_more(),
+        })
+    }
+}

@@ -1,0 +1,311 @@
+//! Times and figures of whole runs.
+
+mod common;
+
+use std::f64::consts::PI;
+
+use common::{Run, point, timing, xyz};
+use expect_test::expect;
+use gcheck_engine::{Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
+use gcheck_geometry::{Mm, MmPerMin, Plane, Seconds};
+use gcheck_toolpath::{Clock, Names, Statistics, Timing, Untimed, View};
+
+/// Seconds of all events together.
+fn seconds(run: &Run) -> Result<f64, Untimed> {
+    let mut clock = Clock::new(timing());
+    let mut total = Ok(0.0);
+    run.each(|step| total = total.and_then(|sum| clock.step(step).map(|seconds| sum + seconds.0)));
+    total.map(|seconds: f64| (seconds * 1e6).round() / 1e6)
+}
+
+#[test]
+fn a_rapid_move_ends_with_its_slowest_axis() {
+    let mut run = Run::new();
+    run.rapid(100.0, 50.0, 0.0);
+    assert_eq!(seconds(&run), Ok(1.0));
+    // 3600 degrees a minute.
+    run.turn(TravelKind::Rapid, Axis::C, 180.0);
+    assert_eq!(seconds(&run), Ok(4.0));
+}
+
+#[test]
+fn feeds_in_their_modes() {
+    let mut run = Run::new();
+    run.feed = 600.0;
+    run.feed(30.0, 40.0, 0.0);
+    assert_eq!(seconds(&run), Ok(5.0));
+
+    let mut run = Run::new();
+    (run.feed_mode, run.feed) = (FeedMode::InverseTime, 6.0);
+    run.feed(1000.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Ok(10.0));
+
+    let mut run = Run::new();
+    (run.feed_mode, run.feed, run.rpm) = (FeedMode::PerRevolution, 0.2, 1200.0);
+    run.feed(8.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Ok(2.0));
+    run.rpm = 0.0;
+    run.feed(0.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Err(Untimed::Speed));
+}
+
+#[test]
+fn arcs_by_their_length() {
+    let mut run = Run::new();
+    run.feed = 60.0;
+    run.arc(Plane::Xy, [0.0, 0.0, 0.0], (10.0, 0.0), -360.0);
+    assert_eq!(seconds(&run), Ok((20.0 * PI * 1e6).round() / 1e6));
+}
+
+/// The number of the feed counts degrees, in millimetres and in inches.
+#[test]
+fn rotary_axes_alone() {
+    let mut run = Run::new();
+    run.feed = 360.0;
+    run.turn(TravelKind::Feed, Axis::A, 90.0);
+    assert_eq!(seconds(&run), Ok(15.0));
+    run.units = Units::Inch;
+    run.feed = 360.0 * 25.4;
+    run.turn(TravelKind::Feed, Axis::A, 0.0);
+    assert_eq!(seconds(&run), Ok(30.0));
+}
+
+#[test]
+fn threads_and_taps_by_lead_and_speed() {
+    let mut run = Run::new();
+    run.rpm = 600.0;
+    run.event(Event::SpindleSync { lead: Some(Mm(1.5)), velocity: false });
+    run.travel(TravelKind::Thread, point(0.0, 0.0, -15.0));
+    assert_eq!(seconds(&run), Ok(1.0));
+    // In at 600, out at 1200.
+    run.event(Event::RigidTap { from: run.at, to: point(0.0, 0.0, -30.0), scale: 2.0 });
+    assert_eq!(seconds(&run), Ok(2.5));
+}
+
+/// Facing from 50 mm radius to the centre at 157.08 m/min: 500 rpm outside, 3000 rpm at most. A turn takes the longer the
+/// larger the radius, so the mean of the turns counts, not the mean of the speeds.
+#[test]
+fn constant_surface_speed() {
+    let mut run = Run::new();
+    run.event(Event::SpindleMode(Some(3000.0))).event(Event::SpindleSpeed(50.0 * PI));
+    run.rpm = f64::NAN;
+    (run.feed_mode, run.feed) = (FeedMode::PerRevolution, 0.1);
+    run.at = point(50.0, 0.0, 0.0);
+    run.feed(0.0, 0.0, 0.0);
+    let turns: f64 = 500.0;
+    let parts: f64 = (0..50_000)
+        .map(|part| (f64::from(part) + 0.5) / 1000.0)
+        .map(|x| f64::max(x / 50.0 / 500.0, 1.0 / 3000.0))
+        .sum();
+    let expected = turns * (parts / 50_000.0) * 60.0;
+    assert!((seconds(&run).unwrap() - expected).abs() < 1e-3, "{expected}");
+}
+
+#[test]
+fn dwells_and_tool_changes() {
+    let mut run = Run::new();
+    run.event(Event::Dwell(Seconds(0.5))).change(1);
+    // The tool is there already.
+    run.change(1).change(2);
+    assert_eq!(seconds(&run), Ok(8.5));
+}
+
+#[test]
+fn what_cannot_be_timed() {
+    let mut run = Run::new();
+    run.feed(1.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Err(Untimed::Feed));
+    let mut run = Run::new();
+    run.at = Position::UNKNOWN;
+    run.rapid(1.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Err(Untimed::Point));
+}
+
+const NAMES: Names<'static> = Names {
+    tool: &|tool| match tool {
+        1 => Some("FACE MILL 50".to_owned()),
+        2 => Some("DRILL 8.5".to_owned()),
+        _ => None,
+    },
+    offset: &|number| Some(format!("G{}", 53 + number)),
+};
+
+/// A face, a circle and two holes.
+fn part() -> Run {
+    let mut run = Run::new();
+    run.at = Position::UNKNOWN;
+    run.zero = point(-400.0, -200.0, -350.0);
+    run.block().change(1);
+    run.rpm = 3000.0;
+    run.feed = 1200.0;
+    run.block().rapid(-30.0, 0.0, 50.0);
+    run.block().rapid(-30.0, 0.0, 2.0).feed(-30.0, 0.0, -1.0).feed(130.0, 0.0, -1.0);
+    run.feed = 600.0;
+    run.block().feed(130.0, 50.0, -1.0).arc(Plane::Xy, [130.0, 50.0, -1.0], (100.0, 50.0), 360.0);
+    run.block().rapid(130.0, 50.0, 50.0);
+    run.block().change(2);
+    run.rpm = 2200.0;
+    run.feed = 220.0;
+    run.expanded = true;
+    for x in [20.0, 80.0] {
+        run.block().rapid(x, 25.0, 50.0).rapid(x, 25.0, 2.0);
+        for depth in [-10.0, -20.0] {
+            run.feed(x, 25.0, depth).rapid(x, 25.0, 2.0);
+        }
+        run.event(Event::Dwell(Seconds(0.2)));
+    }
+    run.expanded = false;
+    run.block().rapid(80.0, 25.0, 50.0).event(Event::End);
+    run
+}
+
+#[test]
+fn a_table_for_machinists() {
+    let statistics = part().statistics(xyz(), timing());
+    expect![[r#""#]].assert_eq(&statistics.to_text(&NAMES));
+}
+
+#[test]
+fn figures_as_json() {
+    let statistics = part().statistics(View::new(&[Axis::X, Axis::Z]), timing());
+    let mut json = statistics.to_json(&NAMES);
+    json["total"] = "…".into();
+    json["tools"][0] = "…".into();
+    expect![[r#""#]].assert_eq(&serde_json::to_string_pretty(&json).unwrap());
+}
+
+/// In inches, with everything that can be missing or assumed.
+#[test]
+fn what_is_missing_and_what_is_assumed() {
+    let mut run = Run::new();
+    run.units = Units::Inch;
+    run.at = Position::UNKNOWN;
+    run.zero = Position::UNKNOWN;
+    run.tool = None;
+    run.rapid(25.4, 25.4, 25.4);
+    run.rapid(50.8, 25.4, 25.4).feed(0.0, 0.0, 0.0).event(Event::ToolChange(None));
+    run.feed_mode = FeedMode::PerRevolution;
+    run.feed = 0.254;
+    run.feed(25.4, 0.0, 0.0).event(Event::Dwell(Seconds(f64::NAN)));
+    run.turn(TravelKind::Rapid, Axis::A, f64::NAN).turn(TravelKind::Rapid, Axis::A, 90.0);
+    run.turn(TravelKind::Rapid, Axis::A, 0.0).rapid(0.0, 0.0, 0.0);
+    let statistics = run.statistics(View::new(&[Axis::X, Axis::Y, Axis::Z, Axis::A]), Timing::new(None, None));
+    expect![[r#""#]].assert_eq(&statistics.to_text(&Names::NONE));
+}
+
+#[test]
+fn a_program_without_moves() {
+    let mut run = Run::new();
+    run.event(Event::End);
+    expect![[r#""#]].assert_eq(&run.statistics(xyz(), timing()).to_text(&Names::NONE));
+}
+
+/// An arc bulges beyond its ends, in work coordinates and in machine coordinates that are turned against them.
+#[test]
+fn extents_of_arcs() {
+    let half_circle = |rotation: f64| {
+        let mut run = Run::new();
+        run.feed = 100.0;
+        run.event(Event::WorkOffset { number: 1, offset: Position::ZERO, rotation });
+        run.event(Event::Rotation(rotation));
+        run.arc(Plane::Xy, [-10.0, 0.0, 0.0], (-5.0, 0.0), 180.0);
+        // A quarter turn puts (x, y) at (-y, x).
+        if rotation > 0.0 {
+            if let Some(last) = run.steps.last_mut() {
+                last.machine = point(0.0, -10.0, 0.0);
+            }
+        }
+        let statistics = run.statistics(xyz(), timing());
+        let total = statistics.total();
+        let ranges = |bounds: &gcheck_geometry::Bounds| {
+            [0, 1].map(|axis| bounds.range(axis).map(|(low, high)| (low.round(), high.round())))
+        };
+        (ranges(&total.cut), ranges(&total.machine), total.unaccounted.arcs_by_ends)
+    };
+    let work = [Some((-10.0, 0.0)), Some((0.0, 5.0))];
+    assert_eq!(half_circle(0.0), (work, work, 0));
+    assert_eq!(half_circle(90.0), (work, [Some((-5.0, 0.0)), Some((-10.0, 0.0))], 0));
+}
+
+/// A bored hole with a shift at its bottom is one; so are pecks at one place. A pass of a turning cycle is none.
+#[test]
+fn holes() {
+    let holes = |moves: &[(TravelKind, [f64; 3])]| {
+        let mut run = Run::new();
+        run.feed = 100.0;
+        run.expanded = true;
+        for (kind, [x, y, z]) in moves {
+            run.travel(*kind, point(*x, *y, *z));
+        }
+        run.statistics(xyz(), timing()).total().holes
+    };
+    use TravelKind::{Feed, Rapid};
+    let drill = |x: f64| [(Rapid, [x, 0.0, 0.0]), (Feed, [x, 0.0, -5.0]), (Rapid, [x, 0.0, 0.0])];
+    assert_eq!(holes(&drill(1.0)), 1);
+    assert_eq!(holes(&[drill(1.0), drill(1.0), drill(2.0)].concat()), 2);
+    let bore = [(Feed, [0.0, 0.0, -5.0]), (Rapid, [0.1, 0.0, -5.0]), (Rapid, [0.1, 0.0, 0.0])];
+    assert_eq!(holes(&bore), 1);
+    let turn = [(Feed, [0.0, 0.0, -50.0]), (Feed, [1.0, 0.0, -49.0]), (Rapid, [1.0, 0.0, 0.0])];
+    assert_eq!(holes(&turn), 0);
+    let turn = [(Feed, [0.0, 0.0, -50.0]), (Feed, [1.0, 0.0, -50.0]), (Rapid, [1.0, 0.0, 0.0])];
+    assert_eq!(holes(&turn), 0);
+}
+
+/// No run makes the figures grow without bound, and nothing is lost.
+#[test]
+fn many_tools_and_many_feeds() {
+    let mut run = Run::new();
+    for n in 0..5_000_u32 {
+        run.change(n % 1_500);
+        run.feed = f64::from(n) + 1.0;
+        run.feed(f64::from(n), 0.0, 0.0);
+    }
+    let statistics = run.statistics(xyz(), timing());
+    let total = statistics.total();
+    assert_eq!(statistics.sections().len(), gcheck_toolpath::MAX_SECTIONS);
+    assert_eq!((total.moves, total.tool_changes), (5_000, 5_000));
+    let feeds = &total.feeds.per_minute;
+    assert_eq!((feeds.distinct().len(), feeds.has_more()), (gcheck_toolpath::MAX_DISTINCT, true));
+    assert_eq!(feeds.range(), Some((2.0, 5_000.0)));
+}
+
+/// Work offsets are told apart, and a run is counted in the units that most of it is written in.
+#[test]
+fn work_offsets_used() {
+    let mut run = Run::new();
+    run.feed = 100.0;
+    run.event(Event::WorkOffset { number: 2, offset: Position::ZERO, rotation: 0.0 }).feed(5.0, 0.0, 0.0);
+    run.event(Event::WorkOffset { number: 4, offset: Position::ZERO, rotation: 0.0 });
+    run.event(Event::WorkOffset { number: 6, offset: Position::ZERO, rotation: 0.0 }).feed(-5.0, 0.0, 0.0);
+    let total = run.statistics(xyz(), timing()).total();
+    let used: Vec<_> = total.offsets.iter().map(|used| (used.number, used.extents.range(0))).collect();
+    assert_eq!(used, [(Some(2), Some((0.0, 5.0))), (Some(6), Some((-5.0, 5.0)))]);
+}
+
+/// Numbers that make no sense give figures that are finite, and nothing panics.
+#[test]
+fn any_numbers() {
+    let strange = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.0, 1e300, -1e300, 5e-324];
+    let mut run = Run::new();
+    for a in strange {
+        for b in strange {
+            (run.feed, run.rpm) = (a, b);
+            run.event(Event::SpindleMode(Some(a))).event(Event::SpindleSpeed(b));
+            run.event(Event::SpindleSync { lead: Some(Mm(a)), velocity: true });
+            run.event(Event::Dwell(Seconds(a))).event(Event::BarPush(Mm(b)));
+            run.feed(a, b, a).arc(Plane::Yz, [b, a, b], (a, b), a);
+            run.event(Event::RigidTap { from: run.at, to: point(a, b, b), scale: b });
+            run.event(Event::SpindleSync { lead: None, velocity: true }).event(Event::SpindleMode(None));
+            let travel = Travel { kind: TravelKind::Rapid, from: run.at, programmed: run.at, to: point(b, a, 0.0), expanded: true };
+            run.event(Event::Travel(travel)).turn(TravelKind::Feed, Axis::B, a);
+            run.event(Event::WorkOffset { number: 0, offset: run.at, rotation: b }).event(Event::Rotation(a));
+        }
+    }
+    let statistics: Statistics = run.statistics(View::new(&Axis::ALL), Timing::new(Some(MmPerMin(f64::NAN)), Some(Seconds(-1.0))));
+    let (text, json) = (statistics.to_text(&Names::NONE), statistics.to_json(&Names::NONE).to_string());
+    assert!(!text.contains("NaN") && !json.is_empty());
+    for line in run.jsonl(xyz()).lines() {
+        serde_json::from_str::<serde_json::Value>(line).unwrap();
+    }
+    assert!(!run.csv(xyz()).is_empty() && !run.text(xyz()).is_empty() && !run.canonical(&[]).is_empty());
+}
