@@ -6,6 +6,7 @@
 //! Strokes are handed out as they are found, so those before an error stay handed out, as they would on a machine.
 
 mod drilling;
+mod layered;
 mod patterns;
 mod pockets;
 mod profile;
@@ -18,6 +19,7 @@ use crate::event::Units;
 use crate::fault::CycleFault;
 
 pub use drilling::{Hole, Overrides, hole};
+pub use layered::{LayeredFinish, LayeredRoughing, Pockets, layered_finish, layered_roughing};
 pub use patterns::{bolt_arc, bolt_circle, bolt_line};
 pub use pockets::{CircularPocket, GeneralPocket, PocketPlan, circular_pocket, general_pocket};
 pub use profile::{ProfileFault, ProfileSegment};

@@ -63,7 +63,8 @@ pub enum Event {
     /// The control was told which tool is in the spindle (`M61`).
     SetToolNumber(Option<u32>),
 
-    /// Programmed speed: turns a minute, or metres a minute under constant surface speed (NaN unknown).
+    /// Programmed speed, the number as it stands (NaN unknown): turns a minute; under constant surface speed metres a
+    /// minute, or feet a minute in an inch program.
     SpindleSpeed(f64),
     /// The spindle turns or stops.
     Spindle(Spindle),

@@ -186,8 +186,11 @@ pub struct Model<'c> {
     named: FxHashMap<String, usize>,
     /// By role: the code in effect at power-on.
     pub(crate) defaults: [CodeIx; Role::COUNT],
-    /// Whether each default is a fact about the control, not a setting's guess.
     pub(crate) at_end: Vec<CodeIx>,
+    /// The code that ends canned cycles.
+    pub(crate) cycle_cancel: CodeIx,
+    /// Canned cycles and motion are one modal group, so that a cycle replaces the motion mode.
+    pub(crate) cycles_are_motion: bool,
 }
 
 impl<'c> Model<'c> {
@@ -250,9 +253,14 @@ impl<'c> Model<'c> {
             named: FxHashMap::default(),
             defaults: [CodeIx::NONE; Role::COUNT],
             at_end: Vec::new(),
+            cycle_cancel: CodeIx::NONE,
+            cycles_are_motion: false,
             codes,
         };
         model.index_system_variables(&semantics.system_variables);
+        model.cycle_cancel = model.code_with(Effect::CycleCancel);
+        let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
+        model.cycles_are_motion = group(Effect::CycleDrill) == group(Effect::Linear);
         let code_of = |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
         model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
         let starts = control.groups().iter().filter_map(|group| group.default.as_ref());

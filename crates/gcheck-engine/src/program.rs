@@ -57,7 +57,9 @@ pub struct ProgramFile<'a> {
 pub struct Program<'a> {
     dialect: &'a Dialect<'a>,
     library: &'a dyn Library,
-    files: RefCell<Vec<Rc<ProgramFile<'a>>>>,
+    main: Rc<ProgramFile<'a>>,
+    /// Files that calls brought in; they own their text.
+    others: RefCell<Vec<Rc<ProgramFile<'static>>>>,
     names: RefCell<Names>,
     numbers: RefCell<FxHashMap<u32, Option<At>>>,
     subroutines: RefCell<FxHashMap<OLabel, Option<At>>>,
@@ -73,7 +75,7 @@ struct Names {
 
 impl std::fmt::Debug for Program<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Program").field("files", &self.files.borrow().len()).finish_non_exhaustive()
+        f.debug_struct("Program").field("others", &self.others.borrow().len()).finish_non_exhaustive()
     }
 }
 
@@ -84,7 +86,8 @@ impl<'a> Program<'a> {
         Self {
             dialect,
             library,
-            files: RefCell::new(vec![main]),
+            main,
+            others: RefCell::default(),
             names: RefCell::default(),
             numbers: RefCell::default(),
             subroutines: RefCell::default(),
@@ -98,7 +101,13 @@ impl<'a> Program<'a> {
 
     /// A file by its index; the main file is 0.
     pub fn file(&self, index: u32) -> Option<Rc<ProgramFile<'a>>> {
-        self.files.borrow().get(index as usize).cloned()
+        match index.checked_sub(1) {
+            None => Some(Rc::clone(&self.main)),
+            Some(other) => {
+                let file: Rc<ProgramFile<'a>> = self.others.borrow().get(other as usize).cloned()?;
+                Some(file)
+            }
+        }
     }
 
     /// Where the program of a number begins, as seen from a file.
@@ -146,14 +155,14 @@ impl<'a> Program<'a> {
 
     /// Adds a file, unless one of its name is there.
     fn load(&self, source: SourceFile) -> u32 {
-        let known = self.files.borrow().iter().position(|file| !file.name.is_empty() && file.name == source.name);
+        let known = self.others.borrow().iter().position(|file| file.name == source.name);
         if let Some(index) = known {
-            return index as u32;
+            return index as u32 + 1;
         }
         let loaded = Loaded::new(Cow::Owned(source.text), self.dialect, |_, _, _| ());
-        let mut files = self.files.borrow_mut();
-        files.push(Rc::new(ProgramFile { name: source.name, loaded }));
-        files.len() as u32 - 1
+        let mut others = self.others.borrow_mut();
+        others.push(Rc::new(ProgramFile { name: source.name, loaded }));
+        others.len() as u32
     }
 
     /// The small number of a parameter's name that stands at a place.

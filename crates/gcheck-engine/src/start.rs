@@ -80,6 +80,7 @@ pub(crate) fn start_state<D: Domain>(
         tool: if machine.fresh { D::number(0.0) } else { D::unknown() },
         selected: if machine.fresh { D::number(0.0) } else { D::unknown() },
         cycle: CycleWords::NONE,
+        turning: None,
         transform: Transform::NONE,
         cylinder: None,
         blending: (0.0, None),
@@ -100,6 +101,7 @@ pub(crate) fn start_state<D: Domain>(
         }],
         macro_modal: None,
         compensation: None,
+        left_compensation: None,
         nurbs: None,
     };
     for (number, value) in &machine.variables {

@@ -140,6 +140,67 @@ impl CycleWords {
     }
 }
 
+/// Words of turning cycles that stay in effect, millimetres (X as a radius). `None` not given, NaN not known.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct TurningWords {
+    /// Cycles of one pass: X and Z of the point that the series begins and ends at.
+    pub(crate) start: [Option<f64>; 2],
+    /// X and Z of the far corner.
+    pub(crate) corner: [Option<f64>; 2],
+    /// Start of the cut less its end.
+    pub(crate) taper: Option<f64>,
+    /// Millimetres a turn.
+    pub(crate) lead: Option<f64>,
+    /// First block of roughing: depth of a pass, way back from the work.
+    pub(crate) roughing: [Option<f64>; 2],
+    /// First block of pattern repeating: shift in X and Z, passes.
+    pub(crate) pattern: [Option<f64>; 3],
+    /// First block of grooving: way back after a peck.
+    pub(crate) peck_retract: Option<f64>,
+    /// First block of threading: passes at full depth, pull-out in leads, angle in degrees, least depth, left for the end.
+    pub(crate) thread: [Option<f64>; 5],
+}
+
+impl TurningWords {
+    fn all(&self) -> impl Iterator<Item = Option<f64>> {
+        let Self { start, corner, taper, lead, roughing, pattern, peck_retract, thread } = *self;
+        let ends = [taper, lead, peck_retract];
+        start.into_iter().chain(corner).chain(ends).chain(roughing).chain(pattern).chain(thread)
+    }
+
+    fn join(&self, other: &Self) -> Self {
+        let one = |a: Option<f64>, b: Option<f64>| {
+            if a.map(f64::to_bits) == b.map(f64::to_bits) { a } else { Some(f64::NAN) }
+        };
+        let mut joined = *self;
+        let pairs = |a: &mut [Option<f64>], b: &[Option<f64>]| {
+            for (a, b) in a.iter_mut().zip(b) {
+                *a = one(*a, *b);
+            }
+        };
+        pairs(&mut joined.start, &other.start);
+        pairs(&mut joined.corner, &other.corner);
+        joined.taper = one(self.taper, other.taper);
+        joined.lead = one(self.lead, other.lead);
+        pairs(&mut joined.roughing, &other.roughing);
+        pairs(&mut joined.pattern, &other.pattern);
+        joined.peck_retract = one(self.peck_retract, other.peck_retract);
+        pairs(&mut joined.thread, &other.thread);
+        joined
+    }
+
+    fn contains(&self, inner: &Self) -> bool {
+        self.all().zip(inner.all()).all(|(a, b)| a.is_some_and(f64::is_nan) || a.map(f64::to_bits) == b.map(f64::to_bits))
+    }
+}
+
+impl PartialEq for TurningWords {
+    /// Bit by bit, so that unknown equals unknown.
+    fn eq(&self, other: &Self) -> bool {
+        self.all().map(|word| word.map(f64::to_bits)).eq(other.all().map(|word| word.map(f64::to_bits)))
+    }
+}
+
 /// Transformations between programmed and work coordinates. Off by default.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Transform {
@@ -213,6 +274,8 @@ pub struct State<D: Domain> {
     /// The tool called for.
     pub(crate) selected: D::Value,
     pub(crate) cycle: CycleWords,
+    /// Words of turning cycles; none before the first one.
+    pub(crate) turning: Option<Rc<TurningWords>>,
     pub(crate) transform: Transform,
     /// Radius of the mapped cylinder, millimetres.
     pub(crate) cylinder: Option<f64>,
@@ -227,6 +290,8 @@ pub struct State<D: Domain> {
     /// The modal macro call (`G66`).
     pub(crate) macro_modal: Option<Rc<ModalCall<D>>>,
     pub(crate) compensation: Option<Box<Compensation>>,
+    /// Compensation switched off, until the move that leaves its path.
+    pub(crate) left_compensation: Option<Box<Compensation>>,
     /// Control points of a NURBS block under way.
     pub(crate) nurbs: Option<Rc<Vec<[f64; 3]>>>,
 }
@@ -403,6 +468,11 @@ impl<D: Domain> State<D> {
         &self.cycle
     }
 
+    /// Words of turning cycles.
+    pub(crate) fn turning(&self) -> TurningWords {
+        self.turning.as_deref().copied().unwrap_or_default()
+    }
+
     /// Programs under way, the main program first.
     pub fn frames(&self) -> &[Frame<D>] {
         &self.frames
@@ -532,6 +602,9 @@ impl<D: Domain> State<D> {
         joined.tool = value(&self.tool, &other.tool);
         joined.selected = value(&self.selected, &other.selected);
         joined.cycle = self.cycle.join(&other.cycle);
+        if self.turning != other.turning {
+            joined.turning = Some(Rc::new(self.turning().join(&other.turning())));
+        }
         if self.transform != other.transform {
             joined.transform.angle = f64::NAN;
         }
@@ -555,6 +628,7 @@ impl<D: Domain> State<D> {
         }
         if self.compensation != other.compensation {
             joined.compensation = None;
+            joined.left_compensation = None;
             joined.actual = Position::UNKNOWN;
         }
         if self.nurbs != other.nurbs {
@@ -584,6 +658,7 @@ impl<D: Domain> State<D> {
             && truth(self.live_tool, inner.live_tool)
             && truth(self.mist, inner.mist)
             && truth(self.flood, inner.flood)
+            && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
             && self.variables.contains(&inner.variables)
     }
 }
@@ -612,6 +687,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.tool == other.tool
             && self.selected == other.selected
             && self.cycle.bits() == other.cycle.bits()
+            && self.turning == other.turning
             && format_bits(&self.transform) == format_bits(&other.transform)
             && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
             && self.blending == other.blending
@@ -622,6 +698,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.frames == other.frames
             && self.macro_modal == other.macro_modal
             && self.compensation == other.compensation
+            && self.left_compensation.is_none() == other.left_compensation.is_none()
             && self.nurbs == other.nurbs
     }
 }

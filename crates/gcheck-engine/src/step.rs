@@ -166,7 +166,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             stack: Vec::with_capacity(16),
             words: BlockWords::new(),
             cursor: None,
-            origin: Origin { at: At { file: 0, block: 0 }, start: 0, n: None },
+            origin: Origin {
+                at: At { file: 0, block: 0 },
+                start: 0,
+                end: 0,
+                flags: BlockFlags::empty(),
+                letters: LetterSet::EMPTY,
+                n: None,
+            },
             flow: None,
             machine_coordinates: false,
             returned: false,
@@ -184,7 +191,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let Some(place) = self.place(at) else { return self.end_of_text(at, state) };
         let table = Rc::clone(&place.table);
         let block = table.block(place.ix);
-        self.origin = Origin { at, start: place.base + block.range.start, n: None };
+        self.origin = Origin {
+            at,
+            start: place.base + block.range.start,
+            end: place.base + block.range.end,
+            flags: block.flags,
+            letters: block.letters,
+            n: None,
+        };
         if block.flags.contains(BlockFlags::LABEL) {
             let n = table.words(block).iter().find(|word| word.letter == Letter::of('N'));
             #[expect(clippy::cast_sign_loss, reason = "negative numbers become 0, as a label cannot be negative")]
@@ -282,7 +296,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn emit(&mut self, state: &mut State<D>, event: Event) {
-        if state.compensation.is_some() {
+        let at_once = matches!(
+            event,
+            Event::SelectTool(_) | Event::ToolTableEntry(_) | Event::SetToolNumber(_) | Event::Message(_)
+        );
+        if state.compensation.is_some() && !at_once {
             self.emit_compensated(state, event);
         } else {
             self.observer.event(self.origin, state, &event);

@@ -27,30 +27,43 @@
 //!
 //! # Style `TangentEntry`
 //!
-//! Found by running programs through LinuxCNC's stand-alone interpreter (2.9); it agrees with it to 1e-4 mm.
+//! Found by running programs through LinuxCNC's stand-alone interpreter (2.9) and confirmed by comparing thousands of
+//! random paths with it: points agree to 1e-4 mm, order, block and refusals are the same.
 //!
 //! | situation | path of the centre |
 //! |---|---|
 //! | entry by a line | straight to the point beside the line's end, perpendicular to the entry line itself; the line must be longer than the radius |
 //! | entry by an arc | an arc from the start to the point beside the arc's end, with its centre moved along the radius of that end; the chord must be longer than the radius |
 //! | entry without motion in the plane | refused as too short |
-//! | bend within 0.05 rad | nothing: the earlier segment ends beside its own end, and the later one starts there, a little off |
-//! | outside corner before a feed | an arc about the corner, with the third coordinate held |
+//! | smooth joint (bend within 0.05 rad) | nothing: the earlier segment ends beside its own end, and the later one starts there, a little off |
+//! | outside corner before a feed or an arc | an arc about the corner, with the third coordinate held |
 //! | outside corner before a rapid line | a straight rapid line to the same point |
-//! | inside corner | the earlier segment ends, and the later one starts, where the offset curves meet |
+//! | inside corner | the earlier segment ends, and the later one starts, where the offset curves meet; of two meeting points the one where the path turns to the tool's side |
 //! | inside corner, no meeting point | gouge |
-//! | line whose offset runs backwards | gouge, found when the line is given out (the next segment, or the end) |
-//! | arc whose offset runs backwards | gouge, only at the inside corner behind it; never at the end of compensation |
-//! | entry that runs backwards | not noticed |
+//! | arc whose ends lie at different distances from its centre | the distance of its end counts; a line before it is taken as meeting it there |
 //! | arc on the inside with a radius not greater than the tool's | arc too small |
 //! | motion of the third axis alone, or none | a line that stays beside the corner; an inside corner moves its end, too |
 //! | program stop | gives out everything; the corner behind it can no longer move the end before it |
-//! | end of compensation | the last segment ends beside its own end; the next motion starts there and must not be an arc |
+//! | end of compensation, of the program | the last segment ends beside its own end; the motion after it starts there and must not be an arc |
+//! | compensation again before any motion | the entry counts from the programmed position, and must not be an arc |
 //! | radius zero | the programmed path, at once |
 //! | negative radius | the other side |
-//! | nose orientation | every point is shifted by a constant; an entry by an arc is preceded by a line to the shifted start |
+//! | nose orientation | every point is shifted by a constant |
+//!
+//! A segment whose offset runs backwards is a gouge.
+//! Whether it does is looked at when its end is fixed: at an inside corner, at an outside corner before a line, at a
+//! program stop and at the end.
+//! It is not looked at before a smooth joint or an outside corner before an arc, nor for an entry, nor for a segment
+//! that starts at an inside corner right behind a program stop.
+//! A line runs backwards when its offset points against it at all; an arc, when it sweeps over 0.025 rad more than
+//! programmed.
 //!
 //! Corner elements are given out with the block behind the corner, segments with the block that fixes their end.
+//!
+//! One difference is on purpose.
+//! An entry by an arc with a nose orientation is preceded by a line to the shifted start.
+//! LinuxCNC gives the same when the next joint is smooth; elsewhere it moves that line's end to the arc's end and
+//! refuses some of those programs for an internal fault.
 //!
 //! # Style `Intersection`
 //!
@@ -59,11 +72,15 @@
 //! | entry by a line | straight to the point beside the *start of the next* segment |
 //! | entry or exit by an arc | refused |
 //! | motion of the third axis before the entry | unchanged |
-//! | outside corner, bend up to the limit | the offset tangents are extended to their intersection |
+//! | smooth joint (bend within 0.005 rad) | nothing |
+//! | outside corner, turn up to the limit | the offset tangents are extended to their intersection |
 //! | outside corner, sharper | both are extended by the radius and joined by a line |
 //! | inside corner | where the offset curves meet |
 //! | no meeting point, a segment that runs backwards, an arc too small | gouge |
 //! | end of compensation | the last segment ends beside its own end |
+//!
+//! Inserted lines are feeds or rapids as the segment behind the corner is.
+//! Where a real control limits how many blocks without motion in the plane it reads past, this style has no limit.
 
 mod path;
 mod planar;
@@ -100,9 +117,17 @@ impl PathPoint {
         Self::new(point.first, point.second, normal)
     }
 
-    fn is_finite(self) -> bool {
-        self.first.is_finite() && self.second.is_finite() && self.normal.is_finite()
+    fn is_usable(self) -> bool {
+        is_usable(self.first) && is_usable(self.second) && is_usable(self.normal)
     }
+}
+
+/// Lengths beyond this (mm) are nobody's path, and their squares would lose the path's own figures.
+const GREATEST_LENGTH: f64 = 1e12;
+
+/// Known, finite and of a size that can be computed with.
+fn is_usable(length: f64) -> bool {
+    length.abs() <= GREATEST_LENGTH
 }
 
 /// The side of the programmed path on which the tool runs, seen along the path with the plane's normal upward.
@@ -161,7 +186,7 @@ impl CompensationConfig {
     pub const fn intersection() -> Self {
         Self {
             style: CompensationStyle::Intersection,
-            bend_tolerance: 1e-6,
+            bend_tolerance: 0.005,
             sharp_limit: FRAC_PI_2,
             entry_exceeds_radius: false,
         }
@@ -187,6 +212,7 @@ impl Cutter {
 
     /// A nose whose controlled point is the imaginary tip that lies `towards` units of the radius along each axis from
     /// the centre; each unit is -1, 0 or 1.
+    #[must_use]
     pub fn with_tip(self, towards: [i8; 2]) -> Self {
         let radius = self.radius.abs();
         Self { shift: towards.map(|unit| f64::from(unit) * radius), ..self }
@@ -269,8 +295,8 @@ pub enum CompensationError {
     AlreadyOn,
     /// A segment is given while compensation is off.
     NotOn,
-    /// A coordinate or the radius is not a finite number.
-    NotFinite,
+    /// A coordinate or the radius is not known (not a number) or beyond 1e12 mm.
+    NotUsable,
     /// The entry line, or the chord of the entry arc, is not longer than the tool's radius.
     EntryTooShort {
         /// The tool's radius in mm, which the length must exceed.
@@ -307,16 +333,22 @@ impl fmt::Display for CompensationError {
         match self {
             Self::AlreadyOn => out.write_str("compensation is already on"),
             Self::NotOn => out.write_str("compensation is off"),
-            Self::NotFinite => out.write_str("a coordinate is not known"),
+            Self::NotUsable => out.write_str("a coordinate is not known"),
             Self::EntryTooShort { needed, got, arc } => {
                 let part = if *arc { "chord of the entry arc" } else { "entry move" };
-                write!(out, "the {part} is {got:.4} mm; it must be longer than the tool's radius of {needed:.4} mm")
+                write!(
+                    out,
+                    "the {part} is {got:.4} mm; it must be longer than the tool's radius of {needed:.4} mm"
+                )
             }
             Self::EntryIsArc => out.write_str("compensation starts on an arc"),
             Self::ExitIsArc => out.write_str("compensation ends on an arc"),
             Self::ZeroLength => out.write_str("the arc has no radius"),
             Self::ArcTooSmall { radius, tool_radius } => {
-                write!(out, "the arc's radius of {radius:.4} mm is too small for the tool's {tool_radius:.4} mm")
+                write!(
+                    out,
+                    "the arc's radius of {radius:.4} mm is too small for the tool's {tool_radius:.4} mm"
+                )
             }
             Self::Gouge { kind, corner: [first, second] } => {
                 let what = match kind {
@@ -424,8 +456,14 @@ struct Waiting<M> {
 enum Programmed {
     /// May run anywhere: the entry, or no motion in the plane.
     Free,
-    Line { direction: Vector, corner: Vector },
-    Arc { sweep: f64, corner: Vector },
+    Line {
+        direction: Vector,
+        corner: Vector,
+    },
+    Arc {
+        sweep: f64,
+        corner: Vector,
+    },
 }
 
 /// A programmed segment in the plane.
@@ -453,21 +491,29 @@ impl<M: Clone, E> Compensator<M, E> {
         }
     }
 
-    /// Switches compensation on; `position` is where the controlled point stands.
+    /// Switches compensation on; `position` is the programmed position.
+    ///
+    /// The controlled point stands there, too, unless compensation has just been stopped and nothing has moved since
+    /// ([`Compensator::exit_motion`] has not been called): then it stands where it was left.
     ///
     /// # Errors
     ///
-    /// [`CompensationError::AlreadyOn`] and [`CompensationError::NotFinite`]; compensation stays as it was.
+    /// [`CompensationError::AlreadyOn`] and [`CompensationError::NotUsable`]; compensation stays as it was.
     pub fn start(&mut self, cutter: Cutter, position: PathPoint) -> Result<(), CompensationError> {
         if self.is_on() {
             return Err(CompensationError::AlreadyOn);
         }
         let [first, second] = cutter.shift;
-        if !(position.is_finite() && cutter.radius.is_finite() && first.is_finite() && second.is_finite()) {
-            return Err(CompensationError::NotFinite);
+        if !(position.is_usable() && is_usable(cutter.radius) && is_usable(first) && is_usable(second)) {
+            return Err(CompensationError::NotUsable);
         }
         let left = (cutter.side == CutterSide::Left) == (cutter.radius >= 0.0);
+        let (leaving, controlled) = (self.state.leaving, self.state.controlled);
         self.state = State::at(position);
+        if leaving {
+            self.state.leaving = true;
+            self.state.controlled = controlled;
+        }
         self.state.phase = Phase::Entering;
         self.state.side = if left { 1.0 } else { -1.0 };
         self.state.radius = cutter.radius.abs();
@@ -571,7 +617,7 @@ impl<M: Clone, E> Compensator<M, E> {
         }
         let result = self.give_out(&mut emit);
         self.or_off(result)?;
-        self.state.leaving = self.state.phase == Phase::On && self.state.radius > 0.0;
+        self.state.leaving |= self.state.phase == Phase::On && self.state.radius > 0.0;
         self.state.phase = Phase::Off;
         self.last_payload = None;
         Ok(CompensationExit { position: self.state.controlled, programmed: self.state.programmed })

@@ -174,6 +174,8 @@ pub struct Survey {
     pub has_mistakes: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
+    /// Levels of block delete that are used: bit 0 for a plain `/`.
+    pub block_deletes: u16,
     /// How many blocks there are.
     pub blocks: usize,
     /// What `codes` and `assigned` hold, for the question "seen before?".
@@ -188,6 +190,9 @@ impl Survey {
                 break;
             }
             self.blocks += 1;
+            if block.delete > 0 {
+                self.block_deletes |= 1 << (block.delete - 1).min(15);
+            }
             let is_pointed = block.letters.intersects(dialect.control().axes())
                 && !block.flags.contains(BlockFlags::UNPOINTED);
             self.pointed += usize::from(is_pointed);

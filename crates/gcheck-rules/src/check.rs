@@ -6,10 +6,12 @@
 use std::ops::Range;
 
 use gcheck_controls::{Control, Ends};
-use gcheck_program::{BlockFlags, Survey, code_region, lower};
-use gcheck_syntax::{SourceText, cut};
+use gcheck_engine::{Model, Options, Program, flow};
+use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
+use gcheck_syntax::SourceText;
 
 use crate::mistakes::worth_reporting;
+use crate::paths::{Ledger, SceneLibrary, Watchers};
 use crate::suppression::Suppressions;
 use crate::{BlockCx, FileCx, Finding, Report, RuleEntry, RuleMeta, Run, Scene, Selection, Severity};
 
@@ -26,6 +28,23 @@ pub struct Job<'a> {
     pub selection: &'a Selection,
     /// Whether comments may silence rules.
     pub suppressions: bool,
+    /// How paths are analysed.
+    pub execution: Execution,
+}
+
+/// How the paths of a program are analysed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Execution {
+    /// Blocks that may be executed.
+    pub fuel: u64,
+    /// The switch of block delete; `None` analyses every position.
+    pub block_skip: Option<bool>,
+}
+
+impl Default for Execution {
+    fn default() -> Self {
+        Self { fuel: 50_000_000, block_skip: None }
+    }
 }
 
 /// What came out of a file.
@@ -39,6 +58,10 @@ pub struct Outcome {
     pub suppressed: usize,
     /// Lines of the file.
     pub lines: usize,
+    /// What the analysis of paths took for granted.
+    pub ledger: Ledger,
+    /// The analysis of paths ended before it had seen all.
+    pub out_of_fuel: bool,
 }
 
 /// The selected rules, arranged by when they run.
@@ -46,6 +69,7 @@ struct Plan {
     token: Vec<(&'static RuleEntry, Option<Severity>)>,
     block: Vec<(&'static RuleEntry, Option<Severity>, BlockFlags)>,
     program: Vec<(&'static RuleEntry, Option<Severity>)>,
+    path: Vec<(&'static RuleEntry, Option<Severity>)>,
     suppressions: Vec<(&'static RuleEntry, Option<Severity>)>,
     /// Blocks without any of these flags need no rule.
     trigger: BlockFlags,
@@ -57,6 +81,7 @@ impl Plan {
             token: Vec::new(),
             block: Vec::new(),
             program: Vec::new(),
+            path: Vec::new(),
             suppressions: Vec::new(),
             trigger: BlockFlags::ERROR,
         };
@@ -68,6 +93,7 @@ impl Plan {
                     plan.block.push((rule, severity, trigger));
                 }
                 Run::Program { .. } => plan.program.push((rule, severity)),
+                Run::Path { .. } => plan.path.push((rule, severity)),
                 Run::Suppressions { .. } => plan.suppressions.push((rule, severity)),
             }
         }
@@ -76,7 +102,7 @@ impl Plan {
 
     /// The user chose the severity of the rule's findings.
     fn is_overridden(&self, rule: &'static RuleMeta) -> bool {
-        let pairs = self.token.iter().chain(&self.program).map(|(r, s)| (r, s));
+        let pairs = self.token.iter().chain(&self.program).chain(&self.path).map(|(r, s)| (r, s));
         let mut pairs = pairs.chain(self.block.iter().map(|(r, s, _)| (r, s)));
         pairs.any(|(r, severity)| std::ptr::eq(r.meta, rule) && severity.is_some())
     }
@@ -139,25 +165,76 @@ pub fn check(job: &Job<'_>) -> Outcome {
     let mut collector = Collector { control: job.scene.control(), findings: Vec::new(), omitted: Vec::new() };
     let mut survey = Survey::default();
     let mut directives = Vec::new();
-    for chunk in cut(text) {
-        if chunk.start as u32 >= region.end {
-            break;
-        }
-        check_chunk(job, &plan, &region, chunk, &mut survey, &mut directives, &mut collector);
-    }
+    let loaded = Loaded::new(text, job.scene.dialect, |base, table, chunk| {
+        let chunk = Chunk { base, table, text: chunk };
+        check_chunk(job, &plan, &region, &chunk, &mut survey, &mut directives, &mut collector);
+    });
     let cx = FileCx { scene: job.scene, source: job.source, region, survey: &survey };
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
         }
     }
+    let (ledger, out_of_fuel) = check_paths(job, &plan, loaded, &survey, &mut collector);
     if let Some(end) = unread_from(&survey) {
         // The rest of the block that ends the program is read with it.
         let rest = text.as_bytes().get(end as usize..).unwrap_or_default();
         let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
         collector.soften(&plan, end + line as u32);
     }
-    finish(job, &plan, collector, &directives, count_lines(text.as_bytes()))
+    let mut outcome = finish(job, &plan, collector, &directives, count_lines(text.as_bytes()));
+    outcome.ledger = ledger;
+    outcome.out_of_fuel = out_of_fuel;
+    outcome
+}
+
+/// Executes all paths of the program and lets the rules of the path tier watch.
+fn check_paths(
+    job: &Job<'_>,
+    plan: &Plan,
+    loaded: Loaded<'_>,
+    survey: &Survey,
+    collector: &mut Collector<'_>,
+) -> (Ledger, bool) {
+    if plan.path.is_empty() {
+        return (Ledger::new(), false);
+    }
+    let library = SceneLibrary(job.scene.programs);
+    let model = Model::new(job.scene.control());
+    let program = Program::new(loaded, job.scene.dialect, &library);
+    let mut add = |severity: Option<Severity>, finding: Finding| collector.add(severity, finding);
+    let mut watchers = Watchers::new(job.scene, &program, &model, &plan.path, &mut add);
+    let machine = &job.scene.machine.engine;
+    let mut results = Vec::new();
+    for skip in switch_positions(job.execution.block_skip, survey.block_deletes) {
+        if !results.is_empty() {
+            watchers.restart();
+        }
+        let options = Options { skip, ..Options::NONE };
+        results.push(flow(&program, &model, machine, options, job.execution.fuel, &mut watchers));
+    }
+    let out_of_fuel = results.iter().any(|result| result.out_of_fuel);
+    let mut ledger = Ledger::new();
+    for result in &results {
+        ledger.extend(result.assumptions.iter().cloned());
+    }
+    if let Some((first, others)) = results.split_first() {
+        watchers.finish(first, others);
+    }
+    (ledger, out_of_fuel)
+}
+
+/// Positions of the block delete switches worth an analysis: all off, all on, and each level alone where there are several.
+fn switch_positions(wanted: Option<bool>, levels: u16) -> Vec<u16> {
+    match (wanted, levels.count_ones()) {
+        (Some(false), _) | (None, 0) => vec![0],
+        (Some(true), _) => vec![u16::MAX],
+        (None, 1) => vec![0, u16::MAX],
+        (None, _) => {
+            let each = (0..16).map(|level| 1 << level).filter(|level| levels & level != 0);
+            [0, u16::MAX].into_iter().chain(each).collect()
+        }
+    }
 }
 
 /// Where the text begins that no run reads: behind an end of the program that nothing can go past.
@@ -180,19 +257,24 @@ fn count_lines(text: &[u8]) -> usize {
     feeds + lone_returns + usize::from(text.last().is_some_and(|last| !matches!(last, b'\n' | b'\r')))
 }
 
+/// A chunk on its way through the block tier.
+struct Chunk<'a> {
+    base: u32,
+    table: &'a BlockTable,
+    text: &'a str,
+}
+
 fn check_chunk(
     job: &Job<'_>,
     plan: &Plan,
     region: &Range<u32>,
-    chunk: Range<usize>,
+    chunk: &Chunk<'_>,
     survey: &mut Survey,
     directives: &mut Vec<Range<u32>>,
     collector: &mut Collector<'_>,
 ) {
-    let base = chunk.start as u32;
-    let text = job.source.text().get(chunk).unwrap_or_default();
-    let table = lower(text, job.scene.dialect);
-    survey.add(&table, base, region.end, job.scene.dialect);
+    let Chunk { base, table, text } = *chunk;
+    survey.add(table, base, region.end, job.scene.dialect);
     directives.extend(table.directives().iter().map(|r| r.start + base..r.end + base));
     for (ix, block) in table.blocks() {
         if !block.flags.intersects(plan.trigger) {
@@ -201,7 +283,7 @@ fn check_chunk(
         if base + block.range.start >= region.end {
             break;
         }
-        let cx = BlockCx { scene: job.scene, table: &table, ix, block, text, base };
+        let cx = BlockCx { scene: job.scene, table, ix, block, text, base };
         for (rule, severity, trigger) in &plan.block {
             if let Run::Block { check, .. } = rule.run
                 && block.flags.intersects(*trigger)
@@ -256,7 +338,7 @@ fn finish(
             &b.message,
         ))
     });
-    Outcome { findings, omitted: collector.omitted, suppressed, lines }
+    Outcome { findings, omitted: collector.omitted, suppressed, lines, ledger: Ledger::new(), out_of_fuel: false }
 }
 
 #[cfg(test)]

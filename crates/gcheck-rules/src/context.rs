@@ -33,6 +33,13 @@ pub enum Run {
         /// Looks at the file.
         check: fn(&FileCx<'_>, &mut Report<'_>),
     },
+    /// While all paths of the program are executed.
+    Path {
+        /// What the rule wants to see.
+        watch: crate::Watch,
+        /// Makes the rule for one file.
+        make: fn() -> Box<dyn crate::PathRule>,
+    },
     /// Once for the file, after its suppressions have silenced what they silence.
     Suppressions {
         /// Looks at the suppressions.
@@ -46,6 +53,7 @@ impl std::fmt::Debug for Run {
             Self::Token { .. } => "Token",
             Self::Block { .. } => "Block",
             Self::Program { .. } => "Program",
+            Self::Path { .. } => "Path",
             Self::Suppressions { .. } => "Suppressions",
         })
     }
@@ -70,6 +78,8 @@ pub struct MachineFacts {
     pub axes: Option<LetterSet>,
     /// The control's settings by number, values as its page words them.
     pub settings: BTreeMap<String, String>,
+    /// Offsets, tools, travel and the rest that executing a program asks for.
+    pub engine: gcheck_engine::Machine,
 }
 
 /// Programs that are not in the file at hand: other files of its folder and of the search path.
@@ -78,6 +88,16 @@ pub trait Programs {
     fn has_number(&self, number: u32) -> bool;
     /// Is there a subroutine file of this name (lower case)?
     fn has_name(&self, name: &str) -> bool;
+    /// The file that holds the program of this number, for execution.
+    fn source_of_number(&self, number: u32) -> Option<gcheck_engine::SourceFile> {
+        let _ = number;
+        None
+    }
+    /// The file that holds the subroutine of this name (lower case), for execution.
+    fn source_of_name(&self, name: &str) -> Option<gcheck_engine::SourceFile> {
+        let _ = name;
+        None
+    }
 }
 
 /// No other programs.

@@ -12,6 +12,7 @@ mod finding;
 mod loops;
 mod meta;
 mod mistakes;
+mod paths;
 mod rules;
 mod sections;
 mod selection;
@@ -19,13 +20,14 @@ mod suppression;
 #[cfg(test)]
 mod testing;
 
-pub use check::{Job, MAX_FINDINGS, Outcome, check};
+pub use check::{Execution, Job, MAX_FINDINGS, Outcome, check};
 pub use context::{
     BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit,
 };
 pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
+pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};
 pub use sections::{LabelIndex, Section};
 pub use selection::{Selection, UnknownRule, suggest};

@@ -13,6 +13,8 @@ pub enum Tier {
     Block,
     /// The whole file: labels, calls, program structure.
     Program,
+    /// Every path of the program, executed: what is active, where the tool goes.
+    Path,
 }
 
 impl Tier {
@@ -22,6 +24,7 @@ impl Tier {
             Self::Token => "token",
             Self::Block => "block",
             Self::Program => "program",
+            Self::Path => "path",
         }
     }
 }

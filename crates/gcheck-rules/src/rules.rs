@@ -174,6 +174,7 @@ mod tests {
                 Run::Token { .. } => Tier::Token,
                 Run::Block { .. } => Tier::Block,
                 Run::Program { .. } | Run::Suppressions { .. } => Tier::Program,
+                Run::Path { .. } => Tier::Path,
             };
             // Suppressions are read with the tokens and judged with the file.
             if rule.meta.tier != tier && !matches!(rule.run, Run::Suppressions { .. }) {

@@ -9,7 +9,7 @@ use expect_test::Expect;
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
-use crate::{Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Scene, Selection, check};
+use crate::{Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Scene, Selection, check};
 
 /// What a test says about the world around the program.
 pub(crate) struct World<'w> {
@@ -46,7 +46,7 @@ pub(crate) fn findings(
         control_is_guessed: world.control_is_guessed,
     };
     let source = SourceText::from(program);
-    check(&Job { source: &source, scene, selection, suppressions: world.suppressions }).findings
+    check(&Job { source: &source, scene, selection, suppressions: world.suppressions, execution: Execution::default() }).findings
 }
 
 /// One rule on a program, with nothing configured.

@@ -2,7 +2,7 @@
 
 use gcheck_controls::Control;
 use gcheck_program::Dialect;
-use gcheck_rules::{Job, MachineFacts, NoPrograms, Scene, Selection, Severity, Tier, all, check};
+use gcheck_rules::{Execution, Job, MachineFacts, NoPrograms, Scene, Selection, Severity, Tier, all, check};
 use gcheck_syntax::SourceText;
 
 /// Rules that look at one block. Programs and labels that an example names do not exist, so rules about whole programs
@@ -25,7 +25,7 @@ fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<Stri
     let scene =
         Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
     let source = SourceText::from(program);
-    let outcome = check(&Job { source: &source, scene, selection, suppressions: false });
+    let outcome = check(&Job { source: &source, scene, selection, suppressions: false, execution: Execution::default() });
     let at_least_info = outcome.findings.iter().filter(|f| f.severity >= Severity::Info);
     at_least_info.map(|f| format!("{}[{}] {}", f.severity, f.rule.id, f.message)).collect()
 }

@@ -10,7 +10,7 @@
 use std::io::{self, Write};
 
 use gcheck_engine::{
-    Coolant, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry, TravelKind, Units,
+    Axis, Coolant, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry, TravelKind, Units,
 };
 use gcheck_geometry::{Mm, Plane};
 
@@ -56,13 +56,12 @@ pub struct Canonical<W> {
     sink: Sink<W>,
     count: u64,
     tools: Vec<u32>,
-    surface_speed: bool,
 }
 
 impl<W: Write> Canonical<W> {
     /// Prints to `writer`.
     pub fn new(writer: W) -> Self {
-        Self { sink: Sink::new(writer), count: 0, tools: Vec::new(), surface_speed: false }
+        Self { sink: Sink::new(writer), count: 0, tools: Vec::new() }
     }
 
     /// With the tool numbers of the tool table in its order: a change to a tool prints its place, counted from 1. A tool
@@ -130,12 +129,11 @@ impl<W: Write> Canonical<W> {
                     out.extend_from_slice(b", ...");
                 });
             }),
-            Event::RigidTap { to, .. } => {
-                self.line(n, |out| call(out, "RIGID_TAP", |out| list(out, to.xyz().map(|mm| length(mm, units)))))
-            }
+            Event::RigidTap { to, .. } => self
+                .line(n, |out| call(out, "RIGID_TAP", |out| list(out, to.xyz().map(|mm| length(mm, units))))),
             Event::Dwell(seconds) => self.number(n, "DWELL", seconds.0),
             Event::ToolTableEntry(entry) => self.line(n, |out| tool_entry(out, entry)),
-            Event::Stop(stop) => self.stop(n, stop),
+            Event::Stop(kind) => self.stop(n, kind),
             Event::PalletChange => self.word(n, "PALLET_SHUTTLE()"),
             Event::End => self.word(n, "PROGRAM_END()"),
             Event::Message(text) => self.quoted(n, "MESSAGE", text),
@@ -251,8 +249,12 @@ impl<W: Write> Canonical<W> {
         let (n, units) = (step.n, step.units);
         match step.event {
             // The rotation is an event of its own.
-            Event::WorkOffset { number, offset, .. } => self.line(n, |out| work_offset(out, *number, offset, units)),
-            Event::Shift(shift) => self.line(n, |out| call(out, "SET_G92_OFFSET", |out| six(out, shift, units))),
+            Event::WorkOffset { number, offset, .. } => {
+                self.line(n, |out| work_offset(out, *number, offset, units))
+            }
+            Event::Shift(shift) => {
+                self.line(n, |out| call(out, "SET_G92_OFFSET", |out| six(out, shift, units)))
+            }
             Event::LengthOffset(offset) => self.line(n, |out| {
                 call(out, "USE_TOOL_LENGTH_OFFSET", |out| {
                     for (index, values) in nine(offset, units).chunks(3).enumerate() {
@@ -295,16 +297,12 @@ impl<W: Write> Canonical<W> {
     fn spindle(&mut self, step: &Step<'_>) -> io::Result<()> {
         let n = step.n;
         match step.event {
-            Event::SpindleSpeed(speed) => {
-                let feet = self.surface_speed && step.units == Units::Inch;
-                let speed = if feet { *speed / METRES_PER_FOOT } else { *speed };
-                self.line(n, |out| {
-                    call(out, "SET_SPINDLE_SPEED", |out| {
-                        out.extend_from_slice(b"0, ");
-                        fixed(out, speed, 4);
-                    });
-                })
-            }
+            Event::SpindleSpeed(speed) => self.line(n, |out| {
+                call(out, "SET_SPINDLE_SPEED", |out| {
+                    out.extend_from_slice(b"0, ");
+                    fixed(out, *speed, 4);
+                });
+            }),
             Event::Spindle(spindle) => self.word(
                 n,
                 match spindle {
@@ -323,7 +321,6 @@ impl<W: Write> Canonical<W> {
             }),
             Event::WaitOrient(seconds) => self.number(n, "SPINDLE.0.WAIT_ORIENT_COMPLETE", seconds.0),
             Event::SpindleMode(limit) => {
-                self.surface_speed = limit.is_some();
                 // No limit is the number that the interpreter takes for one.
                 let limit = limit.map_or(0.0, |limit| if limit.is_infinite() { 1e30 } else { limit });
                 self.line(n, |out| {
@@ -355,8 +352,8 @@ impl<W: Write> Canonical<W> {
         }
     }
 
-    fn stop(&mut self, n: Option<u32>, stop: &Stop) -> io::Result<()> {
-        match stop {
+    fn stop(&mut self, n: Option<u32>, kind: &Stop) -> io::Result<()> {
+        match kind {
             Stop::Program | Stop::Pallet => self.word(n, "PROGRAM_STOP()"),
             Stop::Optional => self.word(n, "OPTIONAL_PROGRAM_STOP()"),
             Stop::Message(text) => {
@@ -366,7 +363,14 @@ impl<W: Write> Canonical<W> {
         }
     }
 
-    fn output(&mut self, n: Option<u32>, index: u32, value: f64, analog: bool, with_move: bool) -> io::Result<()> {
+    fn output(
+        &mut self,
+        n: Option<u32>,
+        index: u32,
+        value: f64,
+        analog: bool,
+        with_move: bool,
+    ) -> io::Result<()> {
         let on = value.abs() > 0.0;
         let name = match (analog, with_move, on) {
             (true, true, _) => "SET_MOTION_OUTPUT_VALUE",
@@ -432,15 +436,12 @@ impl<W: Write> Canonical<W> {
     }
 }
 
-/// Metres in a foot: surface speeds are feet a minute in inch programs.
-const METRES_PER_FOOT: f64 = 0.3048;
-
 fn length(mm: Mm, units: Units) -> f64 {
     mm.0 / units.in_mm()
 }
 
 fn nine(position: &Position, units: Units) -> [f64; 9] {
-    gcheck_engine::Axis::ALL.map(|axis| in_units(axis, position.raw(axis), units))
+    Axis::ALL.map(|axis| in_units(axis, position.raw(axis), units))
 }
 
 fn call(out: &mut Vec<u8>, name: &str, arguments: impl FnOnce(&mut Vec<u8>)) {
@@ -474,8 +475,8 @@ fn spaced(out: &mut Vec<u8>, values: &[f64]) {
 
 /// X Y Z A B C: moves and offsets print no more axes.
 fn six(out: &mut Vec<u8>, position: &Position, units: Units) {
-    let [x, y, z, a, b, c, ..] = nine(position, units);
-    list(out, [x, y, z, a, b, c]);
+    let six: [Axis; 6] = [Axis::X, Axis::Y, Axis::Z, Axis::A, Axis::B, Axis::C];
+    list(out, six.map(|axis| in_units(axis, position.raw(axis), units)));
 }
 
 fn work_offset(out: &mut Vec<u8>, number: u16, offset: &Position, units: Units) {

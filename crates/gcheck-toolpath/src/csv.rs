@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use gcheck_engine::{Axis, FeedMode, Units};
 
-use crate::number::{short, whole};
+use crate::number::{brief, short, whole};
 use crate::record::{Path, Record, Recorder};
 use crate::sink::Sink;
 use crate::step::{Step, View};
@@ -89,7 +89,7 @@ fn line(out: &mut Vec<u8>, view: View, n: u64, step: &Step<'_>, record: &Record<
     out.push(b',');
     out.extend_from_slice(record.action.unwrap_or_default().as_bytes());
     out.push(b',');
-    short(out, record.value.map_or(f64::NAN, |(_, value)| value), 6, "");
+    brief(out, record.value.map_or(f64::NAN, |(_, value)| value), 6, "");
     out.push(b',');
     cell(out, record.text.unwrap_or_default());
 }

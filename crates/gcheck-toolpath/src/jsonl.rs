@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use gcheck_engine::{Axis, FeedMode, Position, Units};
 
-use crate::number::{short, whole};
+use crate::number::{brief, short, whole};
 use crate::record::{Path, Record, Recorder};
 use crate::sink::Sink;
 use crate::step::{Step, View};
@@ -103,13 +103,7 @@ fn line(out: &mut Vec<u8>, view: View, file: &mut Quoted, n: u64, step: &Step<'_
         out.extend_from_slice(b",\"");
         out.extend_from_slice(name.as_bytes());
         out.extend_from_slice(b"\":");
-        // A tool is a whole number.
-        if name == "tool" && value >= 0.0 {
-            #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
-            whole(out, value as u64);
-        } else {
-            short(out, value, 6, "null");
-        }
+        brief(out, value, 6, "null");
     }
     if let Some(text) = record.text {
         out.extend_from_slice(b",\"text\":");

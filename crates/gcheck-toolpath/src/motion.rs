@@ -279,7 +279,8 @@ pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
         Some(arc) if arc.rise().is_known() => arc.length().0,
         Some(arc) => arc.plane_length().0,
     };
-    let cover = if open || xyz.is_nan() {
+    // Ways beyond any number are as good as unknown.
+    let cover = if open || ![xyz, uvw, abc].into_iter().all(f64::is_finite) {
         Cover::Unknown
     } else if xyz > 0.0 {
         Cover::Length(xyz)

@@ -7,7 +7,7 @@ use gcheck_geometry::{Arc, Plane};
 
 use crate::motion::{Motion, Way};
 use crate::step::Step;
-use crate::time::{Clock, Timing};
+use crate::time::{Clock, Timing, metres};
 
 /// What a line of a move list tells of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -184,7 +184,9 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
         }
         Event::SpindleSpeed(speed) => match clock.surface_speed() {
             None => (Kind::Spindle, Some("speed"), Some(("rpm", *speed))),
-            Some(_) => (Kind::Spindle, Some("speed"), Some(("metres_per_minute", *speed))),
+            Some(_) => {
+                (Kind::Spindle, Some("speed"), Some(("metres_per_minute", metres(*speed, step.units))))
+            }
         },
         Event::OrientSpindle { angle, .. } => (Kind::Spindle, Some("orient"), Some(("degrees", *angle))),
         Event::Coolant { kind, on } => {
@@ -200,8 +202,8 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
         }
         Event::Chuck(clamped) => (Kind::Bar, Some(if *clamped { "clamp" } else { "unclamp" }), None),
         Event::BarPush(by) => (Kind::Bar, Some("push"), Some(("length", by.0 / step.units.in_mm()))),
-        Event::Stop(stop) => {
-            let action = match stop {
+        Event::Stop(kind) => {
+            let action = match kind {
                 Stop::Program => "program",
                 Stop::Optional => "optional",
                 Stop::Pallet => "pallet",

@@ -375,7 +375,8 @@ impl Statistics {
                 Units::Inch => format!("{} inch/min", rapid.inch()),
                 Units::Mm => format!("{} mm/min", rapid.0),
             };
-            assumptions.push(Assumption { text: format!("rapid moves at {rate} on every axis"), key: "rapid" });
+            assumptions
+                .push(Assumption { text: format!("rapid moves at {rate} on every axis"), key: "rapid" });
         }
         if timing.rotary_assumed && self.rotary_rapids {
             let text = format!("rapid moves of rotary axes at {} deg/min", crate::time::DEFAULT_ROTARY_RAPID);
@@ -463,6 +464,7 @@ impl Statistics {
         let cuts = !rapid && motion.way != Way::Probe;
         if cuts && covered != Cover::Nothing {
             match feed {
+                Some((feed, _)) if feed <= 0.0 => {}
                 Some((feed, FeedMode::PerMinute)) => section.feeds.per_minute.add(feed),
                 Some((feed, FeedMode::PerRevolution)) => section.feeds.per_revolution.add(feed),
                 Some((feed, FeedMode::InverseTime)) => section.feeds.inverse_time.add(feed),

@@ -80,7 +80,7 @@ impl Statistics {
                 .sections()
                 .iter()
                 .map(|section| json::Tool {
-                    tool: section.tool,
+                    number: section.tool,
                     name: section.tool.and_then(names.tool),
                     file: &section.file,
                     line: section.line,
@@ -108,11 +108,12 @@ impl Table<'_> {
     fn headline(&self, out: &mut String) {
         let times = &self.total.times;
         let all = times.total();
-        let _ = write!(out, "cycle time {}", self.time(all));
+        let unit = if self.has_hours() { "h" } else { "min" };
+        let _ = write!(out, "cycle time {} {unit}", self.time(all));
         let parts = [("cutting", times.cutting), ("rapid", times.rapid), ("dwell", times.dwell)];
         for (index, (name, time)) in parts.into_iter().filter(|(_, time)| *time > Seconds::ZERO).enumerate() {
             let _ = write!(out, "{} {name} {}", if index == 0 { ":" } else { "," }, self.time(time));
-            if all > Seconds::ZERO {
+            if all > Seconds::ZERO && all.is_finite() {
                 let _ = write!(out, " ({:.0} %)", time / all * 100.0);
             }
         }
@@ -130,7 +131,11 @@ impl Table<'_> {
 
     /// Minutes with tenths of a second for short runs, else hours.
     fn time(&self, time: Seconds) -> String {
-        clock(time, self.total.times.total() >= Seconds(600.0))
+        clock(time, self.has_hours())
+    }
+
+    fn has_hours(&self) -> bool {
+        self.total.times.total() >= Seconds(600.0)
     }
 
     fn tools(&self, out: &mut String, sections: &[Section]) {
@@ -146,6 +151,8 @@ impl Table<'_> {
                 "time",
                 "cutting",
                 "rapid",
+                "dwell",
+                "change",
                 &format!("cut {unit}"),
                 &format!("rapid {unit}"),
                 "feed",
@@ -163,15 +170,22 @@ impl Table<'_> {
         }
         out.push('\n');
         // Tool, comment, feed and speed are words; the rest are numbers.
-        columns(out, &rows, &[false, false, true, true, true, true, true, false, false, true, true]);
+        let mut right = [true; 13];
+        for column in [0, 1, 9, 10] {
+            if let Some(right) = right.get_mut(column) {
+                *right = false;
+            }
+        }
+        columns(out, &rows, &right);
     }
 
-    fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 11] {
+    fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 13] {
         let way = |mm: f64| {
             let way = mm / self.units.in_mm();
             if self.units == Units::Inch { format!("{way:.1}") } else { format!("{way:.0}") }
         };
         let count = |number: u64| if number == 0 { String::new() } else { number.to_string() };
+        let some = |time: Seconds| if time > Seconds::ZERO { self.time(time) } else { String::new() };
         let comment: String = comment
             .unwrap_or_default()
             .chars()
@@ -184,6 +198,8 @@ impl Table<'_> {
             self.time(section.times.total()),
             self.time(section.times.cutting),
             self.time(section.times.rapid),
+            some(section.times.dwell),
+            some(section.times.tool_change),
             way(section.cutting.0),
             way(section.rapid.0),
             self.feeds(section),
@@ -269,7 +285,8 @@ impl Table<'_> {
     }
 
     fn missing(&self, out: &mut String) {
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } = self.total.unaccounted;
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } =
+            self.total.unaccounted;
         let moves = |count: u64| if count == 1 { "1 move".to_owned() } else { format!("{count} moves") };
         let mut lines = Vec::new();
         if points > 0 {
@@ -289,9 +306,11 @@ impl Table<'_> {
             lines.push(format!("{} while an axis is at an unknown place: counted without it", moves(partly)));
         }
         if machine > 0 && machine == self.total.moves {
-            lines.push("machine coordinates: work or tool offsets are not known".to_owned());
+            lines.push(
+                "machine coordinates: the start, work offsets or tool lengths are not known".to_owned(),
+            );
         } else if machine > 0 {
-            lines.push(format!("machine coordinates of {}: offsets are not known", moves(machine)));
+            lines.push(format!("machine coordinates of {}", moves(machine)));
         }
         if arcs_by_ends > 0 {
             let arcs = if arcs_by_ends == 1 { "1 arc".to_owned() } else { format!("{arcs_by_ends} arcs") };
@@ -325,9 +344,9 @@ fn list(out: &mut String, title: &str, lines: &[String]) {
 
 fn label(section: &Section) -> String {
     match section.tool {
+        Some(0) => "no tool".to_owned(),
         Some(tool) => format!("T{tool}"),
-        None if section.changed => "T?".to_owned(),
-        None => "no tool".to_owned(),
+        None => "T?".to_owned(),
     }
 }
 
@@ -408,7 +427,8 @@ mod json {
 
     #[derive(Serialize)]
     pub(super) struct Tool<'a> {
-        pub(super) tool: Option<u32>,
+        #[serde(rename = "tool")]
+        pub(super) number: Option<u32>,
         pub(super) name: Option<String>,
         pub(super) file: &'a str,
         pub(super) line: u32,
@@ -505,7 +525,10 @@ mod json {
                 view.axes()
                     .filter_map(|axis| {
                         let (low, high) = bounds.range(axis.index())?;
-                        Some((axis.name(), [low, high].map(|value| rounded(view.coordinate(axis, value, units)))))
+                        Some((
+                            axis.name(),
+                            [low, high].map(|value| rounded(view.coordinate(axis, value, units))),
+                        ))
                     })
                     .collect()
             };

@@ -6,7 +6,7 @@ use std::io::{self, Write};
 
 use gcheck_engine::{Axis, FeedMode, Units};
 
-use crate::number::{fixed, short, whole};
+use crate::number::{brief, fixed, whole};
 use crate::record::{Kind, Path, Record, Recorder};
 use crate::sink::Sink;
 use crate::step::{Step, View};
@@ -93,7 +93,10 @@ fn right(out: &mut Vec<u8>, cell: &mut Vec<u8>, width: usize, write: impl FnOnce
     cell.clear();
     write(cell);
     // Two cells never touch, however long they are.
-    out.extend(std::iter::repeat_n(b' ', width.saturating_sub(cell.len()).max(usize::from(!cell.is_empty()))));
+    out.extend(std::iter::repeat_n(
+        b' ',
+        width.saturating_sub(cell.len()).max(usize::from(!cell.is_empty())),
+    ));
     out.extend_from_slice(cell);
 }
 
@@ -119,10 +122,7 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
         }
         right(out, cell, 11, |out| {
             if let Some((feed, _)) = path.feed {
-                short(out, feed, 4, "?");
-                if out.ends_with(b".0") {
-                    out.truncate(out.len() - 2);
-                }
+                brief(out, feed, 4, "?");
             }
         });
         right(out, cell, 10, |out| seconds(out, record.seconds));
@@ -157,10 +157,7 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
             _ => "",
         };
         out.extend_from_slice(before.as_bytes());
-        short(out, value, 4, "?");
-        if out.ends_with(b".0") {
-            out.truncate(out.len() - 2);
-        }
+        brief(out, value, 4, "?");
         out.extend_from_slice(match name {
             "rpm" => b" rpm".as_slice(),
             "metres_per_minute" => b" m/min",
@@ -184,13 +181,13 @@ fn seconds(out: &mut Vec<u8>, value: f64) {
 fn arc(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
     let Some(arc) = &path.arc else { return };
     out.extend_from_slice(if arc.sweep() < 0.0 { b"cw ".as_slice() } else { b"ccw " });
-    short(out, arc.sweep().to_degrees().abs(), 2, "?");
+    brief(out, arc.sweep().to_degrees().abs(), 2, "?");
     out.extend_from_slice(b" deg about");
     let (first, second, _) = arc.plane().axes();
     for (index, (axis, value)) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip(Path::centre(arc)).enumerate() {
         if index == first || index == second {
             out.extend_from_slice(&[b' ', axis.name() as u8]);
-            short(out, view.coordinate(axis, value, units), 4, "?");
+            brief(out, view.coordinate(axis, value, units), 4, "?");
         }
     }
 }

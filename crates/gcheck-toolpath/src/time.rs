@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use gcheck_engine::{Axis, Event, FeedMode, Position};
+use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
 use gcheck_geometry::{Mm, MmPerMin, Seconds};
 
 use crate::motion::{Cover, Motion, Tracker, Way, cover};
@@ -109,6 +109,7 @@ pub struct Clock {
     lead: Option<f64>,
     /// Limit of constant surface speed when that is on.
     surface: Option<f64>,
+    /// `S` read as a surface speed: metres a minute.
     speed: f64,
     tool: Option<u32>,
 }
@@ -116,14 +117,7 @@ pub struct Clock {
 impl Clock {
     /// Starts at the begin of a run.
     pub fn new(timing: Timing) -> Self {
-        Self {
-            timing,
-            tracker: Tracker::default(),
-            lead: None,
-            surface: None,
-            speed: f64::NAN,
-            tool: None,
-        }
+        Self { timing, tracker: Tracker::default(), lead: None, surface: None, speed: f64::NAN, tool: None }
     }
 
     /// The time that an event takes.
@@ -150,7 +144,7 @@ impl Clock {
         match step.event {
             Event::SpindleSync { lead, .. } => self.lead = lead.map(|lead| lead.0),
             Event::SpindleMode(limit) => self.surface = *limit,
-            Event::SpindleSpeed(speed) => self.speed = *speed,
+            Event::SpindleSpeed(speed) => self.speed = metres(*speed, step.units),
             Event::ToolChange(tool) | Event::SetToolNumber(tool) => self.tool = *tool,
             _ => {}
         }
@@ -209,7 +203,9 @@ impl Clock {
     pub(crate) fn feed_of(&self, step: &Step<'_>, motion: &Motion) -> Option<(f64, FeedMode)> {
         match (motion.way, self.lead) {
             (Way::Rapid, _) => None,
-            (Way::Feed | Way::Thread | Way::Tap(_), Some(lead)) => Some((lead.abs(), FeedMode::PerRevolution)),
+            (Way::Feed | Way::Thread | Way::Tap(_), Some(lead)) => {
+                Some((lead.abs(), FeedMode::PerRevolution))
+            }
             (Way::Thread | Way::Tap(_), None) => Some((step.feed, FeedMode::PerRevolution)),
             (Way::Feed | Way::Probe, _) => Some((step.feed, step.feed_mode)),
         }
@@ -233,6 +229,14 @@ impl Clock {
             None => mean(by_radius, least, motion.from.raw(Axis::X), motion.to.raw(Axis::X)),
         };
         positive(minutes, Untimed::Speed)
+    }
+}
+
+/// A surface speed in metres a minute: an inch program says feet.
+pub(crate) fn metres(speed: f64, units: Units) -> f64 {
+    match units {
+        Units::Inch => speed * 0.3048,
+        Units::Mm => speed,
     }
 }
 

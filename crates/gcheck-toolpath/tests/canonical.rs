@@ -3,10 +3,11 @@
 
 mod common;
 
-use common::{Run, point};
+use common::{Run, barred, point};
 use expect_test::{Expect, expect};
 use gcheck_engine::{
-    Axis, Coolant, Curve, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry, TravelKind, Units,
+    Axis, Coolant, Curve, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry,
+    TravelKind, Units,
 };
 use gcheck_geometry::{Mm, Plane, Seconds};
 use gcheck_toolpath::{Canonical, Ending, Start};
@@ -33,17 +34,17 @@ fn frame_of_a_run() {
     .unwrap();
     let text = String::from_utf8(out.epilogue(Ending::Percent).unwrap()).unwrap();
     expect![[r#"
-            1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)
-            2 N..... SET_G5X_OFFSET(2, 50.8000, 76.2000, 101.6000, 5.0000, 0.0000, 0.0000)
-            3 N..... SET_G92_OFFSET(12.7000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)
-            4 N..... SET_XY_ROTATION(30.0000)
-            5 N..... SET_FEED_REFERENCE(CANON_XYZ)
-            6 N..... ON_RESET()
-            7 N..... FINISH()
-            8 N..... ON_RESET()
-            9 N..... ON_RESET()
+        |    1 N..... USE_LENGTH_UNITS(CANON_UNITS_MM)
+        |    2 N..... SET_G5X_OFFSET(2, 50.8000, 76.2000, 101.6000, 5.0000, 0.0000, 0.0000)
+        |    3 N..... SET_G92_OFFSET(12.7000, 0.0000, 0.0000, 0.0000, 0.0000, 0.0000)
+        |    4 N..... SET_XY_ROTATION(30.0000)
+        |    5 N..... SET_FEED_REFERENCE(CANON_XYZ)
+        |    6 N..... ON_RESET()
+        |    7 N..... FINISH()
+        |    8 N..... ON_RESET()
+        |    9 N..... ON_RESET()
     "#]]
-    .assert_eq(&text);
+    .assert_eq(&barred(&text.lines().collect::<Vec<_>>()));
 }
 
 /// ```text
@@ -56,7 +57,8 @@ fn frame_of_a_run() {
 #[test]
 fn straight_moves() {
     let mut run = Run::new();
-    run.n(1).travel(TravelKind::Rapid, nine([-0.000_01, -0.000_05, 0.0, -0.000_001, 1.0, 2.0, 0.0, 0.0, 0.0]));
+    run.n(1)
+        .travel(TravelKind::Rapid, nine([-0.000_01, -0.000_05, 0.0, -0.000_001, 1.0, 2.0, 0.0, 0.0, 0.0]));
     run.n(99_999).rapid(0.03125, -0.0, 0.000_05);
     run.n(100_000).rapid(100_000.123_45, -0.0, 0.000_05);
     run.n(1_000_000).event(Event::FeedRate(100.0)).feed(1.0, -0.0, 0.000_05);
@@ -191,7 +193,10 @@ fn feeds_and_path_modes() {
     run.n(2).event(Event::FeedMode(FeedMode::PerRevolution)).event(Event::FeedRate(0.0));
     run.event(Event::FeedRate(1.0 / 3.0));
     run.feed_mode = FeedMode::PerMinute;
-    run.n(3).event(Event::FeedMode(FeedMode::PerMinute)).event(Event::FeedRate(0.0)).event(Event::FeedRate(254.0));
+    run.n(3)
+        .event(Event::FeedMode(FeedMode::PerMinute))
+        .event(Event::FeedRate(0.0))
+        .event(Event::FeedRate(254.0));
     run.units = Units::Inch;
     run.n(4).event(Event::FeedRate(254.0)).event(Event::Units(Units::Inch));
     run.n(5).event(Event::PathMode(PathMode::ExactPath));
@@ -342,7 +347,7 @@ fn spindle_and_coolant() {
     run.n(3).event(Event::Spindle(Spindle::Stopped));
     run.n(4).event(Event::SpindleMode(Some(1000.0))).event(Event::SpindleSpeed(200.0));
     run.units = Units::Inch;
-    run.n(5).event(Event::SpindleMode(Some(f64::INFINITY))).event(Event::SpindleSpeed(30.48));
+    run.n(5).event(Event::SpindleMode(Some(f64::INFINITY))).event(Event::SpindleSpeed(100.0));
     run.event(Event::Units(Units::Inch));
     run.n(6).event(Event::SpindleMode(None));
     run.n(7).event(Event::OrientSpindle { angle: 90.0, way: 0 }).event(Event::WaitOrient(Seconds(2.0)));

@@ -99,6 +99,15 @@ fn constant_surface_speed() {
         .sum();
     let expected = turns * (parts / 50_000.0) * 60.0;
     assert!((seconds(&run).unwrap() - expected).abs() < 1e-3, "{expected}");
+
+    // The same speed in feet, as an inch program says it.
+    for step in &mut run.steps {
+        step.units = Units::Inch;
+        if let Event::SpindleSpeed(speed) = &mut step.event {
+            *speed /= 0.3048;
+        }
+    }
+    assert!((seconds(&run).unwrap() - expected).abs() < 1e-3, "{expected}");
 }
 
 #[test]
@@ -162,16 +171,139 @@ fn part() -> Run {
 #[test]
 fn a_table_for_machinists() {
     let statistics = part().statistics(xyz(), timing());
-    expect![[r#""#]].assert_eq(&statistics.to_text(&NAMES));
+    expect![[r#"
+        cycle time 1:03.8 min: cutting 0:50.5 (79 %), rapid 0:04.8 (8 %), dwell 0:00.4 (1 %); 2 tool changes 0:08.0
+
+        tool                   time  cutting   rapid   dwell  change  cut mm  rapid mm  feed          speed          holes  arcs
+        T1     FACE MILL 50  0:37.0   0:32.0  0:01.0          0:04.0     401        99  600-1200/min  3000 rpm                 1
+        T2     DRILL 8.5     0:26.8   0:18.5  0:03.8  0:00.4  0:04.0      68       402  220/min       2200 rpm           2
+        total                1:03.8   0:50.5  0:04.8  0:00.4  0:08.0     469       501  220-1200/min  2200-3000 rpm      2     1
+
+        extents, mm           X from        to    Y from        to    Z from        to
+        T1 cutting           -30.000   130.000     0.000    80.000    -1.000     2.000
+        T2 cutting            20.000    80.000    25.000    25.000   -20.000     2.000
+        G54 all moves        -30.000   130.000     0.000    80.000   -20.000    50.000
+        machine, all moves  -430.000  -270.000  -200.000  -120.000  -370.000  -300.000
+
+        missing in these figures
+          1 move from or to an unknown point: not in distance or time
+
+        assumed
+          axes and spindle reach their speed at once: real times are longer
+    "#]].assert_eq(&statistics.to_text(&NAMES));
 }
 
 #[test]
+#[expect(clippy::too_many_lines, reason = "the expectation is long")]
 fn figures_as_json() {
     let statistics = part().statistics(View::new(&[Axis::X, Axis::Z]), timing());
     let mut json = statistics.to_json(&NAMES);
     json["total"] = "…".into();
     json["tools"][0] = "…".into();
-    expect![[r#""#]].assert_eq(&serde_json::to_string_pretty(&json).unwrap());
+    expect![[r#"
+        {
+          "assumptions": [],
+          "tools": [
+            "…",
+            {
+              "arcs": 0,
+              "distance": {
+                "cutting": 68.0,
+                "rapid": 401.642633,
+                "rotary_deg": 0.0
+              },
+              "extents": {
+                "cutting": {
+                  "X": [
+                    20.0,
+                    80.0
+                  ],
+                  "Z": [
+                    -20.0,
+                    2.0
+                  ]
+                },
+                "machine": {
+                  "X": [
+                    -380.0,
+                    -270.0
+                  ],
+                  "Z": [
+                    -370.0,
+                    -300.0
+                  ]
+                }
+              },
+              "feeds": {
+                "inverse_time": null,
+                "per_minute": {
+                  "max": 220.0,
+                  "min": 220.0,
+                  "more": false,
+                  "values": [
+                    220.0
+                  ]
+                },
+                "per_rev": null
+              },
+              "file": "part.nc",
+              "holes": 2,
+              "line": 6,
+              "moves": 13,
+              "name": "DRILL 8.5",
+              "offsets": [
+                {
+                  "extents": {
+                    "X": [
+                      20.0,
+                      130.0
+                    ],
+                    "Z": [
+                      -20.0,
+                      50.0
+                    ]
+                  },
+                  "name": "G54",
+                  "number": 1
+                }
+              ],
+              "probes": 0,
+              "seconds": {
+                "cutting": 18.545455,
+                "dwell": 0.4,
+                "rapid": 3.82,
+                "tool_change": 4.0,
+                "total": 26.765455
+              },
+              "speeds": {
+                "metres_per_minute": null,
+                "rpm": {
+                  "max": 2200.0,
+                  "min": 2200.0,
+                  "more": false,
+                  "values": [
+                    2200.0
+                  ]
+                }
+              },
+              "tool": 2,
+              "tool_changes": 1,
+              "unaccounted": {
+                "machine": 0,
+                "machine_arcs": 0,
+                "no_feed": 0,
+                "no_speed": 0,
+                "partly": 0,
+                "unknown_dwell": 0,
+                "unknown_point": 0
+              }
+            }
+          ],
+          "total": "…",
+          "units": "mm",
+          "x_is_diameter": false
+        }"#]]
+    .assert_eq(&serde_json::to_string_pretty(&json).unwrap());
 }
 
 /// In inches, with everything that can be missing or assumed.
@@ -189,15 +321,46 @@ fn what_is_missing_and_what_is_assumed() {
     run.feed(25.4, 0.0, 0.0).event(Event::Dwell(Seconds(f64::NAN)));
     run.turn(TravelKind::Rapid, Axis::A, f64::NAN).turn(TravelKind::Rapid, Axis::A, 90.0);
     run.turn(TravelKind::Rapid, Axis::A, 0.0).rapid(0.0, 0.0, 0.0);
-    let statistics = run.statistics(View::new(&[Axis::X, Axis::Y, Axis::Z, Axis::A]), Timing::new(None, None));
-    expect![[r#""#]].assert_eq(&statistics.to_text(&Names::NONE));
+    let statistics =
+        run.statistics(View::new(&[Axis::X, Axis::Y, Axis::Z, Axis::A]), Timing::new(None, None));
+    expect![[r#"
+        cycle time 0:06.6 min: rapid 0:01.6 (24 %); 1 tool change 0:05.0
+
+        tool     time  cutting   rapid  change  cut inch  rapid inch  feed      speed
+        T?     0:00.1   0:00.0  0:00.1               2.4         1.0            0 rpm
+        T?     0:06.6   0:00.0  0:01.6  0:05.0       1.0         1.0  0.01/rev  0 rpm
+        total  0:06.6   0:00.0  0:01.6  0:05.0       3.4         2.0  0.01/rev  0 rpm
+
+        extents, inch       X from      to  Y from      to  Z from      to  A from      to
+        T? cutting          0.0000  2.0000  0.0000  1.0000  0.0000  1.0000       ?       ?
+        T? cutting          0.0000  1.0000  0.0000  0.0000  0.0000  0.0000       ?       ?
+        offset 1 all moves  0.0000  2.0000  0.0000  1.0000  0.0000  1.0000   0.000  90.000
+
+        missing in these figures
+          3 moves from or to an unknown point: not in distance or time
+          1 move without a feed: not in time
+          1 move at an unknown spindle speed or at none: not in time
+          1 dwell of unknown length: not in time
+          3 moves while an axis is at an unknown place: counted without it
+          machine coordinates: the start, work offsets or tool lengths are not known
+
+        assumed
+          rapid moves at 1000 inch/min on every axis (set machine.rapid)
+          rapid moves of rotary axes at 3600 deg/min (set machine.rotary_rapid)
+          5 s for a tool change (set machine.tool_change_seconds)
+          axes and spindle reach their speed at once: real times are longer
+    "#]]
+    .assert_eq(&statistics.to_text(&Names::NONE));
 }
 
 #[test]
 fn a_program_without_moves() {
     let mut run = Run::new();
     run.event(Event::End);
-    expect![[r#""#]].assert_eq(&run.statistics(xyz(), timing()).to_text(&Names::NONE));
+    expect![[r#"
+        cycle time 0:00.0 min
+    "#]]
+    .assert_eq(&run.statistics(xyz(), timing()).to_text(&Names::NONE));
 }
 
 /// An arc bulges beyond its ends, in work coordinates and in machine coordinates that are turned against them.
@@ -210,10 +373,10 @@ fn extents_of_arcs() {
         run.event(Event::Rotation(rotation));
         run.arc(Plane::Xy, [-10.0, 0.0, 0.0], (-5.0, 0.0), 180.0);
         // A quarter turn puts (x, y) at (-y, x).
-        if rotation > 0.0 {
-            if let Some(last) = run.steps.last_mut() {
-                last.machine = point(0.0, -10.0, 0.0);
-            }
+        if rotation > 0.0
+            && let Some(last) = run.steps.last_mut()
+        {
+            last.machine = point(0.0, -10.0, 0.0);
         }
         let statistics = run.statistics(xyz(), timing());
         let total = statistics.total();
@@ -230,6 +393,8 @@ fn extents_of_arcs() {
 /// A bored hole with a shift at its bottom is one; so are pecks at one place. A pass of a turning cycle is none.
 #[test]
 fn holes() {
+    use TravelKind::{Feed, Rapid};
+
     let holes = |moves: &[(TravelKind, [f64; 3])]| {
         let mut run = Run::new();
         run.feed = 100.0;
@@ -239,7 +404,6 @@ fn holes() {
         }
         run.statistics(xyz(), timing()).total().holes
     };
-    use TravelKind::{Feed, Rapid};
     let drill = |x: f64| [(Rapid, [x, 0.0, 0.0]), (Feed, [x, 0.0, -5.0]), (Rapid, [x, 0.0, 0.0])];
     assert_eq!(holes(&drill(1.0)), 1);
     assert_eq!(holes(&[drill(1.0), drill(1.0), drill(2.0)].concat()), 2);
@@ -296,12 +460,19 @@ fn any_numbers() {
             run.feed(a, b, a).arc(Plane::Yz, [b, a, b], (a, b), a);
             run.event(Event::RigidTap { from: run.at, to: point(a, b, b), scale: b });
             run.event(Event::SpindleSync { lead: None, velocity: true }).event(Event::SpindleMode(None));
-            let travel = Travel { kind: TravelKind::Rapid, from: run.at, programmed: run.at, to: point(b, a, 0.0), expanded: true };
+            let travel = Travel {
+                kind: TravelKind::Rapid,
+                from: run.at,
+                programmed: run.at,
+                to: point(b, a, 0.0),
+                expanded: true,
+            };
             run.event(Event::Travel(travel)).turn(TravelKind::Feed, Axis::B, a);
             run.event(Event::WorkOffset { number: 0, offset: run.at, rotation: b }).event(Event::Rotation(a));
         }
     }
-    let statistics: Statistics = run.statistics(View::new(&Axis::ALL), Timing::new(Some(MmPerMin(f64::NAN)), Some(Seconds(-1.0))));
+    let statistics: Statistics =
+        run.statistics(View::new(&Axis::ALL), Timing::new(Some(MmPerMin(f64::NAN)), Some(Seconds(-1.0))));
     let (text, json) = (statistics.to_text(&Names::NONE), statistics.to_json(&Names::NONE).to_string());
     assert!(!text.contains("NaN") && !json.is_empty());
     for line in run.jsonl(xyz()).lines() {

@@ -57,6 +57,10 @@ pub enum When {
 pub enum Command {
     /// Check files and folders
     Check(CheckOptions),
+    /// Execute a program and print its moves
+    Run(RunOptions),
+    /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
+    Stats(StatsOptions),
     /// Explain a rule, or a code as a control reads it
     Explain(ExplainOptions),
     /// List the rules
@@ -151,6 +155,103 @@ impl FailOn {
     }
 }
 
+/// What every command takes that executes a program.
+#[derive(Debug, Args)]
+pub struct ExecutionOptions {
+    /// The program; `-` reads standard input
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// A variable's value before the program starts: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
+    pub set: Vec<Assignment>,
+    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
+    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
+    pub block_skip: BlockSkip,
+    /// The optional stop switch: whether `M1` stops
+    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
+    pub optional_stop: Switch,
+    /// Blocks that may be executed
+    #[arg(long, value_name = "BLOCKS", default_value_t = 50_000_000)]
+    pub fuel: u64,
+}
+
+/// Options of `gcheck run`.
+#[derive(Debug, Args)]
+pub struct RunOptions {
+    /// What is executed, and how.
+    #[command(flatten)]
+    pub execution: ExecutionOptions,
+    /// How moves are printed
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub output_format: RunFormat,
+    /// Write to this file instead of standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: Option<PathBuf>,
+}
+
+/// How the moves of a run are printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum RunFormat {
+    /// NIST RS274/NGC canonical functions
+    Canonical,
+    /// One JSON object a move
+    Jsonl,
+    /// A table for spreadsheets
+    Csv,
+    /// A table for people
+    #[default]
+    Text,
+}
+
+/// Options of `gcheck stats`.
+#[derive(Debug, Args)]
+pub struct StatsOptions {
+    /// What is executed, and how.
+    #[command(flatten)]
+    pub execution: ExecutionOptions,
+    /// How the figures are printed
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub output_format: ListFormat,
+    /// Write to this file instead of standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: Option<PathBuf>,
+}
+
+/// A switch of the operator's panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Switch {
+    /// It acts.
+    On,
+    /// It does not.
+    #[default]
+    Off,
+}
+
+/// A variable and its value: `#100=2.5`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Assignment {
+    /// What is set.
+    pub variable: VariableName,
+    /// To what.
+    pub value: f64,
+}
+
+/// A variable as a command line names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum VariableName {
+    /// `#100`
+    Number(u32),
+    /// `#<name>`, lower case without blanks.
+    Name(String),
+}
+
+/// Levels of block delete that are switched on: bit 0 is a plain `/` and level 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BlockSkip(pub u16);
+
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]
 pub struct ExplainOptions {
@@ -182,4 +283,44 @@ fn format(name: &str) -> Result<Format, String> {
         let names: Vec<&str> = Format::ALL.iter().map(|f| f.name()).collect();
         format!("there are {}", names.join(", "))
     })
+}
+
+fn assignment(text: &str) -> Result<Assignment, String> {
+    let (name, value) = text.split_once('=').ok_or("write `#100=2.5` or `#<name>=1`")?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("`{}` is no number", value.trim()))?;
+    if !value.is_finite() {
+        return Err(format!("`{value}` is no number that a control can hold"));
+    }
+    let variable =
+        VariableName::parse(name).ok_or_else(|| format!("`{}` is no variable; write `#100` or `#<name>`", name.trim()))?;
+    Ok(Assignment { variable, value })
+}
+
+impl VariableName {
+    /// Reads `#100` or `#<name>`; the sign may be left out, as shells take it for a comment.
+    pub fn parse(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let inner = text.strip_prefix('#').unwrap_or(text);
+        if let Some(name) = inner.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
+            let name: String = name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect();
+            return (!name.is_empty()).then_some(Self::Name(name));
+        }
+        inner.parse().ok().map(Self::Number)
+    }
+}
+
+fn block_skip(text: &str) -> Result<BlockSkip, String> {
+    match text {
+        "on" => return Ok(BlockSkip(u16::MAX)),
+        "off" => return Ok(BlockSkip(0)),
+        _ => {}
+    }
+    let mut bits = 0;
+    for level in text.split(',') {
+        match level.trim().parse::<u16>() {
+            Ok(level @ 1..=9) => bits |= 1 << (level - 1),
+            _ => return Err("write `on`, `off`, or levels from 1 to 9 such as `1,3`".to_owned()),
+        }
+    }
+    Ok(BlockSkip(bits))
 }

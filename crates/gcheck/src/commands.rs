@@ -8,6 +8,8 @@ pub(crate) mod controls;
 pub(crate) mod explain;
 pub(crate) mod init;
 pub(crate) mod rules;
+pub(crate) mod run;
+pub(crate) mod stats;
 
 use std::path::Path;
 use std::sync::Arc;

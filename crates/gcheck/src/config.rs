@@ -18,7 +18,7 @@ pub use file::{
     CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar,
     SearchTable, ToolTable, ToolsTable, Units,
 };
-pub use layer::Layer;
+pub use layer::{ExecutionFacts, Layer};
 pub use pattern::PathPattern;
 pub use placed::Placed;
 pub use settings::{FileSettings, RuleWishes};

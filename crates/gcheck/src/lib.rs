@@ -3,7 +3,8 @@
 //! Knows: the file system, the environment, the terminal, exit codes. Must not know: how anything is computed or rendered;
 //! that is `gcheck-rules` and `gcheck-report`.
 //!
-//! Exit codes: 0 nothing at or above `--fail-on`, 1 findings, 2 the work could not be done (usage, configuration, files).
+//! Exit codes: 0 nothing at or above `--fail-on`, or the program came to its end; 1 findings, or it did not; 2 the work could
+//! not be done (usage, configuration, files).
 
 pub mod args;
 mod check;
@@ -11,6 +12,8 @@ mod commands;
 pub mod config;
 mod control_choice;
 mod discovery;
+mod execution;
+mod fault_words;
 mod nearest;
 mod output;
 mod paths;
@@ -46,6 +49,8 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<u8, Problem> {
     match &arguments.command {
         Command::Check(options) => check::run(&arguments.global, options),
+        Command::Run(options) => commands::run::run(&arguments.global, options),
+        Command::Stats(options) => commands::stats::run(&arguments.global, options),
         Command::Explain(options) => commands::explain::run(&arguments.global, options),
         Command::Rules(options) => commands::rules::run(options),
         Command::Codes(options) => commands::codes::run(&arguments.global, options),

@@ -14,6 +14,7 @@ pub struct Problem {
     place: Option<String>,
     message: String,
     excerpt: Option<Excerpt>,
+    note: Option<String>,
     help: Option<String>,
 }
 
@@ -33,7 +34,7 @@ const SHOWN: usize = 160;
 impl Problem {
     /// A problem of the run as a whole.
     pub fn new(message: impl Into<String>) -> Self {
-        Self { place: None, message: message.into(), excerpt: None, help: None }
+        Self { place: None, message: message.into(), excerpt: None, note: None, help: None }
     }
 
     /// A problem with a file.
@@ -60,6 +61,13 @@ impl Problem {
             excerpt: (before < SHOWN).then_some(excerpt),
             ..Self::new(message)
         }
+    }
+
+    /// Why it is so.
+    #[must_use]
+    pub fn note(mut self, text: impl Into<String>) -> Self {
+        self.note = Some(text.into());
+        self
     }
 
     /// What to do about it.
@@ -90,6 +98,9 @@ impl fmt::Display for Problem {
                 " ".repeat(*before),
                 "^".repeat(marked)
             )?;
+        }
+        if let Some(note) = &self.note {
+            write!(f, "\n  note: {note}")?;
         }
         if let Some(help) = &self.help {
             write!(f, "\n  help: {help}")?;

@@ -4,7 +4,7 @@
 //! first call asks, and once; a folder too large to be looked through is said to have everything, so that nothing false is
 //! reported.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -28,9 +28,10 @@ pub(crate) struct ProgramFolders {
 /// The programs of one folder.
 #[derive(Debug, Default)]
 struct Folder {
-    numbers: HashSet<u32>,
-    /// Stems of file names, lower case.
-    names: HashSet<String>,
+    /// By number: the first file that holds a program of it, or is named by it.
+    numbers: HashMap<u32, PathBuf>,
+    /// By the stem of the file's name, lower case.
+    names: HashMap<String, PathBuf>,
     /// Too large to be looked through.
     is_partial: bool,
 }
@@ -46,15 +47,27 @@ impl Programs for Reachable<'_> {
     fn has_number(&self, number: u32) -> bool {
         self.paths.iter().any(|path| {
             let folder = self.folders.of(path);
-            folder.is_partial || folder.numbers.contains(&number)
+            folder.is_partial || folder.numbers.contains_key(&number)
         })
     }
 
     fn has_name(&self, name: &str) -> bool {
         self.paths.iter().any(|path| {
             let folder = self.folders.of(path);
-            folder.is_partial || folder.names.contains(name)
+            folder.is_partial || folder.names.contains_key(name)
         })
+    }
+}
+
+impl Reachable<'_> {
+    /// The file with the program of a number: the first folder that has one.
+    pub(crate) fn file_by_number(&self, number: u32) -> Option<PathBuf> {
+        self.paths.iter().find_map(|path| self.folders.of(path).numbers.get(&number).cloned())
+    }
+
+    /// The file with the subroutine of a name, lower case.
+    pub(crate) fn file_by_name(&self, name: &str) -> Option<PathBuf> {
+        self.paths.iter().find_map(|path| self.folders.of(path).names.get(name).cloned())
     }
 }
 
@@ -72,23 +85,36 @@ impl Folder {
     fn read(path: &Path) -> Self {
         let mut folder = Self::default();
         let Ok(entries) = fs::read_dir(path) else { return folder };
-        let mut bytes = 0;
-        let programs = entries
+        let mut programs: Vec<PathBuf> = entries
             .flatten()
             .map(|entry| entry.path())
-            .filter(|path| is_program_name(path) && path.is_file());
-        for (count, path) in programs.enumerate() {
-            if let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) {
-                folder.numbers.extend(stem.strip_prefix('o').and_then(|digits| digits.parse::<u32>().ok()));
-                folder.names.insert(stem);
+            .filter(|path| is_program_name(path) && path.is_file())
+            .collect();
+        // Folders are listed in any order; which of two programs of one number is called must not depend on it.
+        programs.sort();
+        for path in &programs {
+            let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) else { continue };
+            let digits = stem.strip_prefix('o').unwrap_or(&stem);
+            if let Ok(number) = digits.parse() {
+                folder.numbers.entry(number).or_insert_with(|| path.clone());
             }
+            // Subroutines called by name stand in files of one extension.
+            let is_usual = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ngc"));
+            if is_usual || !folder.names.contains_key(&stem) {
+                folder.names.insert(stem, path.clone());
+            }
+        }
+        let mut bytes = 0;
+        for (count, path) in programs.iter().enumerate() {
             bytes += path.metadata().map_or(0, |data| data.len());
             if count >= MAX_FILES || bytes > MAX_BYTES {
                 folder.is_partial = true;
                 return folder;
             }
-            if let Ok(content) = fs::read(&path) {
-                folder.numbers.extend(numbers_in(&content));
+            if let Ok(content) = fs::read(path) {
+                for number in numbers_in(&content) {
+                    folder.numbers.entry(number).or_insert_with(|| path.clone());
+                }
             }
         }
         folder

@@ -47,6 +47,8 @@ pub(crate) struct Outcome {
 /// The first place where two outcomes are not equal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Difference {
+    /// Which functions differ and how both ended, without numbers: a smaller program shows the same when this is the same.
+    pub(crate) kind: String,
     /// What it is, in one line.
     pub(crate) title: String,
     /// The title with the lines around it.
@@ -90,8 +92,7 @@ impl fmt::Display for Call {
 }
 
 fn equal_arguments(a: &str, b: &str) -> bool {
-    a == b
-        || matches!((a.parse::<f64>(), b.parse::<f64>()), (Ok(a), Ok(b)) if (a - b).abs() <= CLOSE)
+    a == b || matches!((a.parse::<f64>(), b.parse::<f64>()), (Ok(a), Ok(b)) if (a - b).abs() <= CLOSE)
 }
 
 /// Reads what a run printed on standard output.
@@ -131,6 +132,9 @@ fn difference(left: &[Call], right: &[Call], at: usize, reference: &Outcome, our
     } else {
         format!("call {}: reference `{expected}`, we `{got}`", at + 1)
     };
+    let name = |calls: &[Call]| calls.get(at).map_or("-", Call::name).to_owned();
+    let kind =
+        [name(left), name(right), word(&reference.end).to_owned(), word(&ours.end).to_owned()].join(" ");
     let mut text = format!("{title}\n");
     // Writing to a string cannot fail.
     let shared = left.get(at.saturating_sub(BEFORE)..at).unwrap_or(&[]);
@@ -144,15 +148,22 @@ fn difference(left: &[Call], right: &[Call], at: usize, reference: &Outcome, our
     }
     let _ = writeln!(text, "  - {}", end(&reference.end));
     let _ = writeln!(text, "  + {}", end(&ours.end));
-    Difference { title, text }
+    Difference { kind, title, text }
+}
+
+fn word(end: &End) -> &'static str {
+    match end {
+        End::Ended => "ended",
+        End::Refused(_) => "refused",
+        End::Endless => "did not end",
+        End::Broken(_) => "could not run",
+    }
 }
 
 fn end(end: &End) -> String {
     match end {
-        End::Ended => "ended".to_owned(),
-        End::Refused(message) => format!("refused ({message})"),
-        End::Endless => "did not end".to_owned(),
-        End::Broken(message) => format!("could not run ({message})"),
+        End::Ended | End::Endless => word(end).to_owned(),
+        End::Refused(message) | End::Broken(message) => format!("{} ({message})", word(end)),
     }
 }
 

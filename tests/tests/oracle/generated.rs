@@ -56,7 +56,7 @@ fn seeds() -> Vec<u64> {
 }
 
 /// Runs a text on both sides; `None` when the reference does not come to an end, which proves nothing.
-fn both(reference: Reference, text: &str) -> Option<(Outcome, Outcome)> {
+fn both(reference: &Reference, text: &str) -> Option<(Outcome, Outcome)> {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("program.ngc");
     fs::write(&file, text).unwrap();
@@ -69,7 +69,7 @@ fn both(reference: Reference, text: &str) -> Option<(Outcome, Outcome)> {
     Some((expected, ours))
 }
 
-fn differ(reference: Reference, text: &str) -> Option<Difference> {
+fn differ(reference: &Reference, text: &str) -> Option<Difference> {
     let (expected, ours) = both(reference, text)?;
     compare(&expected, &ours)
 }
@@ -78,13 +78,13 @@ fn differ(reference: Reference, text: &str) -> Option<Difference> {
 fn random_programs_run_as_the_reference_runs_them() {
     let Some(reference) = reference::find() else { return };
     let seeds = seeds();
-    let found = on_each(&seeds, |seed| Some((*seed, differ(reference, &program(*seed))?)));
+    let found = on_each(&seeds, |seed| Some((*seed, differ(&reference, &program(*seed))?)));
     let found: Vec<(u64, Difference)> = found.into_iter().flatten().collect();
     let (first, others) = found.split_at(found.len().min(MINIMISED));
     let mut failures = on_each(first, |(seed, difference)| {
-        let small = smallest(reference, &program(*seed), difference);
+        let small = smallest(&reference, &program(*seed), difference);
         keep(*seed, &small);
-        let difference = differ(reference, &small).unwrap_or_else(|| difference.clone());
+        let difference = differ(&reference, &small).unwrap_or_else(|| difference.clone());
         let text = format!("{}\n{small}", difference.text);
         Failure { name: format!("seed {seed}"), title: difference.title, text }
     });
@@ -96,12 +96,12 @@ fn random_programs_run_as_the_reference_runs_them() {
     assert_none(&failures, seeds.len());
 }
 
-/// The smallest part that still differs in the same way: a run that fails stays one, a verdict stays a verdict.
-fn smallest(reference: Reference, text: &str, difference: &Difference) -> String {
-    let kind = |title: &str| (title.starts_with("reference "), title.contains("could not run"));
-    minimise(text, |part| {
-        differ(reference, part).is_some_and(|other| kind(&other.title) == kind(&difference.title))
-    })
+/// The smallest part that still differs in the same way. `GCHECK_ORACLE_WHOLE` leaves the program as it is.
+fn smallest(reference: &Reference, text: &str, difference: &Difference) -> String {
+    if env::var_os("GCHECK_ORACLE_WHOLE").is_some() {
+        return text.to_owned();
+    }
+    minimise(text, |part| differ(reference, part).is_some_and(|other| other.kind == difference.kind))
 }
 
 /// With `GCHECK_ORACLE_KEEP`, a minimal program becomes a case.
@@ -109,8 +109,11 @@ fn keep(seed: u64, small: &str) {
     if env::var_os("GCHECK_ORACLE_KEEP").is_some() {
         let folder = fixtures().join("found");
         fs::create_dir_all(&folder).unwrap();
-        fs::write(folder.join(format!("seed-{seed}.ngc")), format!("(Found by the generator, seed {seed})\n{small}"))
-            .unwrap();
+        fs::write(
+            folder.join(format!("seed-{seed}.ngc")),
+            format!("(Found by the generator, seed {seed})\n{small}"),
+        )
+        .unwrap();
     }
 }
 
@@ -128,7 +131,8 @@ fn random_programs_mostly_run_and_reach_everything() {
     let refused: Vec<String> = refused.map(|(seed, run)| format!("seed {seed}: {:?}", run.end)).collect();
     assert!(refused.len() * 4 < runs.len(), "{} of {}:\n{}", refused.len(), runs.len(), refused.join("\n"));
     for name in CALLS {
-        let reached = runs.iter().filter(|(_, run)| run.calls.iter().any(|call| call.name() == *name)).count();
+        let reached =
+            runs.iter().filter(|(_, run)| run.calls.iter().any(|call| call.name() == *name)).count();
         assert!(reached >= 5, "{name} is reached by {reached} programs");
     }
 }

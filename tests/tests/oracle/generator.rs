@@ -4,8 +4,17 @@
 //! beyond what validity needs (the units, the plane, which axes stand at a known place).
 
 use std::f64::consts::TAU;
+use std::fmt::Write as _;
 
 use crate::random::Random;
+
+/// Appends words to a line.
+macro_rules! add {
+    ($line:expr, $($words:tt)+) => {{
+        // Writing to a string cannot fail.
+        let _ = write!($line, $($words)+);
+    }};
+}
 
 /// In one of so many programs a word is taken out or changed.
 const MISTAKE_EVERY: i64 = 8;
@@ -32,7 +41,8 @@ fn make_mistake(random: &mut Random, lines: &mut [String]) {
     let Some(line) = lines.get_mut(usize::try_from(ix).unwrap()) else { return };
     let words: Vec<&str> = line.split(' ').collect();
     let at = usize::try_from(random.whole(0, i64::try_from(words.len()).unwrap() - 1)).unwrap();
-    let other = random.pick(&["", "G1", "G2", "G53", "G83", "G41", "M2", "X5", "R-1", "P0", "L2", "F0", "G91", "G18"]);
+    let other = random
+        .pick(&["", "G1", "G2", "G53", "G83", "G41", "M2", "X5", "R-1", "P0", "L2", "F0", "G91", "G18"]);
     let word = words.get(at).copied().unwrap_or_default();
     let double = format!("{word} {word}");
     let other = if random.one_in(4) { double.as_str() } else { other };
@@ -79,6 +89,7 @@ impl Plane {
 
 /// What the writer knows of the program up to here.
 #[derive(Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "modes of the program, each on or off")]
 struct Writer {
     random: Random,
     lines: Vec<String>,
@@ -189,11 +200,13 @@ impl Writer {
 
     fn head(&mut self) {
         self.percent = self.random.one_in(12);
-        if self.random.one_in(3) {
-            self.line("G21 G17 G40 G49 G80 G90 G94");
-        } else if self.random.one_in(3) {
-            self.inch = true;
-            self.line("G20 G90");
+        match self.random.whole(0, 3) {
+            0 => self.line("G21 G17 G40 G49 G80 G90 G94"),
+            1 => {
+                self.inch = true;
+                self.line("G20 G90");
+            }
+            _ => {}
         }
         if self.random.one_in(2) {
             let tool = self.random.whole(1, 4);
@@ -251,12 +264,12 @@ impl Writer {
         for axis in axes {
             if self.random.one_in(2) {
                 let length = self.length();
-                words.push_str(&format!(" {axis}{}", self.value(length)));
+                add!(words, " {axis}{}", self.value(length));
             }
         }
         if words.is_empty() {
-            let (axis, length) = (axes.first().copied().unwrap_or("X"), self.length());
-            words = format!(" {axis}{}", self.value(length));
+            let (first, length) = (axes.first().copied().unwrap_or("X"), self.length());
+            words = format!(" {first}{}", self.value(length));
         }
         words
     }
@@ -338,16 +351,16 @@ impl Writer {
             let mut line = code.to_owned();
             let (ea, eb) = if incremental { (da, db) } else { (first + da, second + db) };
             if !full || self.random.one_in(2) {
-                line.push_str(&format!(" {a}{} {b}{}", number(ea), number(eb)));
+                add!(line, " {a}{} {b}{}", number(ea), number(eb));
             }
             if self.random.one_in(4) {
                 let depth = self.length();
-                line.push_str(&format!(" {across}{}", number(depth)));
+                add!(line, " {across}{}", number(depth));
             }
             let (wi, wj) = if absolute_centre { (first + ci, second + cj) } else { (ci, cj) };
-            line.push_str(&format!(" {i}{} {j}{}", number(wi), number(wj)));
+            add!(line, " {i}{} {j}{}", number(wi), number(wj));
             if self.random.one_in(5) {
-                line.push_str(&format!(" P{}", self.random.whole(1, 4)));
+                add!(line, " P{}", self.random.whole(1, 4));
             }
             self.line(line);
             first += da;
@@ -373,10 +386,11 @@ impl Writer {
             let code = self.random.pick(&["G2", "G3"]);
             first += chord.0;
             second += chord.1;
-            let mut line = format!("{code} {a}{} {b}{} R{sign}{}", number(first), number(second), number(radius));
+            let mut line =
+                format!("{code} {a}{} {b}{} R{sign}{}", number(first), number(second), number(radius));
             if self.random.one_in(5) {
                 let depth = self.length();
-                line.push_str(&format!(" {across}{}", number(depth)));
+                add!(line, " {across}{}", number(depth));
             }
             self.line(line);
         }
@@ -394,7 +408,8 @@ impl Writer {
             let code = self.random.pick(&["G98", "G99"]);
             self.line(code);
         }
-        let code = self.random.pick(&["G81", "G81", "G82", "G83", "G83", "G73", "G85", "G86", "G89", "G84", "G74"]);
+        let code =
+            self.random.pick(&["G81", "G81", "G82", "G83", "G83", "G73", "G85", "G86", "G89", "G84", "G74"]);
         match code {
             "G84" | "G86" => self.line("M3 S400"),
             "G74" => self.line("M4 S400"),
@@ -413,25 +428,27 @@ impl Writer {
         for axis in [a, b] {
             if self.random.one_in(2) {
                 let length = self.length();
-                line.push_str(&format!(" {axis}{}", self.value(length)));
+                add!(line, " {axis}{}", self.value(length));
             }
         }
         match code {
             "G83" | "G73" => {
                 let peck = self.positive(5);
-                line.push_str(&format!(" Q{}", number(peck)));
+                add!(line, " Q{}", number(peck));
             }
-            "G82" | "G86" | "G89" => line.push_str(&format!(" P{}", self.random.pick(&["0", "0.5", "2"]))),
+            "G82" | "G86" | "G89" => add!(line, " P{}", self.random.pick(&["0", "0.5", "2"])),
             _ => {}
         }
-        if self.random.one_in(4) {
-            line.push_str(&format!(" L{}", self.random.whole(1, 4)));
+        // G74 takes no repeats; now and then it is to be refused.
+        let repeats = code != "G74" || self.random.one_in(8);
+        if repeats && self.random.one_in(4) {
+            add!(line, " L{}", self.random.whole(1, 4));
         }
         self.line(line);
         for _ in 0..self.random.whole(0, 4) {
             let mut words = self.axis_words(&[a, b]);
-            if self.random.one_in(5) {
-                words.push_str(&format!(" L{}", self.random.whole(1, 3)));
+            if repeats && self.random.one_in(5) {
+                add!(words, " L{}", self.random.whole(1, 3));
             }
             if self.random.one_in(6) {
                 words.push_str(if self.random.one_in(2) { " G98" } else { " G99" });
@@ -450,7 +467,7 @@ impl Writer {
                     let system = self.random.whole(0, 9);
                     let mut words = self.axis_words(&["X", "Y", "Z", "A"]);
                     if self.random.one_in(4) {
-                        words.push_str(&format!(" R{}", number(self.random.number(-180, 180))));
+                        add!(words, " R{}", number(self.random.number(-180, 180)));
                     }
                     self.line(format!("G10 L2 P{system}{words}"));
                 }
@@ -583,9 +600,34 @@ impl Writer {
 
     fn machine_functions(&mut self) {
         let codes = [
-            "M7", "M8", "M9", "M0", "M1", "M60", "M48", "M49", "M50 P0", "M51 P1", "M52 P1", "M53 P0", "G4 P0.5",
-            "M3 S900", "M4", "M5", "S1500", "M19 R45", "M62 P1", "M63 P1", "M64 P2", "M65 P2", "M66 P1 L0",
-            "M67 E1 Q2.5", "M68 E0 Q-1", "G96 D2000 S100", "G97 S700", "M8 M3 S50",
+            "M7",
+            "M8",
+            "M9",
+            "M0",
+            "M1",
+            "M60",
+            "M48",
+            "M49",
+            "M50 P0",
+            "M51 P1",
+            "M52 P1",
+            "M53 P0",
+            "G4 P0.5",
+            "M3 S900",
+            "M4",
+            "M5",
+            "S1500",
+            "M19 R45",
+            "M62 P1",
+            "M63 P1",
+            "M64 P2",
+            "M65 P2",
+            "M66 P1 L0",
+            "M67 E1 Q2.5",
+            "M68 E0 Q-1",
+            "G96 D2000 S100",
+            "G97 S700",
+            "M8 M3 S50",
         ];
         for _ in 0..self.random.whole(1, 5) {
             let code = self.random.pick(&codes);
@@ -606,7 +648,8 @@ impl Writer {
         match self.random.whole(0, 9) {
             0..=4 => {
                 let operator = self.random.pick(&[
-                    "+", "-", "*", " mod ", " gt ", " lt ", " ge ", " le ", " eq ", " ne ", " and ", " or ", " xor ",
+                    "+", "-", "*", " mod ", " gt ", " lt ", " ge ", " le ", " eq ", " ne ", " and ", " or ",
+                    " xor ",
                 ]);
                 let (left, right) = (self.expression(depth), self.expression(depth));
                 // A zero behind MOD is a mistake.
@@ -644,7 +687,9 @@ impl Writer {
             }
         }
         if self.random.one_in(2) {
-            let parameter = self.random.pick(&["5220", "5221", "5420", "5421", "5400", "5410", "<_x>", "<_z>", "<_feed>"]);
+            let parameter = self
+                .random
+                .pick(&["5220", "5221", "5420", "5421", "5400", "5410", "<_x>", "<_z>", "<_feed>"]);
             self.line(format!("G0 X#{parameter}"));
         }
     }
@@ -768,7 +813,7 @@ impl Writer {
             let mut call = format!("o{name} call");
             for _ in 0..self.random.whole(0, 3) {
                 let length = self.length();
-                call.push_str(&format!(" [{}]", number(length)));
+                add!(call, " [{}]", number(length));
             }
             self.line(call);
             if self.random.one_in(2) {
@@ -811,7 +856,7 @@ impl Writer {
         let on = if dynamic { format!("{side}.1 D{}", number(diameter)) } else { format!("{side} D2") };
         // The lead-in comes along the first side's line, or square to it, from the side where the tool will be.
         let ((ax, ay), (bx, by)) = (corner(0), corner(1));
-        let middle = ((ax + bx) / 2.0, (ay + by) / 2.0);
+        let middle = (f64::midpoint(ax, bx), f64::midpoint(ay, by));
         let reach = if inside { 0.3 } else { 2.5 };
         let lead = (middle.0 * reach, middle.1 * reach);
         self.line(format!("G0 X{} Y{}", number(lead.0), number(lead.1)));
@@ -876,6 +921,8 @@ impl Writer {
 
     fn polar(&mut self) {
         self.back_to((Plane::Xy, false, false));
+        // At the origin a distance alone has no direction.
+        self.line("G0 X3 Y4");
         for _ in 0..self.random.whole(1, 4) {
             let (distance, angle) = (self.positive(30), self.random.whole(-180, 360));
             let code = self.random.pick(&["G0", "G1"]);
@@ -918,13 +965,16 @@ impl Writer {
                     number(pitch / 5.0),
                     number(pitch * 0.6),
                 );
-                for (letter, values) in
-                    [("R", ["1", "1.5", "2"]), ("Q", ["0", "29.5", "30"]), ("H", ["0", "1", "2"]), ("L", ["0", "1", "3"])]
-                {
+                for (letter, values) in [
+                    ("R", ["1", "1.5", "2"]),
+                    ("Q", ["0", "29.5", "30"]),
+                    ("H", ["0", "1", "2"]),
+                    ("L", ["0", "1", "3"]),
+                ] {
                     if self.random.one_in(3) {
-                        line.push_str(&format!(" {letter}{}", self.random.pick(&values)));
+                        add!(line, " {letter}{}", self.random.pick(&values));
                         if letter == "L" {
-                            line.push_str(&format!(" E{}", number(pitch / 2.0)));
+                            add!(line, " E{}", number(pitch / 2.0));
                         }
                     }
                 }

@@ -14,7 +14,7 @@
 //!
 //! Other switches: `GCHECK_ORACLE_ONLY=text` runs the own programs and corpus cases whose name contains the text, and the
 //! seed of that number; `GCHECK_ORACLE_PROGRAM=path` runs another build of `gcheck` in place of this one;
-//! `GCHECK_ORACLE_REPORT=file` writes every difference at full length.
+//! `GCHECK_ORACLE_REPORT=file` writes every difference at full length; `GCHECK_ORACLE_WHOLE=1` does not minimise.
 //! Tests that need `rs274` or the corpus skip without it, saying so, unless `CI` (for `rs274`) or `GCHECK_REQUIRE_TOOLS`
 //! (for both) demands it.
 //!

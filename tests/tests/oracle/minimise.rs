@@ -11,8 +11,7 @@ pub(crate) fn minimise(text: &str, mut shows: impl FnMut(&str) -> bool) -> Strin
         let mut shrunk = false;
         while start < lines.len() {
             let end = (start + part).min(lines.len());
-            let rest: Vec<&str> =
-                lines.iter().take(start).chain(lines.iter().skip(end)).copied().collect();
+            let rest: Vec<&str> = lines.iter().take(start).chain(lines.iter().skip(end)).copied().collect();
             if shows(&joined(&rest)) {
                 lines = rest;
                 shrunk = true;

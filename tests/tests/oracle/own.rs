@@ -48,7 +48,7 @@ fn file_name(path: &Path) -> String {
 }
 
 /// What is wrong with a program, `None` when both sides do the same and what its area says.
-fn difference(reference: Reference, program: &Program) -> Option<Failure> {
+fn difference(reference: &Reference, program: &Program) -> Option<Failure> {
     let setup = Setup::own();
     let expected = reference.run(&program.path, &setup);
     let ends_as_its_area_says = match (&expected.end, program.area.as_str()) {
@@ -73,7 +73,7 @@ fn agree(area: impl Fn(&str) -> bool) {
     let programs: Vec<Program> =
         programs().into_iter().filter(|p| area(&p.area) && wanted(&p.name)).collect();
     let failures: Vec<Failure> =
-        on_each(&programs, |program| difference(reference, program)).into_iter().flatten().collect();
+        on_each(&programs, |program| difference(&reference, program)).into_iter().flatten().collect();
     assert_none(&failures, programs.len());
 }
 
@@ -99,7 +99,10 @@ fn own_programs_say_what_they_show_and_number_their_blocks() {
         let mut lines = text.lines().filter(|line| *line != "%");
         let title = lines.next().unwrap_or_default();
         assert!(title.starts_with('(') && title.ends_with(')'), "{name} opens with a comment: {title}");
-        assert!(titles.insert((area.clone(), title.to_owned())), "{name}: another program shows the same: {title}");
+        assert!(
+            titles.insert((area.clone(), title.to_owned())),
+            "{name}: another program shows the same: {title}"
+        );
         // Mistakes in block numbers are mistakes of their own.
         let numbered = |line: &str| line.trim_start_matches('/').starts_with(['N', 'n', 'o', 'O', ';', '(']);
         let bare = lines.find(|line| !line.is_empty() && !numbered(line));

@@ -505,89 +505,142 @@ mod tests {
     // What the interpreter prints for `G0 Z3`, `G98 G81 X0 Y0 Z-2.5 R1`.
     #[test]
     fn drilling_goes_over_the_hole_down_to_r_down_and_back() {
-        check(&exact(), Effect::CycleDrill, &at(0.0, 0.0, [3.0, 1.0, -2.5]), [1.0, 2.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &at(0.0, 0.0, [3.0, 1.0, -2.5]),
+            [1.0, 2.0, 3.0],
+            expect![[r#"
             exact path
             rapid 0 0 3
             rapid 0 0 1
             feed 0 0 -2.5
             rapid 0 0 3
-        "#]]);
+        "#]],
+        );
     }
 
     // `G0 X5 Y5 Z-3`, `G98 G81 X6 Y5 Z-5 R-2 L2`: the rise comes before everything, and once a block.
     #[test]
     fn below_r_the_tool_first_rises_where_it_stands() {
         let words = at(6.0, 5.0, [-3.0, -2.0, -5.0]);
-        check(&exact(), Effect::CycleDrill, &words, [5.0, 5.0, -3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &words,
+            [5.0, 5.0, -3.0],
+            expect![[r#"
             rapid 5 5 -2
             exact path
             rapid 6 5 -2
             feed 6 5 -5
             rapid 6 5 -2
-        "#]]);
+        "#]],
+        );
         let again = Hole { first_of_block: false, ..words };
-        check(&exact(), Effect::CycleDrill, &again, [6.0, 5.0, -2.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &again,
+            [6.0, 5.0, -2.0],
+            expect![[r#"
             rapid 6 5 -2
             feed 6 5 -5
             rapid 6 5 -2
-        "#]]);
+        "#]],
+        );
     }
 
     // `G99 G81 … R1` from Z5, then `X5 R2`: the way over the plane climbs; then `G98 X8 R3` climbs to Z5.
     #[test]
     fn the_way_to_the_next_hole_climbs_to_the_level_that_it_will_be_left_at() {
         let words = Hole { return_to_r: true, ..at(5.0, 0.0, [5.0, 2.0, 0.0]) };
-        check(&exact(), Effect::CycleDrill, &words, [0.0, 0.0, 1.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &words,
+            [0.0, 0.0, 1.0],
+            expect![[r#"
             exact path
             rapid 5 0 2
             feed 5 0 0
             rapid 5 0 2
-        "#]]);
-        check(&exact(), Effect::CycleDrill, &at(8.0, 0.0, [5.0, 3.0, 0.0]), [7.0, 0.0, 2.0], expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &at(8.0, 0.0, [5.0, 3.0, 0.0]),
+            [7.0, 0.0, 2.0],
+            expect![[r#"
             exact path
             rapid 8 0 5
             rapid 8 0 3
             feed 8 0 0
             rapid 8 0 5
-        "#]]);
+        "#]],
+        );
     }
 
     // `G91 X6 R2` with the tool above R: the rise goes down.
     #[test]
     fn the_first_move_goes_to_r_from_above_too_when_r_lies_above_the_initial_level() {
         let words = Hole { return_to_r: true, ..at(18.0, 7.0, [5.0, 7.0, 6.0]) };
-        check(&exact(), Effect::CycleDrill, &words, [11.0, 7.0, 11.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &words,
+            [11.0, 7.0, 11.0],
+            expect![[r#"
             rapid 11 7 7
             exact path
             rapid 18 7 7
             feed 18 7 6
             rapid 18 7 7
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn without_the_rise_the_tool_goes_over_the_hole_first_and_back_to_where_it_was() {
-        check(&plain(), Effect::CycleDrill, &at(6.0, 5.0, [-3.0, -2.0, -5.0]), [5.0, 5.0, -3.0], expect![[r#"
+        check(
+            &plain(),
+            Effect::CycleDrill,
+            &at(6.0, 5.0, [-3.0, -2.0, -5.0]),
+            [5.0, 5.0, -3.0],
+            expect![[r#"
             rapid 6 5 -3
             rapid 6 5 -2
             feed 6 5 -5
             rapid 6 5 -3
-        "#]]);
+        "#]],
+        );
     }
 
     // `G18`, `G0 X1 Y5 Z3`, `G98 G81 X0 Y-1 Z1 R1`; `G19 … G83 X-2 Y5 Z5 R2 Q3` from X-1.
     #[test]
     fn holes_stand_on_any_plane() {
         let words = Hole { plane: Plane::Zx, ..at(1.0, 0.0, [5.0, 1.0, -1.0]) };
-        check(&exact(), Effect::CycleDrill, &words, [1.0, 5.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &words,
+            [1.0, 5.0, 3.0],
+            expect![[r#"
             exact path
             rapid 0 5 1
             rapid 0 1 1
             feed 0 -1 1
             rapid 0 5 1
-        "#]]);
+        "#]],
+        );
         let words = Hole { plane: Plane::Yz, peck: Some(Mm(3.0)), ..at(5.0, 5.0, [-1.0, 2.0, -2.0]) };
-        check(&exact(), Effect::CyclePeck, &words, [-1.0, 0.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CyclePeck,
+            &words,
+            [-1.0, 0.0, 3.0],
+            expect![[r#"
             rapid 2 0 3
             exact path
             rapid 2 5 5
@@ -596,14 +649,20 @@ mod tests {
             rapid -0.746 5 5
             feed -2 5 5
             rapid 2 5 5
-        "#]]);
+        "#]],
+        );
     }
 
     // `G83 X2 Z0.7 R1 Q0.1`: three tenths do not sum to 0.7, and the clearance reaches above R.
     #[test]
     fn pecks_are_counted_with_the_sums_of_the_interpreter() {
         let words = Hole { peck: Some(Mm(0.1)), ..at(2.0, 0.0, [3.0, 1.0, 0.7]) };
-        check(&exact(), Effect::CyclePeck, &words, [2.0, 0.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CyclePeck,
+            &words,
+            [2.0, 0.0, 3.0],
+            expect![[r#"
             exact path
             rapid 2 0 3
             rapid 2 0 1
@@ -618,7 +677,8 @@ mod tests {
             rapid 2 0 0.954
             feed 2 0 0.7
             rapid 2 0 3
-        "#]]);
+        "#]],
+        );
     }
 
     // `G20 G73 X2 R1 Q0.7 Z-1.1`: in inches, feeds at 0.3, -0.4, -1.1 and once more -1.1.
@@ -630,7 +690,12 @@ mod tests {
             units: Units::Inch,
             ..at(0.0, 0.0, [inch(3.0), inch(1.0), inch(-1.1)])
         };
-        check(&exact(), Effect::CycleChipBreak, &words, [0.0, 0.0, inch(3.0)], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleChipBreak,
+            &words,
+            [0.0, 0.0, inch(3.0)],
+            expect![[r#"
             exact path
             rapid 0 0 76.2
             rapid 0 0 25.4
@@ -642,13 +707,19 @@ mod tests {
             rapid 0 0 -27.686
             feed 0 0 -27.94
             rapid 0 0 76.2
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn pecks_of_other_controls_stay_below_r_and_may_dwell() {
         let words = Hole { peck: Some(Mm(2.0)), dwell: Some(Seconds(0.3)), ..at(0.0, 0.0, [5.0, 1.0, -4.0]) };
-        check(&plain(), Effect::CyclePeck, &words, [0.0, 0.0, 5.0], expect![[r#"
+        check(
+            &plain(),
+            Effect::CyclePeck,
+            &words,
+            [0.0, 0.0, 5.0],
+            expect![[r#"
             rapid 0 0 1
             feed 0 0 -1
             rapid 0 0 1
@@ -659,13 +730,20 @@ mod tests {
             feed 0 0 -4
             dwell 0.3
             rapid 0 0 5
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn pecks_may_shrink_from_i_by_j_down_to_k() {
-        let words = Hole { ijk: [Some(Mm(3.0)), Some(Mm(1.0)), Some(Mm(1.5))], ..at(0.0, 0.0, [5.0, 0.0, -8.0]) };
-        check(&plain(), Effect::CycleChipBreak, &words, [0.0, 0.0, 5.0], expect![[r#"
+        let words =
+            Hole { ijk: [Some(Mm(3.0)), Some(Mm(1.0)), Some(Mm(1.5))], ..at(0.0, 0.0, [5.0, 0.0, -8.0]) };
+        check(
+            &plain(),
+            Effect::CycleChipBreak,
+            &words,
+            [0.0, 0.0, 5.0],
+            expect![[r#"
             rapid 0 0 0
             feed 0 0 -3
             rapid 0 0 -2.5
@@ -675,7 +753,8 @@ mod tests {
             rapid 0 0 -6
             feed 0 0 -8
             rapid 0 0 5
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -686,7 +765,12 @@ mod tests {
             return_to_r: true,
             ..at(0.0, 0.0, [5.0, 0.0, -3.5])
         };
-        check(&plain(), Effect::CycleChipBreak, &words, [0.0, 0.0, 5.0], expect![[r#"
+        check(
+            &plain(),
+            Effect::CycleChipBreak,
+            &words,
+            [0.0, 0.0, 5.0],
+            expect![[r#"
             rapid 0 0 0
             feed 0 0 -1
             rapid 0 0 -0.5
@@ -697,14 +781,20 @@ mod tests {
             rapid 0 0 -2.5
             feed 0 0 -3.5
             rapid 0 0 0
-        "#]]);
+        "#]],
+        );
     }
 
     // `M3`, `G98 G84 X1 Y1 Z-1 R2 P1`.
     #[test]
     fn tapping_reverses_the_spindle_at_the_bottom() {
         let words = Hole { dwell: Some(Seconds(1.0)), ..at(1.0, 1.0, [5.0, 2.0, -1.0]) };
-        check(&exact(), Effect::CycleTap, &words, [1.0, 5.0, 5.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleTap,
+            &words,
+            [1.0, 5.0, 5.0],
+            expect![[r#"
             exact path
             rapid 1 1 5
             rapid 1 1 2
@@ -719,9 +809,15 @@ mod tests {
             spindle as before
             feed override true
             speed override true
-        "#]]);
+        "#]],
+        );
         let off = Hole { overrides: Overrides { feed: false, speed: false }, dwell: None, ..words };
-        check(&exact(), Effect::CycleTap, &off, [1.0, 5.0, 5.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleTap,
+            &off,
+            [1.0, 5.0, 5.0],
+            expect![[r#"
             exact path
             rapid 1 1 5
             rapid 1 1 2
@@ -734,8 +830,14 @@ mod tests {
             feed 1 1 5
             spindle stops
             spindle as before
-        "#]]);
-        check(&plain(), Effect::CycleLeftTap, &words, [1.0, 5.0, 5.0], expect![[r#"
+        "#]],
+        );
+        check(
+            &plain(),
+            Effect::CycleLeftTap,
+            &words,
+            [1.0, 5.0, 5.0],
+            expect![[r#"
             rapid 1 1 5
             rapid 1 1 2
             spindle counter-clockwise
@@ -745,22 +847,34 @@ mod tests {
             feed 1 1 2
             spindle as before
             rapid 1 1 5
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn boring_differs_in_the_way_out() {
         let words = Hole { dwell: Some(Seconds(0.5)), ..at(2.0, 1.0, [5.0, 1.0, -2.0]) };
         let from = [0.0, 1.0, 5.0];
-        check(&exact(), Effect::CycleBoreFeedOut, &words, from, expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleBoreFeedOut,
+            &words,
+            from,
+            expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
             feed 2 1 -2
             feed 2 1 1
             rapid 2 1 5
-        "#]]);
-        check(&exact(), Effect::CycleBoreStop, &words, from, expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleBoreStop,
+            &words,
+            from,
+            expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -769,8 +883,14 @@ mod tests {
             spindle stops
             rapid 2 1 5
             spindle as before
-        "#]]);
-        check(&exact(), Effect::CycleBoreDwellManual, &words, from, expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleBoreDwellManual,
+            &words,
+            from,
+            expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -779,23 +899,36 @@ mod tests {
             spindle stops
             operator stop
             spindle as before
-        "#]]);
-        check(&exact(), Effect::CycleBoreDwell, &words, from, expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleBoreDwell,
+            &words,
+            from,
+            expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
             feed 2 1 -2
             dwell 0.5
             feed 2 1 5
-        "#]]);
-        check(&plain(), Effect::CycleBoreDwell, &words, from, expect![[r#"
+        "#]],
+        );
+        check(
+            &plain(),
+            Effect::CycleBoreDwell,
+            &words,
+            from,
+            expect![[r#"
             rapid 2 1 5
             rapid 2 1 1
             feed 2 1 -2
             dwell 0.5
             feed 2 1 1
             rapid 2 1 5
-        "#]]);
+        "#]],
+        );
     }
 
     // `G98 G87 X1 Y1 Z-2.5 R1 I0.2 J0.3 K-1`.
@@ -803,7 +936,12 @@ mod tests {
     fn back_boring_enters_beside_the_axis_and_cuts_up_to_k() {
         let words =
             Hole { ijk: [Some(Mm(0.2)), Some(Mm(0.3)), Some(Mm(-1.0))], ..at(1.0, 1.0, [3.0, 1.0, -2.5]) };
-        check(&exact(), Effect::CycleBackBore, &words, [0.0, 0.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleBackBore,
+            &words,
+            [0.0, 0.0, 3.0],
+            expect![[r#"
             exact path
             rapid 1 1 3
             rapid 1 1 1
@@ -821,7 +959,8 @@ mod tests {
             rapid 1.2 1.3 3
             rapid 1 1 3
             spindle as before
-        "#]]);
+        "#]],
+        );
     }
 
     // `G19 G99 G87 X0 Z7 Y0 R6 I0.1 J0.2 K0.3`: I is the level, J and K shift.
@@ -833,7 +972,12 @@ mod tests {
             return_to_r: true,
             ..at(0.0, 7.0, [1.0, 6.0, 0.0])
         };
-        check(&exact(), Effect::CycleBackBore, &words, [1.0, 5.0, 3.0], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleBackBore,
+            &words,
+            [1.0, 5.0, 3.0],
+            expect![[r#"
             rapid 6 5 3
             exact path
             rapid 6 0 7
@@ -851,13 +995,19 @@ mod tests {
             rapid 6 0.2 7.3
             rapid 6 0 7
             spindle as before
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn back_boring_by_q_passes_through_the_hole_to_r_below() {
         let words = Hole { peck: Some(Mm(0.5)), ..at(1.0, 1.0, [5.0, -20.0, -15.0]) };
-        check(&plain(), Effect::CycleBackBore, &words, [0.0, 0.0, 5.0], expect![[r#"
+        check(
+            &plain(),
+            Effect::CycleBackBore,
+            &words,
+            [0.0, 0.0, 5.0],
+            expect![[r#"
             rapid 1 1 5
             spindle stops
             orient
@@ -872,13 +1022,20 @@ mod tests {
             rapid 1.5 1 5
             rapid 1 1 5
             spindle as before
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn fine_boring_leaves_off_the_wall() {
-        let words = Hole { ijk: [Some(Mm(-0.2)), None, None], return_to_r: true, ..at(1.0, 1.0, [5.0, 1.0, -3.0]) };
-        check(&plain(), Effect::CycleFineBore, &words, [1.0, 1.0, 5.0], expect![[r#"
+        let words =
+            Hole { ijk: [Some(Mm(-0.2)), None, None], return_to_r: true, ..at(1.0, 1.0, [5.0, 1.0, -3.0]) };
+        check(
+            &plain(),
+            Effect::CycleFineBore,
+            &words,
+            [1.0, 1.0, 5.0],
+            expect![[r#"
             rapid 1 1 1
             feed 1 1 -3
             spindle stops
@@ -887,7 +1044,8 @@ mod tests {
             rapid 0.8 1 1
             rapid 1 1 1
             spindle as before
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -897,22 +1055,34 @@ mod tests {
         check(&exact(), Effect::CyclePeck, &words, from, expect!["Fault(Missing(Q))\n"]);
         check(&exact(), Effect::CycleDrillDwell, &words, from, expect!["Fault(Missing(P))\n"]);
         check(&exact(), Effect::CycleBackBore, &words, from, expect!["Fault(Missing(I))\n"]);
-        check(&plain(), Effect::CycleFineBore, &words, from, expect![[r#"
+        check(
+            &plain(),
+            Effect::CycleFineBore,
+            &words,
+            from,
+            expect![[r#"
             rapid 0 0 1
             Fault(Missing(Q))
-        "#]]);
+        "#]],
+        );
         let zero = Hole { peck: Some(Mm(0.0)), ..words };
         check(&plain(), Effect::CyclePeck, &zero, from, expect!["Fault(NotPositive(Q))\n"]);
         let upside_down = at(0.0, 0.0, [5.0, 1.0, 2.0]);
         check(&exact(), Effect::CycleDrill, &upside_down, from, expect!["Fault(RBelowBottom)\n"]);
         let unknown = at(0.0, 0.0, [5.0, f64::NAN, 2.0]);
         check(&exact(), Effect::CycleDrill, &unknown, from, expect!["Unknown\n"]);
-        check(&exact(), Effect::Rapid, &words, from, expect![[r#"
+        check(
+            &exact(),
+            Effect::Rapid,
+            &words,
+            from,
+            expect![[r#"
             exact path
             rapid 0 0 5
             rapid 0 0 1
             NotThisKind
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -926,12 +1096,18 @@ mod tests {
 
     #[test]
     fn an_unknown_start_leaves_only_the_way_there_unknown() {
-        check(&exact(), Effect::CycleDrill, &at(1.0, 2.0, [f64::NAN, 1.0, -1.0]), [f64::NAN; 3], expect![[r#"
+        check(
+            &exact(),
+            Effect::CycleDrill,
+            &at(1.0, 2.0, [f64::NAN, 1.0, -1.0]),
+            [f64::NAN; 3],
+            expect![[r#"
             exact path
             rapid 1 2 NaN
             rapid 1 2 1
             feed 1 2 -1
             rapid 1 2 NaN
-        "#]]);
+        "#]],
+        );
     }
 }

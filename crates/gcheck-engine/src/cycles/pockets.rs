@@ -149,7 +149,15 @@ const GAP: f64 = 0.01;
 ///
 /// Exactly one of `I` and `J`; `I`, `J`, `Q` positive; a closed outline with the start hole inside; a floor below `R`.
 pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Result<PocketPlan, CycleError> {
-    known(&[words.r, words.bottom, words.layer, words.finish, words.tool_radius, words.start.0, words.start.1])?;
+    known(&[
+        words.r,
+        words.bottom,
+        words.layer,
+        words.finish,
+        words.tool_radius,
+        words.start.0,
+        words.start.1,
+    ])?;
     let (step, letter) = match (words.step_x, words.step_y) {
         (Some(_), Some(_)) => return Err(CycleFault::Geometry.into()),
         (Some(step), None) => (step, 'I'),
@@ -256,4 +264,201 @@ fn contains(corners: &[(f64, f64)], point: (f64, f64)) -> bool {
         .count()
         % 2
         == 1
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::cycles::test_support::shown;
+
+    fn circular() -> CircularPocket {
+        CircularPocket {
+            centre: (Mm(10.0), Mm(20.0)),
+            first: Mm(8.0),
+            finished: None,
+            step: None,
+            depth: Mm(-3.0),
+            deeper: Mm(0.0),
+            rounds: 1,
+            tool_radius: Mm(5.0),
+            clockwise: false,
+        }
+    }
+
+    fn check(words: &CircularPocket, expected: Expect) {
+        let from = [Mm(10.0), Mm(20.0), Mm(2.0)];
+        expected.assert_eq(&shown(|out| circular_pocket(from, words, out).map(drop)));
+    }
+
+    #[test]
+    fn one_circle_is_entered_and_left_by_half_circles() {
+        check(
+            &circular(),
+            expect![[r#"
+            feed 10 20 -3
+            arc 13 20 -3 about 11.5 20 turns 1
+            arc 13 20 -3 about 10 20 turns 1
+            arc 10 20 -3 about 11.5 20 turns 1
+        "#]],
+        );
+    }
+
+    #[test]
+    fn circles_grow_to_the_finished_radius() {
+        let words =
+            CircularPocket { finished: Some(Mm(13.0)), step: Some(Mm(4.0)), clockwise: true, ..circular() };
+        check(
+            &words,
+            expect![[r#"
+            feed 10 20 -3
+            arc 13 20 -3 about 11.5 20 turns -1
+            arc 13 20 -3 about 10 20 turns -1
+            arc 3 20 -3 about 8 20 turns -1
+            arc 3 20 -3 about 10 20 turns -1
+            arc 18 20 -3 about 10.5 20 turns -1
+            arc 18 20 -3 about 10 20 turns -1
+            arc 10 20 -3 about 14 20 turns -1
+        "#]],
+        );
+    }
+
+    #[test]
+    fn rounds_go_deeper() {
+        check(
+            &CircularPocket { rounds: 2, deeper: Mm(-1.5), ..circular() },
+            expect![[r#"
+            feed 10 20 -3
+            arc 13 20 -3 about 11.5 20 turns 1
+            arc 13 20 -3 about 10 20 turns 1
+            arc 10 20 -3 about 11.5 20 turns 1
+            feed 10 20 -4.5
+            arc 13 20 -4.5 about 11.5 20 turns 1
+            arc 13 20 -4.5 about 10 20 turns 1
+            arc 10 20 -4.5 about 11.5 20 turns 1
+        "#]],
+        );
+    }
+
+    #[test]
+    fn circles_that_cannot_be_cut_are_refused() {
+        check(
+            &CircularPocket { tool_radius: Mm(8.0), ..circular() },
+            expect![[r#"
+            Fault(Geometry)
+        "#]],
+        );
+        check(
+            &CircularPocket { finished: Some(Mm(20.0)), ..circular() },
+            expect![[r#"
+            Fault(Missing(Q))
+        "#]],
+        );
+        check(
+            &CircularPocket { step: Some(Mm(2.0)), ..circular() },
+            expect![[r#"
+            Fault(Missing(K))
+        "#]],
+        );
+        check(
+            &CircularPocket { finished: Some(Mm(8.0)), step: Some(Mm(2.0)), ..circular() },
+            expect![[r#"
+            Fault(Geometry)
+        "#]],
+        );
+        check(
+            &CircularPocket { finished: Some(Mm(9.0)), step: Some(Mm(0.0)), ..circular() },
+            expect![[r#"
+            Fault(NotPositive(Q))
+        "#]],
+        );
+        check(
+            &CircularPocket { rounds: 0, ..circular() },
+            expect![[r#"
+            Fault(ZeroRepeats)
+        "#]],
+        );
+        let tiny = CircularPocket { finished: Some(Mm(9.0)), step: Some(Mm(1e-9)), ..circular() };
+        let outcome = circular_pocket([Mm(0.0); 3], &tiny, &mut |_| {});
+        assert_eq!(outcome, Err(CycleError::TooManyStrokes));
+    }
+
+    fn line(x: f64, y: f64) -> ProfileSegment {
+        ProfileSegment::Line { to: (Mm(x), Mm(y)), rapid: false }
+    }
+
+    /// A rectangle of 40 by 20, entered from a start hole in its middle.
+    fn rectangle() -> Vec<ProfileSegment> {
+        vec![
+            line(20.0, 0.0),
+            line(20.0, 10.0),
+            line(-20.0, 10.0),
+            line(-20.0, -10.0),
+            line(20.0, -10.0),
+            line(20.0, 0.0),
+        ]
+    }
+
+    fn general() -> GeneralPocket {
+        GeneralPocket {
+            start: (Mm(0.0), Mm(0.0)),
+            r: Mm(1.0),
+            bottom: Mm(-4.0),
+            layer: Mm(2.0),
+            step_x: None,
+            step_y: Some(Mm(4.0)),
+            finish: Mm(0.0),
+            tool_radius: Mm(5.0),
+            feed: MmPerMin(600.0),
+        }
+    }
+
+    #[test]
+    fn a_pocket_is_estimated_from_its_area() {
+        let plan = general_pocket(&rectangle(), &general()).unwrap();
+        assert_eq!(plan.levels, [Mm(-1.0), Mm(-3.0), Mm(-4.0)]);
+        assert_eq!(plan.low, [Mm(-15.0), Mm(-5.0), Mm(-4.0)]);
+        assert_eq!(plan.high, [Mm(15.0), Mm(5.0), Mm(1.0)]);
+        assert!((plan.area - 800.0).abs() < 1e-9);
+        assert!(plan.estimated.0 > 30.0 && plan.estimated.0 < 120.0, "{plan:?}");
+        assert_eq!(plan.end, [Mm(0.0), Mm(0.0), Mm(1.0)]);
+    }
+
+    #[test]
+    fn a_round_outline_counts_as_round() {
+        let outline = [
+            line(10.0, 0.0),
+            ProfileSegment::Arc { to: (Mm(10.0), Mm(0.0)), centre: (Mm(0.0), Mm(0.0)), ccw: true },
+        ];
+        let plan = general_pocket(&outline, &general()).unwrap();
+        assert!((plan.area - 314.16).abs() < 0.5, "{plan:?}");
+    }
+
+    #[test]
+    fn outlines_that_cannot_be_cleared_are_refused() {
+        let refused =
+            |outline: &[ProfileSegment], words: GeneralPocket| general_pocket(outline, &words).unwrap_err();
+        let geometry = CycleError::Fault(CycleFault::Geometry);
+        assert_eq!(refused(&rectangle()[..4], general()), geometry, "open");
+        assert_eq!(refused(&rectangle()[..1], general()), geometry, "no outline");
+        assert_eq!(refused(&[], general()), CycleError::Profile(super::super::ProfileFault::Empty));
+        assert_eq!(
+            refused(&rectangle(), GeneralPocket { start: (Mm(50.0), Mm(0.0)), ..general() }),
+            geometry
+        );
+        assert_eq!(refused(&rectangle(), GeneralPocket { step_x: Some(Mm(1.0)), ..general() }), geometry);
+        assert_eq!(
+            refused(&rectangle(), GeneralPocket { layer: Mm(0.0), ..general() }),
+            CycleFault::NotPositive(Letter::of('Q')).into()
+        );
+        assert_eq!(
+            refused(&rectangle(), GeneralPocket { bottom: Mm(2.0), ..general() }),
+            CycleFault::RBelowBottom.into()
+        );
+        assert_eq!(
+            refused(&rectangle(), GeneralPocket { layer: Mm(1e-9), ..general() }),
+            CycleError::TooManyStrokes
+        );
+    }
 }

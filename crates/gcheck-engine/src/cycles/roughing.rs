@@ -276,3 +276,257 @@ impl View {
         if self.transposed { cut.transposed() } else { cut }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::cycles::test_support::shown_zx;
+
+    /// A line to X (radius) and Z.
+    fn line(x: f64, z: f64) -> ProfileSegment {
+        ProfileSegment::Line { to: (Mm(z), Mm(x)), rapid: false }
+    }
+
+    fn rapid(x: f64, z: f64) -> ProfileSegment {
+        ProfileSegment::Line { to: (Mm(z), Mm(x)), rapid: true }
+    }
+
+    fn at(x: f64, z: f64) -> [Mm; 3] {
+        [Mm(x), Mm(0.0), Mm(z)]
+    }
+
+    fn along_z() -> Roughing {
+        Roughing {
+            direction: RoughingDirection::AlongZ,
+            depth: Mm(4.0),
+            retract: Mm(1.0),
+            stock: (Mm(0.0), Mm(0.0)),
+            pockets: false,
+        }
+    }
+
+    fn check(from: [Mm; 3], profile: &[ProfileSegment], words: &Roughing, expected: Expect) {
+        expected.assert_eq(&shown_zx(|out| roughing(from, profile, words, out).map(drop)));
+    }
+
+    #[test]
+    fn layers_are_cut_up_to_the_profile_which_is_followed_last() {
+        let profile = [rapid(10.0, 2.0), line(10.0, -10.0), line(15.0, -15.0), line(20.0, -15.0)];
+        check(
+            at(20.0, 2.0),
+            &profile,
+            &along_z(),
+            expect![[r#"
+            rapid z2 x16
+            feed z-15 x16
+            rapid z-14 x17
+            rapid z2 x17
+            rapid z2 x12
+            feed z-12 x12
+            rapid z-11 x13
+            rapid z2 x13
+            rapid z2 x20
+            rapid z2 x10
+            feed z-10 x10
+            feed z-15 x15
+            feed z-15 x20
+            rapid z2 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn stock_is_left_where_its_signs_say() {
+        let profile = [rapid(10.0, 2.0), line(10.0, -10.0), line(20.0, -10.0)];
+        let words = Roughing { stock: (Mm(0.1), Mm(0.5)), depth: Mm(6.0), ..along_z() };
+        check(
+            at(20.0, 2.0),
+            &profile,
+            &words,
+            expect![[r#"
+            rapid z2 x14
+            feed z-9.9 x14
+            rapid z-8.9 x15
+            rapid z2 x15
+            rapid z2.1 x20
+            rapid z2.1 x10.5
+            feed z-9.9 x10.5
+            feed z-9.9 x20.5
+            rapid z-9.9 x20
+            rapid z2 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_bore_is_cut_outward() {
+        let profile = [rapid(20.0, 2.0), line(20.0, -10.0), line(10.0, -10.0)];
+        let words = Roughing { depth: Mm(6.0), ..along_z() };
+        check(
+            at(10.0, 2.0),
+            &profile,
+            &words,
+            expect![[r#"
+            rapid z2 x16
+            feed z-10 x16
+            rapid z-9 x15
+            rapid z2 x15
+            rapid z2 x10
+            rapid z2 x20
+            feed z-10 x20
+            feed z-10 x10
+            rapid z2 x10
+        "#]],
+        );
+    }
+
+    #[test]
+    fn faces_are_cut_layer_by_layer_in_z() {
+        let profile = [rapid(20.0, -6.0), line(10.0, -6.0), line(10.0, 0.0)];
+        let words = Roughing { direction: RoughingDirection::AlongX, ..along_z() };
+        check(
+            at(20.0, 0.0),
+            &profile,
+            &words,
+            expect![[r#"
+            rapid z-4 x20
+            feed z-4 x10
+            rapid z-3 x11
+            rapid z-3 x20
+            rapid z0 x20
+            rapid z-6 x20
+            feed z-6 x10
+            feed z0 x10
+            rapid z0 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn an_arc_ends_layers_where_they_meet_it() {
+        // A quarter circle of radius 10 about X20 Z-10, from X10 to X20.
+        let arc =
+            ProfileSegment::Arc { to: (Mm(-20.0), Mm(20.0)), centre: (Mm(-10.0), Mm(20.0)), ccw: false };
+        let profile = [rapid(10.0, 2.0), line(10.0, -10.0), arc];
+        check(
+            at(20.0, 2.0),
+            &profile,
+            &along_z(),
+            expect![[r#"
+            rapid z2 x16
+            feed z-19.1652 x16
+            rapid z-18.1652 x17
+            rapid z2 x17
+            rapid z2 x12
+            feed z-16 x12
+            rapid z-15 x13
+            rapid z2 x13
+            rapid z2 x20
+            rapid z2 x10
+            feed z-10 x10
+            arc z-20 x20 about z-10 x20 turns -1
+            rapid z2 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn pockets_need_a_first_block_with_both_axes() {
+        let profile =
+            [rapid(10.0, 1.0), line(10.0, -5.0), line(16.0, -6.0), line(12.0, -10.0), line(20.0, -12.0)];
+        check(at(20.0, 2.0), &profile, &along_z(), expect!["Profile(FirstPiece)\n"]);
+        let words = Roughing { pockets: true, ..along_z() };
+        check(
+            at(20.0, 2.0),
+            &profile,
+            &words,
+            expect![[r#"
+            rapid z2 x16
+            feed z-6 x16
+            rapid z-5 x17
+            rapid z-5 x20
+            rapid z-6 x20
+            feed z-6 x16
+            feed z-11 x16
+            rapid z-10 x17
+            rapid z2 x17
+            rapid z2 x12
+            feed z-5.3333 x12
+            rapid z-4.3333 x13
+            rapid z2 x13
+            rapid z2 x20
+            rapid z1 x10
+            feed z-5 x10
+            feed z-6 x16
+            feed z-10 x12
+            feed z-12 x20
+            rapid z2 x20
+        "#]],
+        );
+        let type_one =
+            [rapid(10.0, 2.0), line(10.0, -5.0), line(16.0, -6.0), line(12.0, -10.0), line(20.0, -12.0)];
+        check(at(20.0, 2.0), &type_one, &words, expect!["Profile(NotMonotonic(3))\n"]);
+    }
+
+    #[test]
+    fn unusable_profiles_are_refused() {
+        check(at(20.0, 2.0), &[], &along_z(), expect!["Profile(Empty)\n"]);
+        check(
+            at(20.0, 2.0),
+            &[line(20.0, -5.0), line(10.0, -5.0)],
+            &along_z(),
+            expect!["Profile(FirstPiece)\n"],
+        );
+        let back = [line(10.0, 2.0), line(10.0, -5.0), line(12.0, -4.0), line(20.0, -8.0)];
+        check(at(20.0, 2.0), &back, &along_z(), expect!["Profile(NotMonotonic(2))\n"]);
+        let beyond = [line(10.0, 2.0), line(10.0, -5.0), line(21.0, -5.0)];
+        check(at(20.0, 2.0), &beyond, &along_z(), expect!["Profile(Start)\n"]);
+        let good = [line(10.0, 2.0), line(10.0, -5.0), line(20.0, -5.0)];
+        check(
+            at(20.0, 2.0),
+            &good,
+            &Roughing { depth: Mm(0.0), ..along_z() },
+            expect!["Fault(NotPositive(D))\n"],
+        );
+        check(at(20.0, 2.0), &good, &Roughing { depth: Mm(1e-9), ..along_z() }, expect!["TooManyStrokes\n"]);
+        check(at(f64::NAN, 2.0), &good, &along_z(), expect!["Unknown\n"]);
+        let off = ProfileSegment::Arc { to: (Mm(-9.0), Mm(20.0)), centre: (Mm(0.0), Mm(0.0)), ccw: true };
+        check(at(20.0, 2.0), &[line(10.0, 2.0), off], &along_z(), expect!["Profile(Arc(1))\n"]);
+    }
+
+    #[test]
+    fn finishing_follows_the_profile_and_returns() {
+        let profile = [rapid(10.0, 2.0), line(10.0, -10.0), line(15.0, -15.0)];
+        expect![[r#"
+            rapid z2 x10
+            feed z-10 x10
+            feed z-15 x15
+            rapid z2 x20
+        "#]]
+        .assert_eq(&shown_zx(|out| finish_profile(at(20.0, 2.0), &profile, out).map(drop)));
+    }
+
+    #[test]
+    fn a_pattern_comes_nearer_pass_by_pass() {
+        let profile = [rapid(10.0, 0.0), line(10.0, -10.0), line(15.0, -10.0)];
+        let words = PatternRepeat { passes: 3, total: (Mm(2.0), Mm(4.0)), stock: (Mm(0.1), Mm(0.5)) };
+        expect![[r#"
+            rapid z7.1 x34.5
+            rapid z2.1 x14.5
+            feed z-7.9 x14.5
+            feed z-7.9 x19.5
+            rapid z6.1 x32.5
+            rapid z1.1 x12.5
+            feed z-8.9 x12.5
+            feed z-8.9 x17.5
+            rapid z5.1 x30.5
+            rapid z0.1 x10.5
+            feed z-9.9 x10.5
+            feed z-9.9 x15.5
+            rapid z5 x30
+        "#]]
+        .assert_eq(&shown_zx(|out| pattern_repeat(at(30.0, 5.0), &profile, &words, out).map(drop)));
+    }
+}

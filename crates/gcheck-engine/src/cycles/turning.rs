@@ -60,7 +60,13 @@ pub fn box_pass(
 }
 
 /// The thread itself, from where the tool stands; its last part may leave the work toward `clear` at 45 degrees.
-fn thread_to(sink: &mut Sink<'_>, (x, z): (Mm, Mm), clear: Mm, lead: Mm, pull_out: Mm) -> Result<(), CycleError> {
+fn thread_to(
+    sink: &mut Sink<'_>,
+    (x, z): (Mm, Mm),
+    clear: Mm,
+    lead: Mm,
+    pull_out: Mm,
+) -> Result<(), CycleError> {
     let [x0, y, z0] = sink.at;
     let way = (z - z0).abs();
     if !(pull_out > Mm::ZERO && pull_out < way) {
@@ -224,7 +230,8 @@ pub fn multi_pass_thread(
     let along = if z < z0 { -1.0 } else { 1.0 };
     let slope = (angle / 2.0).radians().tan();
     let both = matches!(words.in_feed, InFeed::BothEdgesConstantLoad | InFeed::BothEdgesConstantDepth);
-    let constant_depth = matches!(words.in_feed, InFeed::OneEdgeConstantDepth | InFeed::BothEdgesConstantDepth);
+    let constant_depth =
+        matches!(words.in_feed, InFeed::OneEdgeConstantDepth | InFeed::BothEdgesConstantDepth);
 
     let mut sink = Sink::new(from, out);
     let pass = |depth: Mm, count: u32, sink: &mut Sink<'_>| -> Result<(), CycleError> {
@@ -365,10 +372,12 @@ pub fn tapered_thread(
         sink.put(Stroke::FeedOverride(true))
     };
     let (first_depth, full_depth) = (in_program_units(first, units), in_program_units(full, units));
+    // Depths are compared from the drive line, which swallows the last bit of some sums.
+    let crest_depth = in_program_units(peak.abs(), units);
     let power = words.degression.max(1.0).recip();
     let mut depth = first_depth;
     let mut count: u32 = 1;
-    while depth < full_depth {
+    while crest_depth + depth < crest_depth + full_depth {
         pass(from_program_units(depth, units))?;
         count = count.saturating_add(1);
         depth = first_depth * f64::from(count).powf(power);
@@ -378,4 +387,413 @@ pub fn tapered_thread(
     }
     sink.rapid(words.to)?;
     Ok(sink.at)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::cycles::test_support::shown_zx;
+
+    fn at(x: f64, z: f64) -> [Mm; 3] {
+        [Mm(x), Mm(0.0), Mm(z)]
+    }
+
+    fn check(run: impl FnOnce(&mut dyn FnMut(Stroke)) -> Result<[Mm; 3], CycleError>, expected: Expect) {
+        expected.assert_eq(&shown_zx(|out| run(out).map(drop)));
+    }
+
+    fn pass(
+        effect: Effect,
+        taper: f64,
+        pull_out: f64,
+    ) -> impl FnOnce(&mut dyn FnMut(Stroke)) -> Result<[Mm; 3], CycleError> {
+        move |out| {
+            box_pass(effect, at(25.0, 2.0), (Mm(20.0), Mm(-30.0)), Mm(taper), Mm(1.5), Mm(pull_out), out)
+        }
+    }
+
+    #[test]
+    fn a_turning_pass_goes_around_its_box() {
+        check(
+            pass(Effect::TurningPass, 0.0, 0.0),
+            expect![[r#"
+            rapid z2 x20
+            feed z-30 x20
+            feed z-30 x25
+            rapid z2 x25
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_taper_moves_the_start_of_the_cut() {
+        check(
+            pass(Effect::TurningPass, -3.0, 0.0),
+            expect![[r#"
+            rapid z2 x17
+            feed z-30 x20
+            feed z-30 x25
+            rapid z2 x25
+        "#]],
+        );
+        check(
+            pass(Effect::FacingPass, -3.0, 0.0),
+            expect![[r#"
+            rapid z-33 x25
+            feed z-30 x20
+            feed z2 x20
+            rapid z2 x25
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_threading_pass_is_tied_to_the_spindle_and_may_pull_out() {
+        check(
+            pass(Effect::ThreadingPass, 0.0, 0.0),
+            expect![[r#"
+            rapid z2 x20
+            thread z-30 x20 lead 1.5
+            rapid z-30 x25
+            rapid z2 x25
+        "#]],
+        );
+        check(
+            pass(Effect::ThreadingPass, 0.0, 2.0),
+            expect![[r#"
+            rapid z2 x20
+            thread z-28 x20 lead 1.5
+            thread z-30 x22 lead 1.5
+            rapid z-30 x25
+            rapid z2 x25
+        "#]],
+        );
+    }
+
+    #[test]
+    fn face_grooves_peck_along_z_and_step_in_x() {
+        let words = Grooving {
+            to: (Mm(16.0), Mm(-5.0)),
+            peck: Some(Mm(3.0)),
+            step: Some(Mm(3.0)),
+            retract: Mm(0.5),
+            relief: Mm(0.0),
+        };
+        check(
+            |out| grooving(Effect::GrooveFace, at(20.0, 1.0), &words, out),
+            expect![[r#"
+            feed z-2 x20
+            rapid z-1.5 x20
+            feed z-5 x20
+            rapid z1 x20
+            rapid z1 x17
+            feed z-2 x17
+            rapid z-1.5 x17
+            feed z-5 x17
+            rapid z1 x17
+            rapid z1 x16
+            feed z-2 x16
+            rapid z-1.5 x16
+            feed z-5 x16
+            rapid z1 x16
+            rapid z1 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn diameter_grooves_peck_along_x() {
+        let words = Grooving {
+            to: (Mm(15.0), Mm(-10.0)),
+            peck: Some(Mm(3.0)),
+            step: None,
+            retract: Mm(0.5),
+            relief: Mm(0.1),
+        };
+        check(
+            |out| grooving(Effect::GrooveDiameter, at(20.0, -10.0), &words, out),
+            expect![[r#"
+            feed z-10 x17
+            rapid z-10 x17.5
+            feed z-10 x15
+            rapid z-10.1 x15
+            rapid z-10.1 x20
+            rapid z-10 x20
+        "#]],
+        );
+    }
+
+    #[test]
+    fn grooves_without_end_are_refused() {
+        let words = Grooving {
+            to: (Mm(15.0), Mm(-10.0)),
+            peck: Some(Mm(0.0)),
+            step: None,
+            retract: Mm(0.5),
+            relief: Mm(0.0),
+        };
+        check(
+            |out| grooving(Effect::GrooveDiameter, at(20.0, -10.0), &words, out),
+            expect![[r#"
+            Fault(NotPositive(I))
+        "#]],
+        );
+        let tiny = Grooving { peck: Some(Mm(1e-9)), ..words };
+        let outcome = grooving(Effect::GrooveDiameter, at(20.0, -10.0), &tiny, &mut |_| {});
+        assert_eq!(outcome, Err(CycleError::TooManyStrokes));
+    }
+
+    fn heights() -> ThreadHeights {
+        ThreadHeights {
+            to: (Mm(9.0), Mm(-20.0)),
+            taper: Mm(0.0),
+            height: Mm(1.0),
+            first: Mm(0.5),
+            least: Mm(0.1),
+            finish: Mm(0.1),
+            finish_passes: 1,
+            angle: Degrees(60.0),
+            pull_out: Mm(0.0),
+            lead: Mm(1.5),
+            in_feed: InFeed::OneEdgeConstantLoad,
+        }
+    }
+
+    #[test]
+    fn thread_passes_grow_by_the_root_of_their_number() {
+        check(
+            |out| multi_pass_thread(at(12.0, 3.0), &heights(), out),
+            expect![[r#"
+            rapid z2.7113 x12
+            rapid z2.7113 x9.5
+            thread z-20 x9.5 lead 1.5
+            rapid z-20 x12
+            rapid z2.7113 x12
+            rapid z2.5918 x12
+            rapid z2.5918 x9.2929
+            thread z-20 x9.2929 lead 1.5
+            rapid z-20 x12
+            rapid z2.5918 x12
+            rapid z2.5 x12
+            rapid z2.5 x9.134
+            thread z-20 x9.134 lead 1.5
+            rapid z-20 x12
+            rapid z2.5 x12
+            rapid z2.4804 x12
+            rapid z2.4804 x9.1
+            thread z-20 x9.1 lead 1.5
+            rapid z-20 x12
+            rapid z2.4804 x12
+            rapid z2.4226 x12
+            rapid z2.4226 x9
+            thread z-20 x9 lead 1.5
+            rapid z-20 x12
+            rapid z2.4226 x12
+            rapid z3 x12
+        "#]],
+        );
+    }
+
+    #[test]
+    fn an_internal_thread_grows_outward() {
+        let words = ThreadHeights {
+            to: (Mm(11.0), Mm(-20.0)),
+            angle: Degrees(0.0),
+            finish: Mm(0.0),
+            first: Mm(0.8),
+            ..heights()
+        };
+        check(
+            |out| multi_pass_thread(at(9.0, 3.0), &words, out),
+            expect![[r#"
+            rapid z3 x10.8
+            thread z-20 x10.8 lead 1.5
+            rapid z-20 x9
+            rapid z3 x9
+            rapid z3 x11
+            thread z-20 x11 lead 1.5
+            rapid z-20 x9
+            rapid z3 x9
+        "#]],
+        );
+    }
+
+    #[test]
+    fn threads_without_height_are_refused() {
+        let words = ThreadHeights { height: Mm(0.0), ..heights() };
+        check(
+            |out| multi_pass_thread(at(12.0, 3.0), &words, out),
+            expect![[r#"
+            Fault(NotPositive(K))
+        "#]],
+        );
+        let words = ThreadHeights { first: Mm(1e-9), least: Mm(0.0), ..heights() };
+        let outcome = multi_pass_thread(at(12.0, 3.0), &words, &mut |_| {});
+        assert_eq!(outcome, Err(CycleError::TooManyStrokes));
+    }
+
+    fn tapered() -> TaperedThread {
+        TaperedThread {
+            to: at(2.0, -3.0),
+            pitch: Mm(1.0),
+            peak: Mm(-0.5),
+            first: Mm(0.4),
+            depth: Mm(0.8),
+            degression: 1.0,
+            slide: Degrees(0.0),
+            springs: 0,
+            taper: Mm(0.0),
+            ends: TaperEnds::default(),
+            units: Units::Mm,
+        }
+    }
+
+    // `G0 X2 Z5`, `G76 P1 Z-3 I-0.5 J0.4 K0.8 Q29.5 H1 L0`: what the interpreter prints.
+    #[test]
+    fn a_thread_by_drive_line_and_depth() {
+        let words = TaperedThread { slide: Degrees(29.5), springs: 1, ..tapered() };
+        check(
+            |out| tapered_thread(at(2.0, 5.0), &words, out),
+            expect![[r#"
+            rapid z4.7737 x2.4
+            rapid z4.7737 x1.1
+            feed override false
+            sync 1.000000
+            feed z-2.7737 x1.1
+            sync off
+            rapid z-2.7737 x2.4
+            feed override true
+            rapid z4.5474 x2
+            rapid z4.5474 x0.7
+            feed override false
+            sync 1.000000
+            feed z-3 x0.7
+            sync off
+            rapid z-3 x2
+            feed override true
+            rapid z4.5474 x2
+            rapid z4.5474 x0.7
+            feed override false
+            sync 1.000000
+            feed z-3 x0.7
+            sync off
+            rapid z-3 x2
+            feed override true
+            rapid z-3 x2
+        "#]],
+        );
+    }
+
+    // `G76 P1 Z-3 I-0.5 J0.4 K0.8 Q29.5 E0.5 L3 R1.5`.
+    #[test]
+    fn its_ends_may_taper() {
+        let words = TaperedThread {
+            slide: Degrees(29.5),
+            taper: Mm(0.5),
+            ends: TaperEnds::of(3),
+            degression: 1.5,
+            ..tapered()
+        };
+        check(
+            |out| tapered_thread(at(2.0, 5.0), &words, out),
+            expect![[r#"
+            rapid z4.7737 x2.4
+            feed override false
+            sync 1.886796
+            feed z4.7737 x1.9
+            feed z4.2737 x1.1
+            sync 1.000000
+            feed z-2.2737 x1.1
+            sync 1.886796
+            feed z-2.7737 x1.9
+            sync off
+            rapid z-2.7737 x2.4
+            feed override true
+            rapid z4.6408 x2.165
+            feed override false
+            sync 1.886796
+            feed z4.6408 x1.665
+            feed z4.1408 x0.865
+            sync 1.000000
+            feed z-2.4066 x0.865
+            sync 1.886796
+            feed z-2.9066 x1.665
+            sync off
+            rapid z-2.9066 x2.165
+            feed override true
+            rapid z4.5474 x2
+            feed override false
+            sync 1.886796
+            feed z4.5474 x1.5
+            feed z4.0474 x0.7
+            sync 1.000000
+            feed z-2.5 x0.7
+            sync 1.886796
+            feed z-3 x1.5
+            sync off
+            rapid z-3 x2
+            feed override true
+            rapid z-3 x2
+        "#]],
+        );
+    }
+
+    // `G76 P1 Z-3 I0.5 J0.4 K0.8 L2 E0.2 Q30`.
+    #[test]
+    fn inside_a_bore_it_goes_outward() {
+        let words = TaperedThread {
+            slide: Degrees(30.0),
+            peak: Mm(0.5),
+            taper: Mm(0.2),
+            ends: TaperEnds::of(2),
+            ..tapered()
+        };
+        check(
+            |out| tapered_thread(at(2.0, 5.0), &words, out),
+            expect![[r#"
+            rapid z4.7691 x1.6
+            rapid z4.7691 x2.9
+            feed override false
+            sync 1.000000
+            feed z-2.5691 x2.9
+            sync 4.123106
+            feed z-2.7691 x2.1
+            sync off
+            rapid z-2.7691 x1.6
+            feed override true
+            rapid z4.5381 x2
+            rapid z4.5381 x3.3
+            feed override false
+            sync 1.000000
+            feed z-2.8 x3.3
+            sync 4.123106
+            feed z-3 x2.5
+            sync off
+            rapid z-3 x2
+            feed override true
+            rapid z-3 x2
+        "#]],
+        );
+    }
+
+    // `J.7 K2.1`: three times 0.7 is a little less than 2.1, so that there is a pass more.
+    #[test]
+    fn its_passes_are_counted_with_the_sums_of_the_interpreter() {
+        let count = |first: f64, depth: f64| {
+            let words = TaperedThread { first: Mm(first), depth: Mm(depth), ..tapered() };
+            let mut passes = 0;
+            tapered_thread(at(2.0, 5.0), &words, &mut |stroke| {
+                passes += u32::from(stroke == Stroke::Sync(None))
+            })
+            .map(|_| passes)
+        };
+        assert_eq!(count(0.7, 2.1), Ok(4));
+        assert_eq!(count(0.4, 0.8), Ok(2));
+        assert_eq!(count(0.8, 0.8), Err(CycleFault::Geometry.into()));
+        assert_eq!(count(0.0, 0.8), Err(CycleFault::NotPositive(Letter::of('J')).into()));
+        assert_eq!(count(1e-12, 0.8), Err(CycleError::TooManyStrokes));
+        assert_eq!(count(f64::NAN, 0.8), Err(CycleError::Unknown));
+    }
 }

@@ -80,6 +80,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.compensation.is_some() {
             return self.compensated_arc(&arc, *target, turns, state);
         }
+        if state.left_compensation.is_some() {
+            self.leave_compensation(true, state)?;
+        }
+        if self.compensates(state) {
+            return self.unknown_arc(target, state);
+        }
         let to = self.axes_of(target, state);
         let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
         let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
@@ -93,7 +99,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The end of an arc whose shape is not known.
     fn unknown_arc(&mut self, target: &Position, state: &mut State<D>) -> Step {
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
-        let to = self.axes_of(target, state);
+        let mut to = self.axes_of(target, state);
+        if self.compensates(state) {
+            to = to.with_xyz([Mm::UNKNOWN; 3]);
+        }
         let event = ArcMove {
             plane,
             from: state.actual,

@@ -37,7 +37,6 @@ impl PartialEq for Compensation {
 #[derive(Debug, Clone, Copy)]
 struct Programmed {
     origin: Origin,
-    kind: TravelKind,
     target: Position,
 }
 
@@ -93,10 +92,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.compensation = None;
         let side = if left { CutterSide::Left } else { CutterSide::Right };
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
-        let mut compensator = Compensator::new(config(self.model.semantics()));
+        // Switched off and on again without a move between, it goes on from where the tool stands.
+        let mut compensation = state.left_compensation.take().filter(|left| left.plane == plane).unwrap_or_else(|| {
+            Box::new(Compensation {
+                compensator: Compensator::new(config(self.model.semantics())),
+                plane,
+                at: state.actual,
+            })
+        });
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
-        if compensator.start(cutter, planar(&state.actual, plane)).is_ok() {
-            state.compensation = Some(Box::new(Compensation { compensator, plane, at: state.actual }));
+        if compensation.compensator.start(cutter, planar(&state.position, plane)).is_ok() {
+            state.compensation = Some(compensation);
         }
         Ok(())
     }
@@ -119,9 +125,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
-        if self.offsets_are_diameters() {
-            self.assumptions.extend([]);
-        }
         match state.tables.tool(number) {
             Some(tool) => {
                 if tool.diameter.0.is_nan() {
@@ -144,27 +147,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G40`.
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
-        let Some(mut compensation) = state.compensation.take() else {
-            if state.actual != state.position && !self.is_transformed(state) {
-                // The offset path was not known, so neither is where it ended.
-                return Ok(());
-            }
-            return Ok(());
-        };
+        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let mut out = Vec::new();
         let result = compensation.compensator.stop(|offset| out.push(offset));
         self.give_out(&mut compensation, out, state);
         match result {
             Ok(exit) => {
                 state.actual = above(&state.actual, exit.position, compensation.plane);
-                if self.refuses_incomplete() {
-                    // The interpreter goes on from where the tool stands.
-                    let programmed = above(&state.position, exit.programmed, compensation.plane);
-                    state.position = programmed;
-                }
+                state.position = above(&state.position, exit.programmed, compensation.plane);
+                state.left_compensation = Some(compensation);
                 Ok(())
             }
             Err(error) => Err(fault(&error)),
+        }
+    }
+
+    /// The first move after `G40`: whether it may be what it is.
+    pub(crate) fn leave_compensation(&mut self, is_arc: bool, state: &mut State<D>) -> Step {
+        match state.left_compensation.take() {
+            Some(mut left) => left.compensator.exit_motion(is_arc).map_err(|error| fault(&error)),
+            None => Ok(()),
         }
     }
 
@@ -186,7 +188,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let to = planar(&target, compensation.plane);
         let line = if kind == TravelKind::Rapid { LineKind::Rapid } else { LineKind::Feed };
-        let payload = Programmed { origin: self.origin(), kind, target };
+        let payload = Programmed { origin: self.origin(), target };
         let mut out = Vec::new();
         let result = compensation.compensator.line(to, line, payload, |offset| out.push(offset));
         self.finish_compensated(compensation, out, result, target, state)
@@ -197,7 +199,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let to = planar(&target, compensation.plane);
         let (first, second) = arc.centre();
-        let payload = Programmed { origin: self.origin(), kind: TravelKind::Feed, target };
+        let payload = Programmed { origin: self.origin(), target };
         let mut out = Vec::new();
         let result = compensation.compensator.arc(
             to,
@@ -226,7 +228,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.compensation = Some(compensation);
                 Ok(())
             }
-            Err(CompensationError::NotFinite) => {
+            Err(CompensationError::NotUsable) => {
                 state.actual = Position::UNKNOWN;
                 Ok(())
             }
@@ -286,10 +288,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         self.observer.event(payload.origin, state, &event);
     }
-
-    fn is_transformed(&self, state: &State<D>) -> bool {
-        self.axes_of(state.position(), state) != *state.position()
-    }
 }
 
 /// Angle of an offset arc in radians, counter-clockwise positive.
@@ -322,14 +320,14 @@ fn above(position: &Position, point: PathPoint, plane: Plane) -> Position {
 /// and X.
 fn tip(orientation: u8) -> [i8; 2] {
     match orientation {
-        1 => [1, 1],
-        2 => [-1, 1],
-        3 => [-1, -1],
-        4 => [1, -1],
+        1 => [1, -1],
+        2 => [-1, -1],
+        3 => [-1, 1],
+        4 => [1, 1],
         5 => [1, 0],
-        6 => [0, 1],
+        6 => [0, -1],
         7 => [-1, 0],
-        8 => [0, -1],
+        8 => [0, 1],
         _ => [0, 0],
     }
 }
@@ -343,7 +341,7 @@ fn fault(error: &CompensationError) -> Fault {
         CompensationError::EntryIsArc => CompensationFault::EntryIsArc,
         CompensationError::ExitIsArc => CompensationFault::ExitIsArc,
         CompensationError::NotOn
-        | CompensationError::NotFinite
+        | CompensationError::NotUsable
         | CompensationError::ZeroLength
         | CompensationError::ArcTooSmall { .. }
         | CompensationError::Gouge { .. } => CompensationFault::Gouge,

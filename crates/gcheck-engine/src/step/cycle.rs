@@ -62,7 +62,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// What cycles need of the state, on controls that refuse them without.
-    fn check_cycle(&self, state: &State<D>) -> Step {
+    pub(super) fn check_cycle(&self, state: &State<D>) -> Step {
         if self.refuses_incomplete() {
             if self.compensates(state) {
                 return Err(Fault::Cycle(CycleFault::Compensated));
@@ -81,7 +81,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Keeps the words of the block that stay in effect.
-    fn cycle_words(&mut self, effect: Effect, depth: Axis, names_code: bool, state: &mut State<D>) -> Step {
+    pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, names_code: bool, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
         let mut words = state.cycle;
@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // A cycle named anew takes nothing but R, Z and what it repeats from the one before.
             words.ijk = [f64::NAN; 3];
         }
-        let mut put = |letter: char, slot: &mut f64, scale: f64| {
+        let put = |letter: char, slot: &mut f64, scale: f64| {
             if let Some(value) = self.words.number(Letter::of(letter)) {
                 *slot = value * scale;
             }
@@ -149,14 +149,36 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn holes(&mut self, effect: Effect, plane: Plane, repeats: u32, state: &mut State<D>) -> Step {
-        let ([first, second, depth], _) = plane_axes(plane);
+        let ([first, second, _], _) = plane_axes(plane);
         let incremental = state.is_incremental(self.model);
-        let rules = self.model.semantics().cycles.clone();
         let target = self.target(state)?;
+        let here = (state.position.raw(first), state.position.raw(second));
         let step = |axis: Axis| {
             if self.words.has(axis.letter()) { target.raw(axis) - state.position.raw(axis) } else { 0.0 }
         };
-        let (along, across) = (step(first), step(second));
+        let (along, across) = if incremental == Some(false) { (0.0, 0.0) } else { (step(first), step(second)) };
+        let start = if incremental == Some(false) { (target.raw(first), target.raw(second)) } else { here };
+        let most = repeats.min(crate::cycles::MAX_STROKES);
+        // Step by step: a product would differ in the last bit.
+        let mut at = start;
+        let points = (0..most).map(move |_| {
+            at = (at.0 + along, at.1 + across);
+            at
+        });
+        self.drill(effect, plane, points, state)
+    }
+
+    /// The active cycle at every point, in the plane's first and second axis. Without points only its rise to `R` is made.
+    pub(super) fn drill(
+        &mut self,
+        effect: Effect,
+        plane: Plane,
+        points: impl ExactSizeIterator<Item = (f64, f64)>,
+        state: &mut State<D>,
+    ) -> Step {
+        let ([_, _, depth], _) = plane_axes(plane);
+        let incremental = state.is_incremental(self.model);
+        let rules = self.model.semantics().cycles.clone();
         let words = state.cycle;
         let level = state.position.raw(depth);
         let relative = incremental != Some(false) && rules.incremental_r;
@@ -181,16 +203,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if exact {
             self.path_mode(PathMode::ExactPath, state);
         }
-        let mut at = (state.position.raw(first), state.position.raw(second));
-        if !relative || incremental == Some(false) {
-            at = (target.raw(first), target.raw(second));
-        }
+        // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
+        let drills = points.len() > 0;
         let mut result = Ok(());
-        let most = repeats.min(crate::cycles::MAX_STROKES);
-        for turn in 0..most {
-            if relative || incremental == Some(true) {
-                at = (at.0 + along, at.1 + across);
-            }
+        for (turn, at) in points.enumerate() {
             let facts = Hole {
                 plane,
                 at: (Mm(at.0), Mm(at.1)),
@@ -214,11 +230,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 break;
             }
         }
-        if repeats == 0 {
-            // The cycle is kept for a pattern that follows; the tool goes nowhere.
-            return Ok(());
-        }
-        if exact {
+        if exact && drills {
             let mode = self.current_path_mode(state);
             self.path_mode(mode, state);
         }

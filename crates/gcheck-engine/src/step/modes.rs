@@ -69,7 +69,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Role::Cycle if self.model.effect(ix) == Effect::CycleCancel => {
                 self.end_cycle(state);
-                if self.shares_motion_group(ix) {
+                if self.model.cycles_are_motion {
                     state.set_mode(Role::Motion, CodeIx::NONE);
                 }
             }
@@ -78,13 +78,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if !running {
                     let sticky = state.cycle;
                     state.cycle = CycleWords::NONE;
-                    if self.shares_motion_group(ix) {
+                    if self.model.cycles_are_motion {
                         // Words of an earlier series stay known there: `R` may be left out of the next one.
                         state.cycle = CycleWords { initial: f64::NAN, ..sticky };
                     }
                 }
                 state.set_mode(Role::Cycle, ix);
-                if self.shares_motion_group(ix) {
+                if self.model.cycles_are_motion {
                     state.set_mode(Role::Motion, CodeIx::NONE);
                 }
             }
@@ -95,17 +95,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn end_cycle(&mut self, state: &mut State<D>) {
-        let cancel = self.model.code_with(Effect::CycleCancel);
+        let cancel = self.model.cycle_cancel;
         if state.mode(Role::Cycle).only() != Some(cancel) {
             state.set_mode(Role::Cycle, cancel);
             state.cycle.initial = f64::NAN;
         }
-    }
-
-    /// Cycles and motion are one modal group on this control, so that a cycle replaces the motion mode.
-    fn shares_motion_group(&self, _: CodeIx) -> bool {
-        let group = |effect| self.model.code(self.model.code_with(effect)).map(|code| code.group);
-        group(Effect::CycleDrill) == group(Effect::Linear)
     }
 
     #[expect(clippy::too_many_lines, reason = "one arm for each effect: the table that ties codes to handlers")]
@@ -206,14 +200,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::JumpUnlessInput => self.jump_unless_input(state)?,
 
-            E::Stop => self.emit(state, Event::Stop(Stop::Program)),
+            E::Stop => {
+                self.flush_compensation(state)?;
+                self.emit(state, Event::Stop(Stop::Program));
+            }
             E::OptionalStop => {
                 if !self.options.optional_stop {
                     self.assumptions.insert(Assumption::OptionalStop);
                 }
+                self.flush_compensation(state)?;
                 self.emit(state, Event::Stop(Stop::Optional));
             }
             E::PalletStop => {
+                self.flush_compensation(state)?;
                 self.emit(state, Event::PalletChange);
                 self.emit(state, Event::Stop(Stop::Pallet));
             }

@@ -21,6 +21,15 @@ use crate::value::Domain;
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
+        self.active_motion(state)?;
+        // `G66`: the macro runs behind every block that moves.
+        if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
+            self.modal_call(state);
+        }
+        Ok(())
+    }
+
+    fn active_motion(&mut self, state: &mut State<D>) -> Step {
         let present = self.words.present();
         let has_axes = present.intersects(self.model.axis_letters) || present.intersects(LetterSet::of("@^"));
         let Some(cycle) = state.active_cycle(self.model) else { return self.lose_position(state) };
@@ -259,7 +268,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.compensation.is_some() {
             return self.compensated_line(kind, target, state);
         }
-        let to = self.axes_of(&target, state);
+        if state.left_compensation.is_some() {
+            self.leave_compensation(false, state)?;
+        }
+        let mut to = self.axes_of(&target, state);
+        if self.compensates(state) {
+            // Compensation by a tool of unknown size: the path beside the programmed one is not known.
+            to = to.with_xyz([Mm::UNKNOWN; 3]);
+        }
         self.travel_to(kind, target, to, expanded, state);
         state.position = target;
         Ok(())

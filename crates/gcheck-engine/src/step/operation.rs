@@ -1,24 +1,261 @@
 //! Operations of one block on mills: pockets and hole patterns.
 //!
-//! Knows: their words. Must not know: the strokes ([`crate::cycles`]).
+//! Knows: their words, which tool size they count with, which cycle a pattern runs. Must not know: the strokes
+//! ([`crate::cycles`]).
 
-use gcheck_controls::Effect;
+use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_geometry::{Degrees, Mm, MmPerMin, Plane};
 
-use super::{Executor, Step};
+use super::arc::plane_axes;
+use super::lathe::profile::ProfileBlocks;
+use super::{Count, Executor, Step};
+use crate::assumption::Assumption;
+use crate::cycles::{
+    CircularPocket, CycleError, GeneralPocket, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
+    general_pocket,
+};
+use crate::event::TravelKind;
+use crate::fault::{CycleFault, Fault};
+use crate::model::Role;
 use crate::observer::Observer;
-use crate::state::State;
+use crate::position::{Axis, Position};
+use crate::state::{At, State};
 use crate::value::Domain;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
-    pub(super) fn circular_pocket(&mut self, _effect: Effect, _state: &mut State<D>) -> Step {
+    // ---- pockets ----
+
+    /// `G12`, `G13`: a round pocket from its centre outward.
+    pub(super) fn circular_pocket(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        let letter = Letter::of('I');
+        let first = self.length(letter, state).ok_or(Fault::Cycle(CycleFault::Missing(letter)))?;
+        let incremental = state.is_incremental(self.model);
+        let rounds = match self.count(Letter::of('L'))? {
+            None => 1,
+            Some(Count::Known(rounds)) => rounds,
+            Some(Count::Unknown) => return self.lose_operation(&target, state),
+        };
+        let deeper = match incremental {
+            Some(true) => target.raw(Axis::Z) - state.position.raw(Axis::Z),
+            Some(false) => 0.0,
+            None => f64::NAN,
+        };
+        let words = CircularPocket {
+            centre: (Mm(target.raw(Axis::X)), Mm(target.raw(Axis::Y))),
+            first: Mm(first),
+            finished: self.length(Letter::of('K'), state).map(Mm),
+            step: self.length(Letter::of('Q'), state).map(Mm),
+            depth: Mm(target.raw(Axis::Z)),
+            deeper: Mm(deeper),
+            rounds,
+            tool_radius: Mm(self.pocket_tool_radius(state)?),
+            clockwise: effect == Effect::CircularPocketClockwise,
+        };
+        let checked = self.check_feed(state);
+        let held = self.hold_compensation(state)?;
+        let mut strokes = Vec::new();
+        let result = circular_pocket(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
+        // The tool is left in the centre of the floor, whatever the way there was.
+        let mut end = target;
+        end.set(Axis::Z, target.raw(Axis::Z) + deeper * f64::from(rounds.saturating_sub(1)));
+        self.carry_out(&strokes, result, Plane::Xy, end, state)?;
+        state.compensation = held;
+        checked
+    }
+
+    /// `G150`: a pocket whose outline is a subprogram.
+    ///
+    /// The way that clears it is the machine's own, so only what is certain is given out: the way to the start hole, the
+    /// levels in it, the way back to the rapid level.
+    pub(super) fn general_pocket(&mut self, state: &mut State<D>) -> Step {
+        let target = self.target(state)?;
+        let letter = Letter::of('P');
+        let needed = |letter: char| Fault::Cycle(CycleFault::Missing(Letter::of(letter)));
+        let Some(program) = self.count(letter)? else { return Err(Fault::MissingWord(letter)) };
+        let layer = self.length(Letter::of('Q'), state).ok_or(needed('Q'))?;
+        let r = match self.length(Letter::of('R'), state) {
+            Some(r) => r,
+            None if state.cycle.r.is_nan() => return Err(needed('R')),
+            None => state.cycle.r,
+        };
+        let incremental = state.is_incremental(self.model);
+        let repeats = match self.count(Letter::of('L'))? {
+            Some(Count::Known(repeats)) if incremental == Some(true) => repeats.max(1),
+            _ => 1,
+        };
+        let bottom = if incremental == Some(false) { target.raw(Axis::Z) } else { f64::NAN };
+        let r = if incremental == Some(false) { r } else { f64::NAN };
+        let step = target - state.position;
+        let length = |letter: char| self.length(Letter::of(letter), state).map(Mm);
+        let (step_x, step_y) = (length('I'), length('J'));
+        let finish = length('K').unwrap_or(Mm::ZERO);
+        let compensates = self.compensates(state);
+        let tool_radius = if compensates { self.pocket_tool_radius(state)? } else { 0.0 };
+        let checked = self.check_feed(state);
+        // Compensation belongs to the walls; a move that ends it comes afterwards.
+        self.hold_compensation(state)?;
+
+        let mut start = state.position;
+        start.set(Axis::X, target.raw(Axis::X));
+        start.set(Axis::Y, target.raw(Axis::Y));
+        let outline = self.outline(program, &start, state)?;
+        for turn in 0..repeats.min(crate::cycles::MAX_STROKES) {
+            if turn > 0 {
+                start.set(Axis::X, start.raw(Axis::X) + step.raw(Axis::X));
+                start.set(Axis::Y, start.raw(Axis::Y) + step.raw(Axis::Y));
+            }
+            let here = (Mm(start.raw(Axis::X)), Mm(start.raw(Axis::Y)));
+            let mut end = start;
+            end.set(Axis::Z, r);
+            let words = GeneralPocket {
+                start: here,
+                r: Mm(r),
+                bottom: Mm(bottom),
+                layer: Mm(layer),
+                step_x,
+                step_y,
+                finish,
+                tool_radius: Mm(tool_radius),
+                feed: MmPerMin(D::known(&state.feed).unwrap_or(f64::NAN)),
+            };
+            // Further pockets have the outline of the first.
+            let plan = match &outline {
+                Some(outline) if turn == 0 => general_pocket(outline, &words).map(Some),
+                Some(_) => Ok(None),
+                None => Err(CycleError::Unknown),
+            };
+            let mut strokes = Vec::new();
+            if let Ok(Some(plan)) = &plan {
+                let [x, y, z] = [here.0, here.1, Mm(state.position.raw(Axis::Z))];
+                strokes.push(Stroke::Rapid([x, y, z]));
+                strokes.push(Stroke::Rapid([x, y, words.r]));
+                strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
+                strokes.push(Stroke::Rapid(plan.end));
+            }
+            let result = match plan {
+                Ok(Some(plan)) => Ok(plan.end),
+                Ok(None) => Err(CycleError::Unknown),
+                Err(error) => Err(error),
+            };
+            self.carry_out(&strokes, result, Plane::Xy, end, state)?;
+        }
+        checked
+    }
+
+    /// The pieces of an outline, from the start hole on; `None` when they are not all known.
+    fn outline(
+        &mut self,
+        program: Count,
+        start: &Position,
+        state: &State<D>,
+    ) -> Step<Option<Vec<crate::cycles::ProfileSegment>>> {
+        let Count::Known(number) = program else { return Ok(None) };
+        let at = self.origin.at;
+        let label = self.file(at.file).and_then(|file| file.loaded.outline().label(number, at.block, true));
+        let found = label.map(|block| At { file: at.file, block });
+        let Some(first) = found.or_else(|| self.program.find_number(number, at.file)) else {
+            self.assumptions.insert(Assumption::MissingProgram(number));
+            return Ok(None);
+        };
+        let last = self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
+        let blocks = ProfileBlocks { file: first.file, first: first.block, last: last.saturating_sub(1) };
+        let mut drawn = state.clone();
+        drawn.position = *start;
+        drawn.actual = *start;
+        let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
+        Ok(Some(profile.segments).filter(|_| profile.complete))
+    }
+
+    /// Radius of the tool that `D` names, now or before; 0 for `D0`, NaN unknown.
+    fn pocket_tool_radius(&mut self, state: &mut State<D>) -> Step<f64> {
+        if let Some(d) = self.words.get(Letter::of('D')).cloned() {
+            self.count(Letter::of('D'))?;
+            state.d = d;
+        }
+        let Some(number) = D::known(&state.d) else { return Ok(f64::NAN) };
+        if number == 0.0 {
+            return Ok(0.0);
+        }
+        #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
+        let number = number as u32;
+        let radius = state.tables.tool(number).map_or(f64::NAN, |tool| tool.diameter.0 / 2.0);
+        if radius.is_nan() {
+            self.assumptions.insert(Assumption::ToolRadius(number));
+        }
+        Ok(radius)
+    }
+
+    /// Repeats that nobody knows: the tool ends over the point, at a depth nobody knows.
+    fn lose_operation(&mut self, target: &Position, state: &mut State<D>) -> Step {
+        state.position = *target;
+        state.position.set(Axis::Z, f64::NAN);
+        state.actual = self.axes_of(&state.position, state);
         Ok(())
     }
 
-    pub(super) fn general_pocket(&mut self, _state: &mut State<D>) -> Step {
-        Ok(())
+    // ---- patterns ----
+
+    /// `G70`, `G71`, `G72` of mills: the canned cycle at every point of a pattern.
+    pub(super) fn bolt_pattern(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        let plane = Plane::Xy;
+        let ([first, second, depth], _) = plane_axes(plane);
+        let target = self.target(state)?;
+        let centre = (Mm(target.raw(first)), Mm(target.raw(second)));
+        let needed = |letter: char| Fault::Cycle(CycleFault::Missing(Letter::of(letter)));
+        let size = Mm(self.length(Letter::of('I'), state).ok_or(needed('I'))?);
+        let angle = Degrees(self.words.number(Letter::of('J')).unwrap_or(0.0));
+        let holes = self.count(Letter::of('L'))?.ok_or(needed('L'))?;
+        let between = match effect {
+            Effect::BoltArc => Degrees(self.words.number(Letter::of('K')).ok_or(needed('K'))?),
+            _ => Degrees(0.0),
+        };
+        let points: Result<Vec<(Mm, Mm)>, CycleError> = match (holes, effect) {
+            (Count::Unknown, _) => Err(CycleError::Unknown),
+            (Count::Known(holes), Effect::BoltCircle) => bolt_circle(centre, size, angle, holes).map(Iterator::collect),
+            (Count::Known(holes), Effect::BoltArc) => {
+                bolt_arc(centre, size, angle, between, holes).map(Iterator::collect)
+            }
+            (Count::Known(holes), _) => bolt_line(centre, size, angle, holes).map(Iterator::collect),
+        };
+        let points = match points {
+            Ok(points) => points,
+            Err(CycleError::Fault(fault)) => return Err(Fault::Cycle(fault)),
+            Err(CycleError::TooManyStrokes) => return Err(Fault::Cycle(CycleFault::Geometry)),
+            Err(_) => {
+                state.position.set(first, f64::NAN);
+                state.position.set(second, f64::NAN);
+                state.actual = self.axes_of(&state.position, state);
+                return Ok(());
+            }
+        };
+        let Some(cycle) = self.cycle_of_pattern(depth, state)? else {
+            // Without a cycle the tool only goes from point to point.
+            for (a, b) in points {
+                let mut to = state.position;
+                to.set(first, a.0);
+                to.set(second, b.0);
+                self.travel(TravelKind::Rapid, to, true, state)?;
+            }
+            return Ok(());
+        };
+        self.check_cycle(state)?;
+        let points = points.into_iter().map(|(a, b)| (a.0, b.0));
+        self.drill(cycle, plane, points, state)
     }
 
-    pub(super) fn bolt_pattern(&mut self, _effect: Effect, _state: &mut State<D>) -> Step {
-        Ok(())
+    /// The cycle in effect, or the one that the block names itself: `I`, `J`, `K` and `L` are the pattern's.
+    fn cycle_of_pattern(&mut self, depth: Axis, state: &mut State<D>) -> Step<Option<Effect>> {
+        let is_cycle = |ix: &CodeIx| self.model.role(*ix) == Some(Role::Cycle);
+        let named = self.words.codes().iter().copied().find(is_cycle);
+        if let Some(ix) = named.filter(|ix| self.model.effect(*ix) != Effect::CycleCancel) {
+            let effect = self.model.effect(ix);
+            let kept = state.cycle.ijk;
+            self.cycle_words(effect, depth, true, state)?;
+            state.cycle.ijk = kept;
+            return Ok(Some(effect));
+        }
+        let active = state.active_cycle(self.model).filter(|ix| ix.is_some());
+        Ok(active.map(|ix| self.model.effect(ix)))
     }
 }

@@ -5,12 +5,15 @@
 use super::planar::{Curve, Meeting, Vector, meet, sweep};
 use super::{
     CompensationError, CompensationStyle, Compensator, Corner, GougeKind, Last, LineKind, OffsetCourse,
-    OffsetEvent, OffsetSegment, PathPoint, Phase, Programmed, Queued, Segment, State, Waiting,
+    OffsetEvent, OffsetSegment, PathPoint, Phase, Programmed, Queued, Segment, State, Waiting, is_usable,
 };
 use std::f64::consts::{PI, TAU};
 
 /// How far (mm) a segment may run backwards in [`CompensationStyle::Intersection`], where rounding has made it so.
 const BACKWARDS_SLACK: f64 = 1e-6;
+
+/// A bend (radians) that rounding of coordinates can make of a tangent joint.
+const ROUNDING_BEND: f64 = 0.05;
 
 /// How much more than programmed (radians) an arc may sweep; one that has been shortened past its start sweeps nearly a
 /// turn more.
@@ -56,6 +59,7 @@ impl<M: Clone, E> Compensator<M, E> {
         emit: &mut impl FnMut(OffsetEvent<M, E>),
     ) -> Result<(), CompensationError> {
         self.ready(to)?;
+        self.state.leaving = false;
         let from = self.state.programmed.planar();
         let moved = to.planar() - from;
         if self.state.radius > 0.0 && moved == Vector::ZERO {
@@ -90,8 +94,11 @@ impl<M: Clone, E> Compensator<M, E> {
     ) -> Result<(), CompensationError> {
         self.ready(to)?;
         let centre = Vector::new(first, second);
-        if !(first.is_finite() && second.is_finite()) {
-            return Err(CompensationError::NotFinite);
+        if !(is_usable(first) && is_usable(second)) {
+            return Err(CompensationError::NotUsable);
+        }
+        if self.state.phase == Phase::Entering {
+            self.exit_motion(true)?;
         }
         let (from_centre, to_centre) = (self.state.programmed.planar() - centre, to.planar() - centre);
         let radius = to_centre.length();
@@ -132,7 +139,7 @@ impl<M: Clone, E> Compensator<M, E> {
         if self.state.phase == Phase::Off {
             return Err(CompensationError::NotOn);
         }
-        if to.is_finite() { Ok(()) } else { Err(CompensationError::NotFinite) }
+        if to.is_usable() { Ok(()) } else { Err(CompensationError::NotUsable) }
     }
 
     fn add(
@@ -360,6 +367,13 @@ impl<M: Clone, E> Compensator<M, E> {
             Meeting::Concentric => {
                 return Err(CompensationError::Gouge { kind: GougeKind::SameCentre, corner });
             }
+            // Rounded coordinates can part the offsets of arcs that are all but tangent.
+            Meeting::Apart
+                if self.config.style == CompensationStyle::Intersection
+                    && last.bend_to(offset) < ROUNDING_BEND =>
+            {
+                return self.give_out(emit);
+            }
             Meeting::Apart => {
                 let kind = match (last.curve, offset.curve) {
                     (Curve::Line { .. }, Curve::Line { .. }) => GougeKind::LineIntoLine,
@@ -483,6 +497,13 @@ impl<M: Clone, E> Compensator<M, E> {
             }
         }
         self.give_out(emit)
+    }
+}
+
+impl Last {
+    /// The unsigned turn at the corner before `offset`.
+    fn bend_to(&self, offset: &Offset) -> f64 {
+        self.tangent.turn_to(offset.start_tangent).abs()
     }
 }
 

@@ -118,22 +118,30 @@ mod tangent_entry {
 
     #[test]
     fn inside_corners_are_intersections_and_ends_are_known_one_segment_later() {
-        tangent(left(5.0), &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(0.0, 30.0), Stop], expect![[r#"
-            1 Feed 15.0000 5.0000 0.0000 (of 0)
-            2 Feed 15.0000 25.0000 0.0000 (of 1)
-            3 Feed 0.0000 25.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(0.0, 30.0), Stop],
+            expect![[r#"
+                1 Feed 15.0000 5.0000 0.0000 (of 0)
+                2 Feed 15.0000 25.0000 0.0000 (of 1)
+                3 Feed 0.0000 25.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn outside_corners_are_arcs_for_feeds() {
-        tangent(right(5.0), &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(0.0, 30.0), Stop], expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
-            2 Feed 25.0000 30.0000 0.0000 (of 1)
-            2 ccw 20.0000 35.0000 0.0000 about 20.0000 30.0000 (corner before 2)
-            3 Feed 0.0000 35.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            right(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(0.0, 30.0), Stop],
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
+                2 Feed 25.0000 30.0000 0.0000 (of 1)
+                2 ccw 20.0000 35.0000 0.0000 about 20.0000 30.0000 (corner before 2)
+                3 Feed 0.0000 35.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
@@ -182,54 +190,78 @@ mod tangent_entry {
 
     #[test]
     fn the_path_may_turn_back_round_its_end() {
-        tangent(left(5.0), &[Feed(20.0, 0.0), Feed(0.0, 0.0), Feed(0.0, 20.0), Stop], expect![[r#"
-            1 Feed 20.0000 5.0000 0.0000 (of 0)
-            1 cw 20.0000 -5.0000 0.0000 about 20.0000 0.0000 (corner before 1)
-            2 Feed 0.0000 -5.0000 0.0000 (of 1)
-            2 cw -5.0000 0.0000 0.0000 about 0.0000 0.0000 (corner before 2)
-            3 Feed -5.0000 20.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(0.0, 0.0), Feed(0.0, 20.0), Stop],
+            expect![[r#"
+                1 Feed 20.0000 5.0000 0.0000 (of 0)
+                1 cw 20.0000 -5.0000 0.0000 about 20.0000 0.0000 (corner before 1)
+                2 Feed 0.0000 -5.0000 0.0000 (of 1)
+                2 cw -5.0000 0.0000 0.0000 about 0.0000 0.0000 (corner before 2)
+                3 Feed -5.0000 20.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn bends_within_the_tolerance_are_no_corners() {
-        tangent(right(5.0), &[Feed(20.0, 0.0), Feed(40.0, 0.001), Feed(60.0, 10.0), Stop], expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            2 Feed 40.0002 -4.9990 0.0000 (of 1)
-            2 ccw 42.2359 -4.4712 0.0000 about 40.0000 0.0010 (corner before 2)
-            3 Feed 62.2359 5.5278 0.0000 (of 2)
-        "#]]);
+        tangent(
+            right(5.0),
+            &[Feed(20.0, 0.0), Feed(40.0, 0.001), Feed(60.0, 10.0), Stop],
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                2 Feed 40.0002 -4.9990 0.0000 (of 1)
+                2 ccw 42.2359 -4.4712 0.0000 about 40.0000 0.0010 (corner before 2)
+                3 Feed 62.2359 5.5278 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn tangent_arcs_shrink_inside_and_grow_outside() {
         let steps = [Feed(20.0, 0.0), Ccw([40.0, 20.0], [20.0, 20.0]), Feed(40.0, 40.0), Stop];
-        tangent(left(5.0), &steps, expect![[r#"
-            1 Feed 20.0000 5.0000 0.0000 (of 0)
-            2 ccw 35.0000 20.0000 0.0000 about 20.0000 20.0000 (of 1)
-            3 Feed 35.0000 40.0000 0.0000 (of 2)
-        "#]]);
-        tangent(right(5.0), &steps, expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            2 ccw 45.0000 20.0000 0.0000 about 20.0000 20.0000 (of 1)
-            3 Feed 45.0000 40.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 20.0000 5.0000 0.0000 (of 0)
+                2 ccw 35.0000 20.0000 0.0000 about 20.0000 20.0000 (of 1)
+                3 Feed 35.0000 40.0000 0.0000 (of 2)
+            "#]],
+        );
+        tangent(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                2 ccw 45.0000 20.0000 0.0000 about 20.0000 20.0000 (of 1)
+                3 Feed 45.0000 40.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn corners_between_lines_and_arcs() {
         let steps = [Feed(20.0, 0.0), Ccw([0.0, 20.0], [0.0, 0.0]), Feed(-20.0, 20.0), Stop];
-        tangent(left(5.0), &steps, expect![[r#"
-            1 Feed 14.1421 5.0000 0.0000 (of 0)
-            2 ccw 0.0000 15.0000 0.0000 about 0.0000 0.0000 (of 1)
-            3 Feed -20.0000 15.0000 0.0000 (of 2)
-        "#]]);
-        tangent(right(5.0), &steps, expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
-            2 ccw 0.0000 25.0000 0.0000 about 0.0000 0.0000 (of 1)
-            3 Feed -20.0000 25.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 14.1421 5.0000 0.0000 (of 0)
+                2 ccw 0.0000 15.0000 0.0000 about 0.0000 0.0000 (of 1)
+                3 Feed -20.0000 15.0000 0.0000 (of 2)
+            "#]],
+        );
+        tangent(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
+                2 ccw 0.0000 25.0000 0.0000 about 0.0000 0.0000 (of 1)
+                3 Feed -20.0000 25.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
@@ -241,21 +273,29 @@ mod tangent_entry {
             Feed(100.0, 0.0),
             Stop,
         ];
-        tangent(left(5.0), &steps, expect![[r#"
-            1 Feed 15.6351 5.0000 0.0000 (of 0)
-            2 cw 50.0000 13.2288 0.0000 about 35.0000 0.0000 (of 1)
-            3 cw 84.3649 5.0000 0.0000 about 65.0000 0.0000 (of 2)
-            4 Feed 100.0000 5.0000 0.0000 (of 3)
-        "#]]);
-        tangent(right(5.0), &steps, expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
-            2 cw 45.0000 0.0000 0.0000 about 35.0000 0.0000 (of 1)
-            2 ccw 55.0000 0.0000 0.0000 about 50.0000 0.0000 (corner before 2)
-            3 cw 75.0000 0.0000 0.0000 about 65.0000 0.0000 (of 2)
-            3 ccw 80.0000 -5.0000 0.0000 about 80.0000 0.0000 (corner before 3)
-            4 Feed 100.0000 -5.0000 0.0000 (of 3)
-        "#]]);
+        tangent(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 15.6351 5.0000 0.0000 (of 0)
+                2 cw 50.0000 13.2288 0.0000 about 35.0000 0.0000 (of 1)
+                3 cw 84.3649 5.0000 0.0000 about 65.0000 0.0000 (of 2)
+                4 Feed 100.0000 5.0000 0.0000 (of 3)
+            "#]],
+        );
+        tangent(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                1 ccw 25.0000 0.0000 0.0000 about 20.0000 0.0000 (corner before 1)
+                2 cw 45.0000 0.0000 0.0000 about 35.0000 0.0000 (of 1)
+                2 ccw 55.0000 0.0000 0.0000 about 50.0000 0.0000 (corner before 2)
+                3 cw 75.0000 0.0000 0.0000 about 65.0000 0.0000 (of 2)
+                3 ccw 80.0000 -5.0000 0.0000 about 80.0000 0.0000 (corner before 3)
+                4 Feed 100.0000 -5.0000 0.0000 (of 3)
+            "#]],
+        );
     }
 
     #[test]
@@ -273,15 +313,23 @@ mod tangent_entry {
 
     #[test]
     fn entry_by_an_arc_moves_its_centre() {
-        tangent(left(5.0), &[Ccw([20.0, 20.0], [0.0, 20.0]), Feed(0.0, 20.0), Stop], expect![[r#"
-            1 ccw 14.3911 15.0000 0.0000 about -5.8333 20.0000 (of 0)
-            2 Feed 0.0000 15.0000 0.0000 (of 1)
-        "#]]);
-        tangent(left(5.0), &[Clockwise([20.0, -20.0], [0.0, -20.0]), Feed(0.0, -40.0), Stop], expect![[r#"
-            1 cw 25.0000 -20.0000 0.0000 about 4.5000 -20.0000 (of 0)
-            1 cw 23.5355 -23.5355 0.0000 about 20.0000 -20.0000 (corner before 1)
-            2 Feed 3.5355 -43.5355 0.0000 (of 1)
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Ccw([20.0, 20.0], [0.0, 20.0]), Feed(0.0, 20.0), Stop],
+            expect![[r#"
+                1 ccw 14.3911 15.0000 0.0000 about -5.8333 20.0000 (of 0)
+                2 Feed 0.0000 15.0000 0.0000 (of 1)
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[Clockwise([20.0, -20.0], [0.0, -20.0]), Feed(0.0, -40.0), Stop],
+            expect![[r#"
+                1 cw 25.0000 -20.0000 0.0000 about 4.5000 -20.0000 (of 0)
+                1 cw 23.5355 -23.5355 0.0000 about 20.0000 -20.0000 (corner before 1)
+                2 Feed 3.5355 -43.5355 0.0000 (of 1)
+            "#]],
+        );
     }
 
     #[test]
@@ -360,12 +408,16 @@ mod tangent_entry {
                 5 Feed 0.0000 15.0000 0.0000 (of 4)
             "#]],
         );
-        tangent(right(5.0), &[Feed(30.0, 0.0), Flush, Pass("stop"), Feed(30.0, 20.0), Stop], expect![[r#"
-            1 Feed 30.0000 -5.0000 0.0000 (of 0)
-            2 stop
-            3 ccw 35.0000 0.0000 0.0000 about 30.0000 0.0000 (corner before 3)
-            4 Feed 35.0000 20.0000 0.0000 (of 3)
-        "#]]);
+        tangent(
+            right(5.0),
+            &[Feed(30.0, 0.0), Flush, Pass("stop"), Feed(30.0, 20.0), Stop],
+            expect![[r#"
+                1 Feed 30.0000 -5.0000 0.0000 (of 0)
+                2 stop
+                3 ccw 35.0000 0.0000 0.0000 about 30.0000 0.0000 (corner before 3)
+                4 Feed 35.0000 20.0000 0.0000 (of 3)
+            "#]],
+        );
         tangent(
             left(5.0),
             &[Feed(30.0, 0.0), Flush, FeedTo(30.0, 0.0, 3.0), Feed(30.0, 20.0), Feed(0.0, 20.0), Stop],
@@ -380,64 +432,108 @@ mod tangent_entry {
 
     #[test]
     fn the_entry_must_be_longer_than_the_radius() {
-        tangent(left(5.0), &[Feed(5.0, 0.0)], expect![[r#"
-            0 EntryTooShort { needed: 5.0, got: 5.0, arc: false }
-        "#]]);
-        tangent(left(5.0), &[Feed(5.001, 0.0), Stop], expect![[r#"
-            1 Feed 5.0010 5.0000 0.0000 (of 0)
-        "#]]);
-        tangent(left(5.0), &[FeedTo(0.0, 0.0, -5.0)], expect![[r#"
-            0 EntryTooShort { needed: 5.0, got: 0.0, arc: false }
-        "#]]);
-        tangent(left(5.0), &[Ccw([1.0, 0.025_015_6], [0.0, 20.0])], expect![[r#"
-            0 EntryTooShort { needed: 5.0, got: 1.0003128411868758, arc: true }
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(5.0, 0.0)],
+            expect![[r#"
+                0 EntryTooShort { needed: 5.0, got: 5.0, arc: false }
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[Feed(5.001, 0.0), Stop],
+            expect![[r#"
+                1 Feed 5.0010 5.0000 0.0000 (of 0)
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[FeedTo(0.0, 0.0, -5.0)],
+            expect![[r#"
+                0 EntryTooShort { needed: 5.0, got: 0.0, arc: false }
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[Ccw([1.0, 0.025_015_6], [0.0, 20.0])],
+            expect![[r#"
+                0 EntryTooShort { needed: 5.0, got: 1.0003128411868758, arc: true }
+            "#]],
+        );
     }
 
     #[test]
     fn an_arc_smaller_than_the_tool_is_refused_on_its_inside_only() {
         let steps = [Feed(20.0, 0.0), Ccw([25.0, 5.0], [20.0, 5.0]), Stop];
-        tangent(left(5.0), &steps, expect![[r#"
-            1 ArcTooSmall { radius: 5.0, tool_radius: 5.0 }
-        "#]]);
-        tangent(right(5.0), &steps, expect![[r#"
-            1 Feed 20.0000 -5.0000 0.0000 (of 0)
-            2 ccw 30.0000 5.0000 0.0000 about 20.0000 5.0000 (of 1)
-        "#]]);
+        tangent(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 ArcTooSmall { radius: 5.0, tool_radius: 5.0 }
+            "#]],
+        );
+        tangent(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 20.0000 -5.0000 0.0000 (of 0)
+                2 ccw 30.0000 5.0000 0.0000 about 20.0000 5.0000 (of 1)
+            "#]],
+        );
     }
 
     #[test]
     fn a_line_too_short_for_the_tool_is_a_gouge() {
-        tangent(left(5.0), &[Feed(20.0, 0.0), Feed(20.0, 8.0), Feed(0.0, 8.0)], expect![[r#"
-            1 Feed 15.0000 5.0000 0.0000 (of 0)
-            2 Gouge { kind: LineReversed(Feed), corner: [20.0, 8.0] }
-        "#]]);
-        tangent(left(5.0), &[Rapid(20.0, 0.0), Rapid(20.0, 3.0), Rapid(0.0, 3.0)], expect![[r#"
-            1 Rapid 15.0000 5.0000 0.0000 (of 0)
-            2 Gouge { kind: LineReversed(Rapid), corner: [20.0, 3.0] }
-        "#]]);
-        tangent(left(5.0), &[Feed(20.0, 0.0), Feed(20.0, 3.0), Stop], expect![[r#"
-            1 Feed 15.0000 5.0000 0.0000 (of 0)
-            2 Gouge { kind: LineReversed(Feed), corner: [20.0, 3.0] }
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 8.0), Feed(0.0, 8.0)],
+            expect![[r#"
+                1 Feed 15.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: LineReversed(Feed), corner: [20.0, 8.0] }
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[Rapid(20.0, 0.0), Rapid(20.0, 3.0), Rapid(0.0, 3.0)],
+            expect![[r#"
+                1 Rapid 15.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: LineReversed(Rapid), corner: [20.0, 3.0] }
+            "#]],
+        );
+        tangent(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 3.0), Stop],
+            expect![[r#"
+                1 Feed 15.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: LineReversed(Feed), corner: [20.0, 3.0] }
+            "#]],
+        );
     }
 
     #[test]
     fn a_line_just_long_enough_is_none() {
-        tangent(left(5.0), &[Feed(20.0, 0.0), Feed(20.0, 10.0), Feed(0.0, 10.0), Stop], expect![[r#"
-            1 Feed 15.0000 5.0000 0.0000 (of 0)
-            2 Feed 15.0000 5.0000 0.0000 (of 1)
-            3 Feed 0.0000 5.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 10.0), Feed(0.0, 10.0), Stop],
+            expect![[r#"
+                1 Feed 15.0000 5.0000 0.0000 (of 0)
+                2 Feed 15.0000 5.0000 0.0000 (of 1)
+                3 Feed 0.0000 5.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn a_line_run_backwards_is_not_noticed_before_a_smooth_joint() {
-        tangent(left(5.0), &[Feed(40.0, 0.0), Feed(40.0, 3.0), Feed(40.0, 63.0), Stop], expect![[r#"
-            1 Feed 35.0000 5.0000 0.0000 (of 0)
-            2 Feed 35.0000 3.0000 0.0000 (of 1)
-            3 Feed 35.0000 63.0000 0.0000 (of 2)
-        "#]]);
+        tangent(
+            left(5.0),
+            &[Feed(40.0, 0.0), Feed(40.0, 3.0), Feed(40.0, 63.0), Stop],
+            expect![[r#"
+                1 Feed 35.0000 5.0000 0.0000 (of 0)
+                2 Feed 35.0000 3.0000 0.0000 (of 1)
+                3 Feed 35.0000 63.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
@@ -457,40 +553,64 @@ mod tangent_entry {
     fn corners_where_the_offsets_do_not_meet_are_gouges() {
         // Into an arc of radius 6, turned left by 60 degrees.
         let into_arc = [Feed(20.0, 0.0), Ccw([17.0, 9.0], [14.803_85, 3.0])];
-        tangent(left(5.0), &into_arc, expect![[r#"
-            1 Gouge { kind: LineIntoArc, corner: [20.0, 0.0] }
-        "#]]);
+        tangent(
+            left(5.0),
+            &into_arc,
+            expect![[r#"
+                1 Gouge { kind: LineIntoArc, corner: [20.0, 0.0] }
+            "#]],
+        );
         // Out of an arc of radius 6 that ends upward, turned left by 60 degrees.
         let out_of_arc = [Feed(20.0, 0.0), Ccw([26.0, 6.0], [20.0, 6.0]), Feed(0.0, 21.0)];
-        tangent(left(5.0), &out_of_arc, expect![[r#"
-            1 Feed 20.0000 5.0000 0.0000 (of 0)
-            2 Gouge { kind: ArcIntoLine, corner: [26.0, 6.0] }
-        "#]]);
+        tangent(
+            left(5.0),
+            &out_of_arc,
+            expect![[r#"
+                1 Feed 20.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: ArcIntoLine, corner: [26.0, 6.0] }
+            "#]],
+        );
         let between =
-            [Feed(20.0, 0.0), Ccw([26.0, 6.0], [20.0, 6.0]), Ccw([17.607_7, 6.0], [20.803_85, 3.0])];
-        tangent(left(5.0), &between, expect![[r#"
-            1 Feed 20.0000 5.0000 0.0000 (of 0)
-            2 ArcTooSmall { radius: 4.383534512525252, tool_radius: 5.0 }
-        "#]]);
+            [Feed(20.0, 0.0), Ccw([26.0, 6.0], [20.0, 6.0]), Ccw([17.803_85, 3.803_85], [23.0, 0.803_85])];
+        tangent(
+            left(5.0),
+            &between,
+            expect![[r#"
+                1 Feed 20.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: ArcIntoArc, corner: [26.0, 6.0] }
+            "#]],
+        );
         let back = [Feed(20.0, 0.0), Ccw([40.0, 20.0], [20.0, 20.0]), Clockwise([20.0, 0.0], [20.0, 20.0])];
-        tangent(left(5.0), &back, expect![[r#"
-            1 Feed 20.0000 5.0000 0.0000 (of 0)
-            2 Gouge { kind: SameCentre, corner: [40.0, 20.0] }
-        "#]]);
+        tangent(
+            left(5.0),
+            &back,
+            expect![[r#"
+                1 Feed 20.0000 5.0000 0.0000 (of 0)
+                2 Gouge { kind: SameCentre, corner: [40.0, 20.0] }
+            "#]],
+        );
     }
 
     #[test]
     fn turning_back_onto_an_arc_is_an_outside_corner_when_the_tool_is_inside_the_arc() {
         let steps = [Feed(120.0, 0.0), Ccw([100.0, -20.0], [120.0, -20.0]), Stop];
-        tangent(left(5.0), &steps, expect![[r#"
-            1 Feed 120.0000 5.0000 0.0000 (of 0)
-            1 cw 120.0000 -5.0000 0.0000 about 120.0000 0.0000 (corner before 1)
-            2 ccw 105.0000 -20.0000 0.0000 about 120.0000 -20.0000 (of 1)
-        "#]]);
-        tangent(right(5.0), &steps, expect![[r#"
-            1 Feed 100.0000 -5.0000 0.0000 (of 0)
-            2 ccw 95.0000 -20.0000 0.0000 about 120.0000 -20.0000 (of 1)
-        "#]]);
+        tangent(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 120.0000 5.0000 0.0000 (of 0)
+                1 cw 120.0000 -5.0000 0.0000 about 120.0000 0.0000 (corner before 1)
+                2 ccw 105.0000 -20.0000 0.0000 about 120.0000 -20.0000 (of 1)
+            "#]],
+        );
+        tangent(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 100.0000 -5.0000 0.0000 (of 0)
+                2 ccw 95.0000 -20.0000 0.0000 about 120.0000 -20.0000 (of 1)
+            "#]],
+        );
     }
 
     #[test]
@@ -540,6 +660,30 @@ mod tangent_entry {
     }
 
     #[test]
+    fn compensation_may_come_again_before_any_motion() {
+        let mut compensator: Compensator<usize> = Compensator::new(CompensationConfig::tangent_entry());
+        let mut segments = Vec::new();
+        let mut note = |event| {
+            if let OffsetEvent::Programmed { segment, .. } = event {
+                segments.push(segment);
+            }
+        };
+        compensator.start(right(5.0), PathPoint::new(0.0, 0.0, 0.0)).unwrap();
+        compensator.line(PathPoint::new(20.0, 0.0, 0.0), LineKind::Feed, 0, &mut note).unwrap();
+        let exit = compensator.stop(&mut note).unwrap();
+        compensator.start(left(5.0), exit.programmed).unwrap();
+        compensator.line(PathPoint::new(40.0, 0.0, 0.0), LineKind::Feed, 1, &mut note).unwrap();
+        compensator.line(PathPoint::new(40.0, 20.0, 0.0), LineKind::Feed, 2, &mut note).unwrap();
+        assert_eq!(segments[1].start, PathPoint::new(20.0, -5.0, 0.0));
+        assert_eq!(segments[1].end, PathPoint::new(35.0, 5.0, 0.0));
+
+        compensator.stop(|_| ()).unwrap();
+        compensator.start(left(5.0), PathPoint::new(40.0, 20.0, 0.0)).unwrap();
+        let arc = compensator.arc(PathPoint::new(60.0, 40.0, 0.0), [40.0, 40.0], true, 1, 3, |_| ());
+        assert_eq!(arc, Err(CompensationError::ExitIsArc));
+    }
+
+    #[test]
     fn without_an_offset_motion_any_exit_is_good() {
         for (cutter, moves) in [(left(5.0), false), (left(0.0), true)] {
             let mut compensator: Compensator<()> = Compensator::new(CompensationConfig::tangent_entry());
@@ -558,108 +702,206 @@ mod intersection {
 
     #[test]
     fn the_entry_ends_beside_the_start_of_the_next_segment() {
-        sharp(left(5.0), &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(50.0, 30.0), Stop], expect![[r#"
-            1 Feed 15.0000 0.0000 0.0000 (of 0)
-            2 Feed 15.0000 35.0000 0.0000 (of 1)
-            3 Feed 50.0000 35.0000 0.0000 (of 2)
-        "#]]);
+        sharp(
+            left(5.0),
+            &[Feed(20.0, 0.0), Feed(20.0, 30.0), Feed(50.0, 30.0), Stop],
+            expect![[r#"
+                1 Feed 15.0000 0.0000 0.0000 (of 0)
+                2 Feed 15.0000 35.0000 0.0000 (of 1)
+                3 Feed 50.0000 35.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn the_entry_may_be_shorter_than_the_radius() {
-        sharp(left(5.0), &[Feed(3.0, 0.0), Feed(3.0, 30.0), Stop], expect![[r#"
-            1 Feed -2.0000 0.0000 0.0000 (of 0)
-            2 Feed -2.0000 30.0000 0.0000 (of 1)
-        "#]]);
+        sharp(
+            left(5.0),
+            &[Feed(3.0, 0.0), Feed(3.0, 30.0), Stop],
+            expect![[r#"
+                1 Feed -2.0000 0.0000 0.0000 (of 0)
+                2 Feed -2.0000 30.0000 0.0000 (of 1)
+            "#]],
+        );
     }
 
     #[test]
     fn outside_corners_up_to_the_limit_are_intersections() {
         let steps = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(50.0, 20.0), Feed(30.0, 40.0), Stop];
-        sharp(right(5.0), &steps, expect![[r#"
-            1 Feed 10.0000 -5.0000 0.0000 (of 0)
-            2 Feed 32.0711 -5.0000 0.0000 (of 1)
-            3 Feed 57.0711 20.0000 0.0000 (of 2)
-            4 Feed 33.5355 43.5355 0.0000 (of 3)
-        "#]]);
+        sharp(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 10.0000 -5.0000 0.0000 (of 0)
+                2 Feed 32.0711 -5.0000 0.0000 (of 1)
+                3 Feed 57.0711 20.0000 0.0000 (of 2)
+                4 Feed 33.5355 43.5355 0.0000 (of 3)
+            "#]],
+        );
     }
 
     #[test]
     fn sharper_outside_corners_have_a_line_across() {
         let steps = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(10.0, 20.0), Stop];
-        sharp(right(5.0), &steps, expect![[r#"
-            1 Feed 10.0000 -5.0000 0.0000 (of 0)
-            2 Feed 35.0000 -5.0000 0.0000 (of 1)
-            2 Feed 37.0711 0.0000 0.0000 (corner before 2)
-            3 Feed 13.5355 23.5355 0.0000 (of 2)
-        "#]]);
+        sharp(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 10.0000 -5.0000 0.0000 (of 0)
+                2 Feed 35.0000 -5.0000 0.0000 (of 1)
+                2 Feed 37.0711 0.0000 0.0000 (corner before 2)
+                3 Feed 13.5355 23.5355 0.0000 (of 2)
+            "#]],
+        );
         let back = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(10.0, 0.0), Stop];
-        sharp(right(5.0), &back, expect![[r#"
-            1 Feed 10.0000 -5.0000 0.0000 (of 0)
-            2 Feed 35.0000 -5.0000 0.0000 (of 1)
-            2 Feed 35.0000 5.0000 0.0000 (corner before 2)
-            3 Feed 10.0000 5.0000 0.0000 (of 2)
-        "#]]);
+        sharp(
+            right(5.0),
+            &back,
+            expect![[r#"
+                1 Feed 10.0000 -5.0000 0.0000 (of 0)
+                2 Feed 35.0000 -5.0000 0.0000 (of 1)
+                2 Feed 35.0000 5.0000 0.0000 (corner before 2)
+                3 Feed 10.0000 5.0000 0.0000 (of 2)
+            "#]],
+        );
     }
 
     #[test]
     fn outside_corners_of_arcs_are_bridged_by_lines() {
-        let steps = [Feed(0.0, 0.001), Feed(20.0, 0.0), Ccw([0.0, 20.0], [0.0, 0.0]), Feed(0.0, 50.0), Stop];
-        sharp(right(5.0), &steps, expect![[r#"
-            1 Feed -0.0002 -4.9990 0.0000 (of 0)
-            2 Feed 24.9997 -5.0002 0.0000 (of 1)
-            2 Feed 25.0000 -5.0000 0.0000 (corner before 2)
-            2 Feed 25.0000 0.0000 0.0000 (corner before 2)
-            3 ccw 5.0000 24.4949 0.0000 about 0.0000 0.0000 (of 2)
-            4 Feed 5.0000 50.0000 0.0000 (of 3)
-        "#]]);
+        let steps = [Feed(10.0, 0.0), Feed(20.0, 0.0), Ccw([0.0, 20.0], [0.0, 0.0]), Feed(0.0, 50.0), Stop];
+        sharp(
+            right(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 10.0000 -5.0000 0.0000 (of 0)
+                2 Feed 25.0000 -5.0000 0.0000 (of 1)
+                2 Feed 25.0000 0.0000 0.0000 (corner before 2)
+                3 ccw 5.0000 24.4949 0.0000 about 0.0000 0.0000 (of 2)
+                4 Feed 5.0000 50.0000 0.0000 (of 3)
+            "#]],
+        );
+        // The arc sets out backwards, at 135 degrees to the line.
+        let acute = [
+            Feed(10.0, 0.0),
+            Feed(20.0, 0.0),
+            Ccw([-8.284_27, 0.0], [5.857_86, -14.142_14]),
+            Feed(-28.284_27, -20.0),
+            Stop,
+        ];
+        sharp(
+            right(5.0),
+            &acute,
+            expect![[r#"
+                1 Feed 10.0000 -5.0000 0.0000 (of 0)
+                2 Feed 25.0000 -5.0000 0.0000 (of 1)
+                2 Feed 27.0711 0.0000 0.0000 (corner before 2)
+                2 Feed 23.5355 3.5355 0.0000 (corner before 2)
+                3 ccw -11.8198 3.5355 0.0000 about 5.8579 -14.1421 (of 2)
+                4 Feed -31.8198 -16.4645 0.0000 (of 3)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn joints_that_rounding_has_bent_are_smooth() {
+        let steps = [
+            Feed(10.0, 0.0),
+            Feed(20.0, 0.0),
+            Ccw([30.0, 10.001], [20.001, 10.0]),
+            Ccw([10.0, 30.0], [10.0, 10.001]),
+            Stop,
+        ];
+        sharp(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 20.0000 5.0000 0.0000 (of 1)
+                3 ccw 25.0000 10.0005 0.0000 about 20.0010 10.0000 (of 2)
+                4 ccw 10.0000 25.0000 0.0000 about 10.0000 10.0010 (of 3)
+            "#]],
+        );
     }
 
     #[test]
     fn inside_corners_are_intersections() {
         let steps =
             [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(30.0, 20.0), Ccw([10.0, 40.0], [10.0, 20.0]), Stop];
-        sharp(left(5.0), &steps, expect![[r#"
-            1 Feed 10.0000 5.0000 0.0000 (of 0)
-            2 Feed 25.0000 5.0000 0.0000 (of 1)
-            3 Feed 25.0000 20.0000 0.0000 (of 2)
-            4 ccw 10.0000 35.0000 0.0000 about 10.0000 20.0000 (of 3)
-        "#]]);
+        sharp(
+            left(5.0),
+            &steps,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 25.0000 5.0000 0.0000 (of 1)
+                3 Feed 25.0000 20.0000 0.0000 (of 2)
+                4 ccw 10.0000 35.0000 0.0000 about 10.0000 20.0000 (of 3)
+            "#]],
+        );
         let arc = [Feed(10.0, 0.0), Feed(30.0, 0.0), Ccw([10.0, 20.0], [10.0, 0.0]), Feed(-10.0, 20.0), Stop];
-        sharp(left(5.0), &arc, expect![[r#"
-            1 Feed 10.0000 5.0000 0.0000 (of 0)
-            2 Feed 24.1421 5.0000 0.0000 (of 1)
-            3 ccw 10.0000 15.0000 0.0000 about 10.0000 0.0000 (of 2)
-            4 Feed -10.0000 15.0000 0.0000 (of 3)
-        "#]]);
+        sharp(
+            left(5.0),
+            &arc,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 24.1421 5.0000 0.0000 (of 1)
+                3 ccw 10.0000 15.0000 0.0000 about 10.0000 0.0000 (of 2)
+                4 Feed -10.0000 15.0000 0.0000 (of 3)
+            "#]],
+        );
     }
 
     #[test]
     fn gouges_are_found() {
         let channel = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(30.0, 8.0), Feed(10.0, 8.0)];
-        sharp(left(5.0), &channel, expect![[r#"
-            1 Feed 10.0000 5.0000 0.0000 (of 0)
-            2 Feed 25.0000 5.0000 0.0000 (of 1)
-            3 Gouge { kind: LineReversed(Feed), corner: [30.0, 8.0] }
-        "#]]);
-        let step = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(30.0, 3.0), Feed(50.0, 3.0)];
-        sharp(left(5.0), &step, expect![[r#"
-            1 Feed 10.0000 5.0000 0.0000 (of 0)
-            2 Feed 25.0000 5.0000 0.0000 (of 1)
-            3 Feed 25.0000 8.0000 0.0000 (of 2)
-        "#]]);
+        sharp(
+            left(5.0),
+            &channel,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 25.0000 5.0000 0.0000 (of 1)
+                3 Gouge { kind: LineReversed(Feed), corner: [30.0, 8.0] }
+            "#]],
+        );
+        let last = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(30.0, 3.0), Stop];
+        sharp(
+            left(5.0),
+            &last,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 25.0000 5.0000 0.0000 (of 1)
+                3 Gouge { kind: LineReversed(Feed), corner: [30.0, 3.0] }
+            "#]],
+        );
+        let arc = [Feed(10.0, 0.0), Feed(20.0, 0.0), Clockwise([20.0999, 1.9967], [40.0, 0.0]), Stop];
+        sharp(
+            left(5.0),
+            &arc,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 Feed 15.5051 5.0000 0.0000 (of 1)
+                3 Gouge { kind: ArcReversed, corner: [20.0999, 1.9967] }
+            "#]],
+        );
         let small = [Feed(10.0, 0.0), Feed(30.0, 0.0), Ccw([34.0, 4.0], [30.0, 4.0])];
-        sharp(left(5.0), &small, expect![[r#"
-            1 Feed 10.0000 5.0000 0.0000 (of 0)
-            2 ArcTooSmall { radius: 4.0, tool_radius: 5.0 }
-        "#]]);
+        sharp(
+            left(5.0),
+            &small,
+            expect![[r#"
+                1 Feed 10.0000 5.0000 0.0000 (of 0)
+                2 ArcTooSmall { radius: 4.0, tool_radius: 5.0 }
+            "#]],
+        );
     }
 
     #[test]
     fn entry_by_an_arc_is_refused() {
-        sharp(left(5.0), &[Ccw([20.0, 20.0], [0.0, 20.0])], expect![[r#"
-            0 EntryIsArc
-        "#]]);
+        sharp(
+            left(5.0),
+            &[Ccw([20.0, 20.0], [0.0, 20.0])],
+            expect![[r#"
+                0 EntryIsArc
+            "#]],
+        );
     }
 
     #[test]
@@ -706,12 +948,12 @@ mod both_styles {
         let start = PathPoint::new(0.0, 0.0, 0.0);
         for config in [CompensationConfig::tangent_entry(), CompensationConfig::intersection()] {
             let mut compensator: Compensator<()> = Compensator::new(config);
-            assert_eq!(compensator.start(left(f64::NAN), start), Err(CompensationError::NotFinite));
+            assert_eq!(compensator.start(left(f64::NAN), start), Err(CompensationError::NotUsable));
             compensator.start(left(1.0), start).unwrap();
             let unknown = PathPoint::new(f64::NAN, 0.0, 0.0);
             assert_eq!(
                 compensator.line(unknown, LineKind::Feed, (), |_| ()),
-                Err(CompensationError::NotFinite)
+                Err(CompensationError::NotUsable)
             );
             assert!(!compensator.is_on());
         }
@@ -768,8 +1010,8 @@ mod both_styles {
             let mut joined = true;
             for (index, step) in steps.into_iter().enumerate() {
                 if !compensator.is_on() {
-                    at = PathPoint::new(1.0, 2.0, 3.0);
-                    let _ = compensator.start(left(radius), at);
+                    let _ = compensator.start(left(radius), PathPoint::new(1.0, 2.0, 3.0));
+                    at = compensator.position();
                 }
                 let _ = apply(&mut compensator, index, step, |event| {
                     if let OffsetEvent::Programmed { segment, .. } | OffsetEvent::Inserted { segment, .. } = event {
@@ -784,7 +1026,7 @@ mod both_styles {
         /// Round a convex polygon on its outside, the tool never comes nearer than its radius.
         #[test]
         fn the_tool_keeps_its_distance_from_a_convex_polygon(
-            corners in 3..9usize,
+            corners in 3..9u32,
             size in 5.0..100.0f64,
             radius in 0.1..30.0f64,
             stretch in 0.3..1.0f64,
@@ -795,15 +1037,17 @@ mod both_styles {
             } else {
                 CompensationConfig::intersection()
             };
-            let corner = |index: usize| {
-                let angle = std::f64::consts::TAU * (index as f64) / (corners as f64);
+            let corner = |index: u32| {
+                let angle = std::f64::consts::TAU * f64::from(index) / f64::from(corners);
                 (size * angle.cos() + 200.0, size * stretch * angle.sin() + 200.0)
             };
             let polygon: Vec<(f64, f64)> = (0..=corners).map(corner).collect();
             let mut compensator: Compensator<usize> = Compensator::new(config);
-            // Counter-clockwise with the tool on the right; the entry turns left by more than a right angle.
+            // Counter-clockwise with the tool on the right; the entry goes on into the polygon's own direction.
             let (x, y) = corner(0);
-            let start = PathPoint::new(x - 2.0 * radius, y, 0.0);
+            let (from_x, from_y) = corner(corners - 1);
+            let back = 2.0 * radius / (x - from_x).hypot(y - from_y);
+            let start = PathPoint::new(x + (from_x - x) * back, y + (from_y - y) * back, 0.0);
             compensator.start(right(radius), start).unwrap();
             let mut segments: Vec<OffsetSegment> = Vec::new();
             for (index, (x, y)) in polygon.iter().enumerate() {

@@ -24,6 +24,10 @@ pub(crate) mod modal {
     pub(crate) mod two_codes_of_one_group;
 }
 
+pub(crate) mod motion {
+    pub(crate) mod feed_missing;
+}
+
 pub(crate) mod program {
     pub(crate) mod ambiguous_jump_target;
     pub(crate) mod duplicate_sequence_number;
@@ -115,6 +119,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::codes_conflict::RULE,
     &modal::too_many_m_codes::RULE,
     &modal::two_codes_of_one_group::RULE,
+    &motion::feed_missing::RULE,
     &program::ambiguous_jump_target::RULE,
     &program::duplicate_sequence_number::RULE,
     &program::jump_target_missing::RULE,

@@ -1,6 +1,7 @@
 //! A run made by hand: a state that the tests change, and the events they let happen in it.
 
 #![expect(dead_code, reason = "every test file uses its part")]
+#![expect(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test fails by panicking")]
 
 use gcheck_engine::{ArcMove, Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, Plane, Seconds};
@@ -12,7 +13,7 @@ pub(crate) struct Happened {
     pub(crate) event: Event,
     pub(crate) n: Option<u32>,
     line: u32,
-    units: Units,
+    pub(crate) units: Units,
     feed_mode: FeedMode,
     feed: f64,
     rpm: f64,
@@ -34,6 +35,11 @@ pub(crate) struct Run {
     /// Machine coordinates of the work's zero.
     pub(crate) zero: Position,
     pub(crate) expanded: bool,
+}
+
+/// Lines behind bars, which keep their columns in an expectation.
+pub(crate) fn barred(lines: &[&str]) -> String {
+    lines.iter().flat_map(|line| ["|", line, "\n"]).collect()
 }
 
 pub(crate) fn point(x: f64, y: f64, z: f64) -> Position {
@@ -144,14 +150,14 @@ impl Run {
         }
     }
 
-    /// Canonical functions without prologue and epilogue; a bar before each line keeps its columns.
+    /// Canonical functions without prologue and epilogue.
     pub(crate) fn canonical(&self, tools: &[u32]) -> String {
         let mut out = Canonical::new(Vec::new()).with_tool_table(tools.to_vec());
         out.prologue(&Start::default()).unwrap();
         self.each(|step| out.step(step).unwrap());
         let text = String::from_utf8(out.epilogue(Ending::Program).unwrap()).unwrap();
         let lines: Vec<&str> = text.lines().collect();
-        lines[6..lines.len() - 2].iter().flat_map(|line| ["|", line, "\n"]).collect()
+        barred(&lines[6..lines.len() - 2])
     }
 
     pub(crate) fn jsonl(&self, view: View) -> String {

@@ -114,7 +114,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
     let outcome =
-        check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions });
+        check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions, execution: gcheck_rules::Execution::default() });
     // A program without findings is never shown: let go of its text before the last file is read.
     let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
     Ok(FileReport {

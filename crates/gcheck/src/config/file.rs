@@ -2,8 +2,6 @@
 //!
 //! Knows: keys and types. Must not know: files, inheritance between configurations, whether a name exists (see
 //! [`super::validate`]).
-//!
-//! Keys that only the execution of programs needs are accepted and checked, so that a configuration is written once.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -28,11 +26,11 @@ pub struct ConfigFile {
     pub machine: MachineTable,
     /// The control's own numbered settings, values as its page words them: `162 = false`, `34 = 6.0`, `40 = "diameter"`.
     pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
-    /// Macro variables known before a program starts: `"#3100" = 2.5`. Accepted; used when programs are executed.
+    /// Macro variables known before a program starts: `"#3100" = 2.5`.
     pub variables: BTreeMap<Placed<String>, f64>,
-    /// Work offsets: `G54 = { X = -400.0, Y = -200.0 }`. Accepted; used when programs are executed.
+    /// Work offsets: `G54 = { X = -400.0, Y = -200.0 }`.
     pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
-    /// Tools by number, or `table = "tool.tbl"`. Accepted; used when programs are executed.
+    /// Tools by number, or `table = "tool.tbl"`.
     pub tools: ToolsTable,
     /// Codes of the shop: M codes of the builder, aliases of macros.
     pub codes: BTreeMap<Placed<String>, CodeTable>,
@@ -84,31 +82,35 @@ pub struct OverrideTable {
 pub struct MachineTable {
     /// The machine's name, for people.
     pub name: Option<String>,
-    /// Axes the machine has: `["X", "Y", "Z", "A"]`. Accepted; used when programs are executed.
+    /// Axes the machine has: `["X", "Y", "Z", "A"]`.
     pub axes: Option<Vec<Placed<String>>>,
     /// Unit of every length in this file, and the one active at power-on. No G20 or G21 reinterprets it.
     pub units: Option<Units>,
-    /// Ends of travel by axis, in machine coordinates: `travel.X = [-762.0, 0.0]`. Accepted; used when programs are executed.
+    /// Unit in which the control keeps its offsets and tools, and in which a tool table on disk is read; `units` without it.
+    pub table_units: Option<Units>,
+    /// Ends of travel by axis, in machine coordinates: `travel.X = [-762.0, 0.0]`.
     pub travel: BTreeMap<Placed<String>, Placed<[f64; 2]>>,
-    /// Highest spindle speed, in 1/min. Accepted; used when programs are executed.
+    /// Highest spindle speed, in 1/min.
     pub max_rpm: Option<Placed<f64>>,
-    /// Highest feed rate. Accepted; used when programs are executed.
+    /// Highest feed rate, in `units` a minute.
     pub max_feed: Option<Placed<f64>>,
-    /// Rapid traverse. Accepted; used when programs are executed.
+    /// Rapid traverse of the linear axes, in `units` a minute.
     pub rapid: Option<Placed<f64>>,
-    /// Duration of a tool change. Accepted; used when programs are executed.
+    /// Rapid traverse of the rotary axes, in degrees a minute.
+    pub rotary_rapid: Option<Placed<f64>>,
+    /// Duration of a tool change, in seconds.
     pub tool_change_seconds: Option<Placed<f64>>,
-    /// Where the rotary axes sit. Accepted; used when programs are executed.
+    /// Where the rotary axes sit.
     pub rotary: Option<Rotary>,
-    /// Rotary axes from the machine outward; as written in `axes` without it. Accepted; used when programs are executed.
+    /// Rotary axes from the machine outward; as written in `axes` without it.
     pub rotary_order: Option<Vec<Placed<String>>>,
-    /// Sense of rotation by axis, 1 or -1. Accepted; used when programs are executed.
+    /// Sense of rotation by axis, 1 or -1.
     pub rotary_sign: BTreeMap<Placed<String>, Placed<i8>>,
-    /// From the pivot of a tilting head to the spindle nose. Accepted; used when programs are executed.
+    /// From the pivot of a tilting head to the spindle nose.
     pub pivot_length: Option<Placed<f64>>,
-    /// Length of a new bar, for a lathe with a bar feeder. Accepted; used when programs are executed.
+    /// Length of a new bar, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
-    /// Bars in the feeder. Accepted; used when programs are executed.
+    /// Bars in the feeder.
     pub bars: Option<u32>,
 }
 
@@ -263,10 +265,16 @@ pub struct ToolsTable {
 pub struct ToolTable {
     /// Length offset.
     pub length: Option<f64>,
+    /// Offsets by axis, in place of `length`: the geometry of a turning tool, `{ X = -3.0, Z = 120.0 }`.
+    pub offset: BTreeMap<Placed<String>, f64>,
     /// Diameter.
     pub diameter: Option<f64>,
     /// Radius at the corner of the tip.
     pub corner_radius: Option<f64>,
+    /// Where the tip of a turning tool points, 0 to 9 as the control numbers it.
+    pub orientation: Option<Placed<u8>>,
+    /// Its place in the changer; that of its number without it.
+    pub pocket: Option<u32>,
 }
 
 impl<'de> Deserialize<'de> for ToolsTable {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use gcheck_controls::UserCode;
 
-use super::file::{FilesTable, OverrideTable, RulesTable, SearchTable};
+use super::file::{FilesTable, OverrideTable, RulesTable, SearchTable, ToolTable, Units};
 use super::{ConfigFile, MachineTable, PathPattern, Placed, validate};
 use crate::Problem;
 
@@ -33,8 +33,26 @@ pub(super) struct Facts {
     pub(super) machine: MachineTable,
     pub(super) settings: Vec<(String, String)>,
     pub(super) codes: Vec<UserCode>,
+    pub(super) execution: ExecutionFacts,
     pub(super) search: Vec<PathBuf>,
     pub(super) rules: RulesTable,
+}
+
+/// What a layer, or an override in it, says for the execution of programs. Lengths are in its own units.
+#[derive(Debug, Clone, Default)]
+pub struct ExecutionFacts {
+    /// Units of its lengths; those in force when it says none.
+    pub units: Option<Units>,
+    /// The machine.
+    pub machine: MachineTable,
+    /// Macro variables and named parameters, as written: `#3100`, `#<name>`.
+    pub variables: Vec<(String, f64)>,
+    /// Work offsets as written (`G54`, `G154 P1`), by axis.
+    pub offsets: Vec<(String, Vec<(String, f64)>)>,
+    /// Tools by number.
+    pub tools: Vec<(u32, ToolTable)>,
+    /// A tool table on disk.
+    pub table: Option<PathBuf>,
 }
 
 /// Where a text came from.
@@ -63,7 +81,12 @@ impl Text<'_> {
     }
 
     fn search(&self, table: &SearchTable) -> Vec<PathBuf> {
-        table.paths.iter().map(|path| crate::paths::absolute(&self.folder.join(&path.value))).collect()
+        table.paths.iter().map(|path| self.path(&path.value)).collect()
+    }
+
+    /// A path that the text names.
+    pub(super) fn path(&self, path: &str) -> PathBuf {
+        crate::paths::absolute(&self.folder.join(path))
     }
 }
 
@@ -75,10 +98,10 @@ impl Layer {
             machine: facts.machine(&file.machine)?,
             settings: facts.settings(&file.settings)?,
             codes: facts.codes(&file.codes)?,
+            execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
             search: text.search(&file.search),
             rules: facts.rules(&file.rules)?,
         };
-        facts.execution(&file.variables, &file.offsets, &file.tools)?;
         let overrides =
             file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
         let mut per_file_ignores = Vec::new();
@@ -100,12 +123,14 @@ fn overriding(
     table: &OverrideTable,
 ) -> Result<(Vec<PathPattern>, Facts), Problem> {
     let facts = validate::Checked::new(text, table.control.as_ref().or(file.control.as_ref()))?;
-    facts.execution(&table.variables, &table.offsets, &table.tools)?;
+    let mut execution = facts.execution(&table.machine, &table.variables, &table.offsets, &table.tools)?;
+    execution.units = execution.units.or(file.machine.units);
     let own = Facts {
         control: table.control.as_ref().map(|c| c.value.clone()),
         machine: facts.machine(&table.machine)?,
         settings: facts.settings(&table.settings)?,
         codes: facts.codes(&table.codes)?,
+        execution,
         search: text.search(&table.search),
         rules: facts.rules(&table.rules)?,
     };

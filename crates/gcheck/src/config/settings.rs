@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use gcheck_controls::{Letter, LetterSet, UserCode};
 use gcheck_rules::{MachineFacts, Selection, Severity, UnknownRule};
 
-use super::layer::Facts;
+use super::layer::{ExecutionFacts, Facts};
 use super::{Config, MachineTable, RulesTable};
 use crate::paths;
 
@@ -21,6 +21,8 @@ pub struct FileSettings {
     pub control_from: Option<PathBuf>,
     /// What is declared of the machine.
     pub machine: MachineFacts,
+    /// What execution needs, layer by layer, the later ones over the earlier.
+    pub execution: Vec<ExecutionFacts>,
     /// Codes of the shop.
     pub codes: Vec<UserCode>,
     /// Folders in which called programs are looked for, besides the file's own.
@@ -79,6 +81,7 @@ impl FileSettings {
             self.machine.axes = Some(letters.collect::<LetterSet>());
         }
         self.machine.settings.extend(facts.settings.iter().cloned());
+        self.execution.push(facts.execution.clone());
         for code in &facts.codes {
             self.codes.retain(|c| c.number != code.number);
             self.codes.push(code.clone());

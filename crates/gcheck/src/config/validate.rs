@@ -10,7 +10,7 @@ use gcheck_rules::Selection;
 
 use super::Placed;
 use super::file::{CodeTable, MachineTable, RulesTable, Scalar, ToolsTable};
-use super::layer::Text;
+use super::layer::{ExecutionFacts, Text};
 use crate::Problem;
 use crate::nearest::did_you_mean;
 
@@ -52,7 +52,7 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
         }
-        let positive = [&table.max_rpm, &table.max_feed, &table.rapid, &table.bar_length];
+        let positive = [&table.max_rpm, &table.max_feed, &table.rapid, &table.rotary_rapid, &table.bar_length];
         if let Some(number) = positive.into_iter().flatten().find(|n| n.value.is_nan() || n.value <= 0.0) {
             return Err(self.text.problem(number, "must be greater than zero"));
         }
@@ -166,17 +166,19 @@ impl<'t> Checked<'t> {
     /// What only the execution of programs uses.
     pub(super) fn execution(
         &self,
+        machine: &MachineTable,
         variables: &BTreeMap<Placed<String>, f64>,
         offsets: &BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
         tools: &ToolsTable,
-    ) -> Result<(), Problem> {
-        for name in variables.keys() {
+    ) -> Result<ExecutionFacts, Problem> {
+        for (name, value) in variables {
             let inner = name.value.strip_prefix('#').unwrap_or_default();
             let is_named = inner.len() > 2 && inner.starts_with('<') && inner.ends_with('>');
             if !is_named && inner.parse::<u32>().is_err() {
                 let message = format!("`{}` is no variable; write \"#3100\" or \"#<name>\"", name.value);
                 return Err(self.text.problem(name, message));
             }
+            self.finite(name, *value)?;
         }
         for (name, axes) in offsets {
             let code = name.value.split_whitespace().next().and_then(CodeNumber::parse);
@@ -190,17 +192,54 @@ impl<'t> Checked<'t> {
                 let message = format!("`{}` is no work offset{of}; write `G54` or \"G154 P1\"", name.value);
                 return Err(self.text.problem(name, message));
             }
-            for axis in axes.keys() {
-                self.axis(axis)?;
-            }
+            self.by_axis(axes)?;
         }
-        for number in tools.tools.keys() {
-            if number.value.parse::<u32>().is_err() {
+        let mut by_number = Vec::with_capacity(tools.tools.len());
+        for (number, tool) in &tools.tools {
+            let Ok(parsed) = number.value.parse::<u32>() else {
                 let message = format!("`{}` is no tool number, nor `table`", number.value);
                 return Err(self.text.problem(number, message));
+            };
+            let sizes = [tool.length, tool.diameter, tool.corner_radius];
+            for size in sizes.into_iter().flatten() {
+                self.finite(number, size)?;
             }
+            if let Some(orientation) = tool.orientation.as_ref().filter(|o| o.value > 9) {
+                return Err(self.text.problem(orientation, "a tip points in one of the directions 0 to 9"));
+            }
+            self.by_axis(&tool.offset)?;
+            by_number.push((parsed, tool.clone()));
+        }
+        Ok(ExecutionFacts {
+            units: machine.units,
+            machine: machine.clone(),
+            variables: variables.iter().map(|(name, value)| (name.value.clone(), *value)).collect(),
+            offsets: offsets
+                .iter()
+                .map(|(name, axes)| {
+                    let axes = axes.iter().map(|(axis, value)| (axis.value.to_ascii_uppercase(), *value));
+                    (name.value.clone(), axes.collect())
+                })
+                .collect(),
+            tools: by_number,
+            table: tools.table.as_ref().map(|table| self.text.path(&table.value)),
+        })
+    }
+
+    fn by_axis(&self, axes: &BTreeMap<Placed<String>, f64>) -> Result<(), Problem> {
+        for (axis, value) in axes {
+            self.axis(axis)?;
+            self.finite(axis, *value)?;
         }
         Ok(())
+    }
+
+    /// TOML has `inf` and `nan`; machines have not.
+    fn finite(&self, key: &Placed<String>, value: f64) -> Result<(), Problem> {
+        if value.is_finite() {
+            return Ok(());
+        }
+        Err(self.text.problem(key, format!("`{}` must be a finite number", key.value)))
     }
 }
 

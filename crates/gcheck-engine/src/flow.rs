@@ -1,0 +1,587 @@
+//! All paths of a program: what may be active before every block, and which blocks can be reached.
+//!
+//! Knows: exact execution while every condition is known, forks, joins, widening, fuel. Must not know: what blocks do (`step`),
+//! findings.
+//!
+//! There is always a set of pending states, each at a block. As long as it holds one state only, the program is executed
+//! exactly as a run would, loops turn by turn, and what is seen holds on every path (*solo*). A condition that nobody knows
+//! makes several. Then the state earliest in the program goes first, states that meet are joined, and a loop that changes its
+//! state widens it until it stays. When all paths have met again, execution is solo once more.
+//!
+//! Observers see every block once for each stretch with its final state: what happens between a fork and its end is executed
+//! silently until nothing changes, then shown.
+
+mod trace;
+
+use std::collections::BTreeSet;
+use std::rc::Rc;
+
+use rustc_hash::FxHashMap;
+
+pub use trace::{Decision, Fact, Trace};
+
+use crate::assumption::Assumption;
+use crate::event::Event;
+use crate::fault::Fault;
+use crate::machine::Machine;
+use crate::model::Model;
+use crate::observer::{Observer, Origin};
+use crate::program::Program;
+use crate::start::start_state;
+use crate::state::{At, State};
+use crate::step::{Ending, Executor, Options, Outcome};
+use crate::value::Abstract;
+
+/// What an observer of all paths is shown.
+#[derive(Clone, Copy)]
+pub struct FlowCx<'a> {
+    /// The block.
+    pub origin: Origin,
+    /// What may be the state.
+    pub state: &'a State<Abstract>,
+    /// Where its facts were set.
+    pub trace: &'a Trace,
+    /// Every path comes here in this state.
+    pub solo: bool,
+}
+
+/// Watches all paths.
+pub trait FlowObserver {
+    /// A block is about to be executed.
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        let _ = cx;
+    }
+
+    /// Something happened; the state is that after it.
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        let _ = (cx, event);
+    }
+
+    /// A variable was read that nobody set before.
+    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
+        let _ = (cx, variable);
+    }
+
+    /// A block was executed.
+    fn after(&mut self, cx: &FlowCx<'_>) {
+        let _ = cx;
+    }
+
+    /// A block cannot be executed. The analysis goes on behind it.
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        let _ = (cx, fault);
+    }
+
+    /// The program ends here.
+    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
+        let _ = (cx, ending);
+    }
+
+    /// A loop comes back to this block in the state it was in before: it never ends.
+    fn endless(&mut self, cx: &FlowCx<'_>) {
+        let _ = cx;
+    }
+}
+
+/// Whether a block can be reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reach {
+    /// By no path.
+    Never,
+    /// By some path.
+    Some,
+    /// By every path.
+    Always,
+    /// The analysis ended before it could say.
+    Unknown,
+}
+
+/// What the analysis of all paths leaves.
+#[derive(Debug)]
+pub struct FlowResult {
+    reached: FxHashMap<u32, Vec<u64>>,
+    always: FxHashMap<u32, Vec<u64>>,
+    /// The fuel ran out, so what was not seen may still be reached.
+    pub out_of_fuel: bool,
+    /// Blocks executed.
+    pub blocks: u64,
+    /// What it rests on.
+    pub assumptions: BTreeSet<Assumption>,
+}
+
+impl FlowResult {
+    /// Whether a block can be reached.
+    pub fn reach(&self, at: At) -> Reach {
+        if bit(&self.always, at) {
+            Reach::Always
+        } else if bit(&self.reached, at) {
+            Reach::Some
+        } else if self.out_of_fuel {
+            Reach::Unknown
+        } else {
+            Reach::Never
+        }
+    }
+}
+
+fn bit(sets: &FxHashMap<u32, Vec<u64>>, at: At) -> bool {
+    let word = sets.get(&at.file).and_then(|set| set.get((at.block / 64) as usize));
+    word.is_some_and(|word| word & (1 << (at.block % 64)) != 0)
+}
+
+fn set_bit(sets: &mut FxHashMap<u32, Vec<u64>>, at: At) {
+    let set = sets.entry(at.file).or_default();
+    let index = (at.block / 64) as usize;
+    if set.len() <= index {
+        set.resize(index + 1, 0);
+    }
+    if let Some(word) = set.get_mut(index) {
+        *word |= 1 << (at.block % 64);
+    }
+}
+
+/// A block in a chain of calls.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Key {
+    /// Blocks of the calls under way, the outermost first, then the block. Compared in this order, "earlier" means: comes
+    /// first in the program as it is called.
+    path: Rc<[At]>,
+    at: At,
+}
+
+impl Key {
+    fn of(at: At, state: &State<Abstract>) -> Self {
+        Self { path: calls(state), at }
+    }
+
+    fn is_before(&self, other: &Self) -> bool {
+        let own = self.path.iter().chain([&self.at]);
+        let others = other.path.iter().chain([&other.at]);
+        own.lt(others)
+    }
+}
+
+fn calls(state: &State<Abstract>) -> Rc<[At]> {
+    state.frames().iter().skip(1).map(|frame| frame.caller).collect()
+}
+
+#[derive(Debug, Clone)]
+struct Pending {
+    key: Key,
+    state: State<Abstract>,
+    trace: Trace,
+}
+
+/// A state that stands for all that came to a block since the last solo stretch.
+#[derive(Debug)]
+struct Met {
+    state: State<Abstract>,
+    trace: Trace,
+    visits: u32,
+}
+
+/// The start of a loop met in a solo stretch.
+#[derive(Debug)]
+struct Head {
+    state: State<Abstract>,
+    /// How many forks there were when it was met.
+    forks: u64,
+    visits: u32,
+    /// The visit at which `state` was taken: compared with later ones to find a loop that repeats its state.
+    taken: u32,
+}
+
+/// States that come to one block more often are widened.
+const JOINS_BEFORE_WIDENING: u32 = 3;
+/// States that come to one block more often are given up: the widening of some part does not settle.
+const MOST_VISITS: u32 = 200;
+/// States pending at once; a program that forks more often is given up.
+const MOST_PENDING: usize = 4096;
+
+/// Analyses all paths of a program, executing at most `fuel` blocks.
+pub fn flow<O: FlowObserver>(
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    observer: &mut O,
+) -> FlowResult {
+    let shown = Shown { observer, model, trace: Trace::default(), solo: true, muted: false };
+    let mut executor = Executor::new(program, model, machine, options, shown);
+    let state = start_state::<Abstract>(model, machine, &mut executor.assumptions);
+    let at = At { file: 0, block: 0 };
+    let mut flow = Flow {
+        executor,
+        fuel,
+        blocks: 0,
+        forks: 0,
+        pending: vec![Pending { key: Key::of(at, &state), state, trace: Trace::default() }],
+        met: FxHashMap::default(),
+        order: Vec::new(),
+        heads: FxHashMap::default(),
+        result: FlowResult {
+            reached: FxHashMap::default(),
+            always: FxHashMap::default(),
+            out_of_fuel: false,
+            blocks: 0,
+            assumptions: BTreeSet::new(),
+        },
+    };
+    flow.explore();
+    flow.result.blocks = flow.blocks;
+    flow.result.assumptions = flow.executor.assumptions;
+    flow.result
+}
+
+struct Flow<'a, 'p, 'o, O: FlowObserver> {
+    executor: Executor<'a, 'p, Abstract, Shown<'a, 'o, O>>,
+    fuel: u64,
+    blocks: u64,
+    forks: u64,
+    pending: Vec<Pending>,
+    met: FxHashMap<Key, Met>,
+    /// Keys of `met` in the order in which they were met.
+    order: Vec<Key>,
+    heads: FxHashMap<Key, Head>,
+    result: FlowResult,
+}
+
+/// What a stretch of blocks came to.
+enum Stretch {
+    /// Its end was handled.
+    Done,
+    /// The fuel is gone.
+    OutOfFuel,
+}
+
+impl<O: FlowObserver> Flow<'_, '_, '_, O> {
+    fn explore(&mut self) {
+        while let Some(next) = self.take_earliest() {
+            let solo = self.pending.is_empty();
+            let stretch = if solo {
+                self.show_met();
+                self.alone(next)
+            } else {
+                self.among_others(next)
+            };
+            if let Stretch::OutOfFuel = stretch {
+                self.result.out_of_fuel = true;
+                self.show_met();
+                return;
+            }
+        }
+        self.show_met();
+    }
+
+    fn take_earliest(&mut self) -> Option<Pending> {
+        let mut earliest = 0;
+        for (index, item) in self.pending.iter().enumerate() {
+            if self.pending.get(earliest).is_some_and(|first| item.key.is_before(&first.key)) {
+                earliest = index;
+            }
+        }
+        if self.pending.is_empty() { None } else { Some(self.pending.swap_remove(earliest)) }
+    }
+
+    /// Executes exactly, showing everything, until the paths part or end.
+    fn alone(&mut self, from: Pending) -> Stretch {
+        let Pending { key, mut state, trace } = from;
+        let mut at = key.at;
+        self.executor.observer.trace = trace;
+        self.executor.observer.solo = true;
+        self.executor.observer.muted = false;
+        loop {
+            if self.blocks >= self.fuel {
+                return Stretch::OutOfFuel;
+            }
+            self.blocks += 1;
+            set_bit(&mut self.result.reached, at);
+            set_bit(&mut self.result.always, at);
+            match self.executor.step(at, &mut state) {
+                Outcome::Next => at = at.next(),
+                Outcome::Jump(to) => {
+                    let back = to.file == at.file && to.block <= at.block;
+                    at = to;
+                    if back && !self.turn(at, &mut state) {
+                        return Stretch::Done;
+                    }
+                }
+                Outcome::Fork(ways) => {
+                    self.fork(at, ways);
+                    return Stretch::Done;
+                }
+                Outcome::End(ending) => {
+                    self.executor.end(&state, ending);
+                    return Stretch::Done;
+                }
+                Outcome::Fault(fault) => {
+                    self.executor.fault(&state, &fault);
+                    if is_final(&fault) {
+                        return Stretch::Done;
+                    }
+                    at = at.next();
+                }
+            }
+        }
+    }
+
+    /// A loop's head is met again in a solo stretch. `false` ends the stretch: the loop has nothing new to show.
+    fn turn(&mut self, at: At, state: &mut State<Abstract>) -> bool {
+        let key = Key::of(at, state);
+        let Some(head) = self.heads.get_mut(&key) else {
+            let head = Head { state: state.clone(), forks: self.forks, visits: 1, taken: 1 };
+            self.heads.insert(key, head);
+            return true;
+        };
+        head.visits += 1;
+        if head.forks != self.forks {
+            // The paths parted and met again inside the loop: its turns are not exact, so they are one.
+            head.forks = self.forks;
+            let widen = head.visits > JOINS_BEFORE_WIDENING;
+            let joined = head.state.join(state, widen);
+            if joined == head.state || head.visits > MOST_VISITS {
+                return false;
+            }
+            head.state = joined.clone();
+            *state = joined;
+            return true;
+        }
+        if head.state == *state {
+            let origin = Origin { at, ..self.executor.origin() };
+            self.executor.observer.endless(origin, state);
+            return false;
+        }
+        // Compared with a state that is taken ever more seldom: a loop that repeats itself is found, whatever its period.
+        if head.visits >= head.taken.saturating_mul(2) {
+            head.state = state.clone();
+            head.taken = head.visits;
+        }
+        true
+    }
+
+    /// Executes silently, one of several states, until it is no longer the earliest.
+    fn among_others(&mut self, from: Pending) -> Stretch {
+        let Pending { key, mut state, trace } = from;
+        let mut at = key.at;
+        let mut path = key.path;
+        self.executor.observer.trace = trace;
+        self.executor.observer.solo = false;
+        self.executor.observer.muted = true;
+        loop {
+            if self.blocks >= self.fuel {
+                return Stretch::OutOfFuel;
+            }
+            self.blocks += 1;
+            set_bit(&mut self.result.reached, at);
+            let next = match self.executor.step(at, &mut state) {
+                Outcome::Next => at.next(),
+                Outcome::Jump(to) => {
+                    let trace = self.executor.observer.trace.clone();
+                    self.arrive(to, state, trace);
+                    return Stretch::Done;
+                }
+                Outcome::Fork(ways) => {
+                    self.fork(at, ways);
+                    return Stretch::Done;
+                }
+                Outcome::End(_) => return Stretch::Done,
+                Outcome::Fault(fault) if is_final(&fault) => return Stretch::Done,
+                Outcome::Fault(_) => at.next(),
+            };
+            at = next;
+            if calls_differ(&path, &state) {
+                path = calls(&state);
+            }
+            let key = Key { path: Rc::clone(&path), at };
+            let meets = self.met.contains_key(&key)
+                || self.is_entry(at)
+                || self.pending.iter().any(|other| other.key == key || other.key.is_before(&key));
+            if meets {
+                let trace = self.executor.observer.trace.clone();
+                self.arrive(at, state, trace);
+                return Stretch::Done;
+            }
+        }
+    }
+
+    fn is_entry(&self, at: At) -> bool {
+        self.executor.file(at.file).is_some_and(|file| file.loaded.outline().may_be_target(at.block))
+    }
+
+    fn fork(&mut self, at: At, ways: Vec<(At, State<Abstract>)>) {
+        self.forks += 1;
+        let trace = self.executor.observer.trace.clone();
+        for (to, state) in ways {
+            let mut trace = trace.clone();
+            trace.decide(Decision { at, to });
+            self.arrive(to, state, trace);
+        }
+    }
+
+    /// A state comes to a block: it waits there, joined with what came before.
+    fn arrive(&mut self, at: At, state: State<Abstract>, trace: Trace) {
+        let key = Key::of(at, &state);
+        let item = match self.met.get_mut(&key) {
+            None => {
+                if self.pending.len() >= MOST_PENDING {
+                    self.result.out_of_fuel = true;
+                    return;
+                }
+                self.order.push(key.clone());
+                let met = Met { state: state.clone(), trace: trace.clone(), visits: 1 };
+                self.met.insert(key.clone(), met);
+                Pending { key, state, trace }
+            }
+            Some(met) => {
+                met.visits += 1;
+                let joined = met.state.join(&state, met.visits > JOINS_BEFORE_WIDENING);
+                if joined == met.state {
+                    return;
+                }
+                if met.visits > MOST_VISITS {
+                    self.result.out_of_fuel = true;
+                    return;
+                }
+                met.state = joined.clone();
+                met.trace.join(&trace);
+                Pending { key, state: joined, trace: met.trace.clone() }
+            }
+        };
+        match self.pending.iter_mut().find(|other| other.key == item.key) {
+            Some(other) => *other = item,
+            None => self.pending.push(item),
+        }
+    }
+
+    /// Shows what was executed silently, each stretch once, in its final state.
+    fn show_met(&mut self) {
+        let order = std::mem::take(&mut self.order);
+        let met = std::mem::take(&mut self.met);
+        for key in &order {
+            // What still waits is shown when it is executed.
+            if self.pending.iter().any(|item| item.key == *key) {
+                continue;
+            }
+            if let Some(from) = met.get(key) {
+                self.show(key, from, &met);
+            }
+        }
+    }
+
+    fn show(&mut self, key: &Key, from: &Met, met: &FxHashMap<Key, Met>) {
+        let mut state = from.state.clone();
+        let mut at = key.at;
+        let mut path = Rc::clone(&key.path);
+        self.executor.observer.trace = from.trace.clone();
+        self.executor.observer.solo = false;
+        self.executor.observer.muted = false;
+        loop {
+            if self.blocks >= self.fuel {
+                self.result.out_of_fuel = true;
+                return;
+            }
+            self.blocks += 1;
+            match self.executor.step(at, &mut state) {
+                Outcome::Next => at = at.next(),
+                Outcome::Jump(_) | Outcome::Fork(_) => return,
+                Outcome::End(ending) => {
+                    self.executor.end(&state, ending);
+                    return;
+                }
+                Outcome::Fault(fault) => {
+                    self.executor.fault(&state, &fault);
+                    if is_final(&fault) {
+                        return;
+                    }
+                    at = at.next();
+                }
+            }
+            if calls_differ(&path, &state) {
+                path = calls(&state);
+            }
+            if met.contains_key(&Key { path: Rc::clone(&path), at }) {
+                return;
+            }
+        }
+    }
+}
+
+fn calls_differ(path: &Rc<[At]>, state: &State<Abstract>) -> bool {
+    path.len() + 1 != state.frames().len()
+}
+
+/// Faults after which nothing that follows can be told from what would have happened.
+fn is_final(fault: &Fault) -> bool {
+    matches!(
+        fault,
+        Fault::NoProgramEnd | Fault::LoopMismatch | Fault::TooDeep | Fault::NoSuchLabel(_) | Fault::StrayReturn | Fault::Alarm(_)
+    )
+}
+
+impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
+    fn end(&mut self, state: &State<Abstract>, ending: Ending) {
+        let origin = self.origin();
+        let shown = &mut self.observer;
+        if !shown.muted {
+            let cx = FlowCx { origin, state, trace: &shown.trace, solo: shown.solo };
+            shown.observer.ended(&cx, ending);
+        }
+    }
+
+    fn fault(&mut self, state: &State<Abstract>, fault: &Fault) {
+        let origin = self.origin();
+        let shown = &mut self.observer;
+        if !shown.muted {
+            let cx = FlowCx { origin, state, trace: &shown.trace, solo: shown.solo };
+            shown.observer.fault(&cx, fault);
+        }
+    }
+}
+
+/// Passes on what is to be shown, and keeps the trace.
+struct Shown<'a, 'o, O: FlowObserver> {
+    observer: &'o mut O,
+    model: &'a Model<'a>,
+    trace: Trace,
+    solo: bool,
+    muted: bool,
+}
+
+impl<O: FlowObserver> Shown<'_, '_, O> {
+    fn endless(&mut self, origin: Origin, state: &State<Abstract>) {
+        let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+        self.observer.endless(&cx);
+    }
+}
+
+impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
+    fn before(&mut self, origin: Origin, state: &State<Abstract>) {
+        if !self.muted {
+            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            self.observer.before(&cx);
+        }
+    }
+
+    fn event(&mut self, origin: Origin, state: &State<Abstract>, event: &Event) {
+        self.trace.see(origin.at, event, self.model);
+        if !self.muted {
+            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            self.observer.event(&cx, event);
+        }
+    }
+
+    fn vacant_read(&mut self, origin: Origin, state: &State<Abstract>, variable: u32) {
+        if !self.muted {
+            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            self.observer.vacant_read(&cx, variable);
+        }
+    }
+
+    fn after(&mut self, origin: Origin, state: &State<Abstract>) {
+        if !self.muted {
+            let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
+            self.observer.after(&cx);
+        }
+    }
+}

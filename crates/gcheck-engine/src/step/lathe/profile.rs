@@ -1,0 +1,660 @@
+//! Cycles that cut a profile written elsewhere in the program, and how that profile is read.
+//!
+//! Knows: which blocks hold a profile, what their words draw, which words a roughing cycle takes. Must not know: the strokes
+//! ([`crate::cycles`]).
+//!
+//! A profile stands between two sequence numbers, behind the cycle (then control goes on behind the profile) or before it;
+//! or it is a subprogram. Reading it moves nothing: the blocks change a state that is thrown away. A finishing pass between
+//! sequence numbers, though, is those blocks executed, with their feeds and compensation.
+
+use std::rc::Rc;
+
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
+use gcheck_geometry::{Arc, ArcDirection, Mm, Plane};
+use gcheck_program::{BlockFlags, OLabel, Word};
+
+use super::super::arc::plane_axes;
+use super::super::{Count, Executor, Flow, Outcome, Statements, Step};
+use super::keep;
+use crate::assumption::Assumption;
+use crate::cycles::{
+    CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileSegment, Roughing, RoughingDirection,
+    layered_finish, layered_roughing, pattern_repeat, roughing,
+};
+use crate::event::TravelKind;
+use crate::fault::{ArcFault, CycleFault, Fault};
+use crate::model::Role;
+use crate::observer::{Observer, Origin};
+use crate::position::Axis;
+use crate::state::{At, Frame, FrameKind, State, TurningWords};
+use crate::value::Domain;
+use crate::variables::Locals;
+
+/// Blocks that reading one profile may execute. A profile of more is taken for one whose loop never ends.
+const MOST_BLOCKS: u32 = 5_000;
+
+/// Blocks that hold a profile.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::step) struct ProfileBlocks {
+    /// The file.
+    pub(in crate::step) file: u32,
+    /// The first block.
+    pub(in crate::step) first: u32,
+    /// The last block.
+    pub(in crate::step) last: u32,
+}
+
+/// A profile as it was read.
+#[derive(Debug)]
+pub(in crate::step) struct ReadProfile {
+    /// Its pieces in the plane's first and second axis, X as a radius.
+    pub(in crate::step) segments: Vec<ProfileSegment>,
+    /// Every block was read, and every condition on the way known.
+    pub(in crate::step) complete: bool,
+}
+
+/// What happens at the corner behind a straight piece.
+#[derive(Debug, Clone, Copy)]
+enum Corner {
+    /// A fillet of this radius.
+    Round(f64),
+    /// A chamfer that begins and ends this far from the corner.
+    Chamfer(f64),
+}
+
+/// The words of a cycle block, kept while the profile is read. Millimetres, X as radii.
+#[derive(Debug, Clone, Copy)]
+struct CycleBlock {
+    depth: Option<f64>,
+    stock_x: f64,
+    stock_z: f64,
+    more_x: f64,
+    more_z: f64,
+    passes: Option<f64>,
+}
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// `G70` to `G73` of lathes.
+    pub(in crate::step) fn profile_cycle(&mut self, effect: Effect, ix: CodeIx, state: &mut State<D>) -> Step {
+        if !self.takes_label(ix, "P") {
+            return self.layered_cycle(effect, ix, state);
+        }
+        let (p, q) = (self.raw('P', state), self.raw('Q', state));
+        let (first, last) = match (p, q) {
+            (None, None) if effect != Effect::FinishProfile => {
+                self.store_first_block(effect, state);
+                return Ok(());
+            }
+            (Some(p), Some(q)) => (p, q),
+            (None, _) => return Err(Fault::MissingWord(Letter::of('P'))),
+            (_, None) => return Err(Fault::MissingWord(Letter::of('Q'))),
+        };
+        let here = self.origin.at;
+        let Some(blocks) = self.labelled_blocks(first, last)? else {
+            // Nobody knows which blocks they are; the tool ends where it began.
+            self.assumptions.insert(Assumption::Code(ix));
+            return Ok(());
+        };
+        if (blocks.first..=blocks.last).contains(&here.block) {
+            return Err(Fault::Profile);
+        }
+        if effect == Effect::FinishProfile {
+            self.execute_profile(blocks, state)?;
+        } else {
+            self.rough_profile(effect, blocks, state)?;
+        }
+        if blocks.first > here.block {
+            self.flow = Some(Flow::Jump(At { file: here.file, block: blocks.last + 1 }));
+        }
+        Ok(())
+    }
+
+    /// The blocks between two sequence numbers; `None` when a number is not known.
+    fn labelled_blocks(&self, first: f64, last: f64) -> Step<Option<ProfileBlocks>> {
+        if first.is_nan() || last.is_nan() {
+            return Ok(None);
+        }
+        let at = self.origin.at;
+        let Some(file) = self.file(at.file) else { return Ok(None) };
+        let find = |number: f64, from: u32, letter: char| {
+            let range = 0.0..=f64::from(u32::MAX);
+            if !range.contains(&number) || (number - number.round()).abs() > 1e-4 {
+                return Err(Fault::WordRange(Letter::of(letter)));
+            }
+            #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+            let number = number.round() as u32;
+            file.loaded.outline().label(number, from, true).ok_or(Fault::NoSuchLabel(number))
+        };
+        let first = find(first, at.block, 'P')?;
+        let last = find(last, first, 'Q')?;
+        if last < first { Err(Fault::Profile) } else { Ok(Some(ProfileBlocks { file: at.file, first, last })) }
+    }
+
+    /// The first of two blocks: depth and way back, or shift and passes.
+    fn store_first_block(&mut self, effect: Effect, state: &mut State<D>) {
+        let mut words: TurningWords = state.turning();
+        let length = |letter: char| self.length(Letter::of(letter), state);
+        let (u, w, r) = (length('U'), length('W'), length('R'));
+        if effect == Effect::RepeatPattern {
+            let passes = self.raw('R', state);
+            // `R4`, and `R0.004` on controls that want a point, are both four passes.
+            let [x, z, count] = &mut words.pattern;
+            *x = u.or(*x);
+            *z = w.or(*z);
+            *count = passes.or(*count);
+        } else {
+            let depth = if effect == Effect::RoughAlongX { w } else { u };
+            let [kept, retract] = &mut words.roughing;
+            *kept = depth.or(*kept);
+            *retract = r.or(*retract);
+        }
+        keep(words, state);
+    }
+
+    /// `G71` to `G73` between sequence numbers.
+    fn rough_profile(&mut self, effect: Effect, blocks: ProfileBlocks, state: &mut State<D>) -> Step {
+        let diameter = state.is_diameter(self.model) == Some(true);
+        let length = |letter: char| self.length(Letter::of(letter), state);
+        let half = if diameter { 2.0 } else { 1.0 };
+        let words = CycleBlock {
+            depth: length('D'),
+            stock_x: length('U').unwrap_or(0.0) / half,
+            stock_z: length('W').unwrap_or(0.0),
+            more_x: length('I').unwrap_or(0.0),
+            more_z: length('K').unwrap_or(0.0),
+            passes: self.raw('D', state),
+        };
+        let stored = state.turning();
+        let unit = self.unit(state);
+        let checked = self.check_feed(state);
+        let profile = self.read_profile(blocks, Plane::Zx, &mut state.clone())?;
+        let start = state.position;
+        let mut strokes = Vec::new();
+        let mut out = |stroke| strokes.push(stroke);
+        let from = start.xyz();
+        let stock = (Mm(words.stock_z), Mm(words.stock_x));
+        let result = if !profile.complete {
+            Err(CycleError::Unknown)
+        } else if effect == Effect::RepeatPattern {
+            let [x, z, count] = stored.pattern;
+            let one_block = words.passes.is_some();
+            let total = if one_block { (words.more_z, words.more_x) } else { (z.unwrap_or(0.0), x.unwrap_or(0.0)) };
+            match words.passes.or(count) {
+                Some(passes) if passes.is_finite() => {
+                    #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none, which is refused")]
+                    let passes = passes.round() as u32;
+                    let words = PatternRepeat { passes, total: (Mm(total.0), Mm(total.1)), stock };
+                    pattern_repeat(from, &profile.segments, &words, &mut out)
+                }
+                _ => Err(CycleError::Unknown),
+            }
+        } else {
+            let direction =
+                if effect == Effect::RoughAlongX { RoughingDirection::AlongX } else { RoughingDirection::AlongZ };
+            let [depth, retract] = stored.roughing;
+            let setting = |value: f64| Some(value * unit).filter(|value| *value > 0.0);
+            let depth = words.depth.or(depth).or_else(|| setting(self.number_setting("72")));
+            let retract = retract.or_else(|| setting(self.number_setting("73")));
+            let words_of = |stock: (Mm, Mm)| Roughing {
+                direction,
+                depth: Mm(depth.unwrap_or(f64::NAN)),
+                retract: Mm(retract.unwrap_or(0.0)),
+                stock,
+                pockets: true,
+            };
+            if words.more_x == 0.0 && words.more_z == 0.0 {
+                roughing(from, &profile.segments, &words_of(stock), &mut out)
+            } else {
+                // More is left at first; one pass along the profile takes it down to the finishing stock.
+                let first = (stock.0 + Mm(words.more_z), stock.1 + Mm(words.more_x));
+                roughing(from, &profile.segments, &words_of(first), &mut out).and_then(|_| {
+                    let once = PatternRepeat { passes: 1, total: (Mm::ZERO, Mm::ZERO), stock };
+                    pattern_repeat(from, &profile.segments, &once, &mut out)
+                })
+            }
+        };
+        if matches!(result, Err(CycleError::Unknown)) {
+            let codes = self.words.codes().iter().copied();
+            let unknown: Vec<CodeIx> = codes.filter(|ix| self.model.effect(*ix) == effect).collect();
+            self.assumptions.extend(unknown.into_iter().map(Assumption::Code));
+        }
+        let held = self.hold_compensation(state)?;
+        self.carry_out(&strokes, result, Plane::Zx, start, state)?;
+        state.compensation = held;
+        checked
+    }
+
+    /// The finishing pass: the profile's blocks as they stand, then back at rapid.
+    fn execute_profile(&mut self, blocks: ProfileBlocks, state: &mut State<D>) -> Step {
+        if self.holds_profile_cycle(blocks) {
+            return Err(Fault::Profile);
+        }
+        let (origin, words) = (self.origin, self.words.clone());
+        let pending = std::mem::take(&mut self.pending);
+        let start = state.position;
+        let mut block = blocks.first;
+        let mut left = MOST_BLOCKS;
+        while (blocks.first..=blocks.last).contains(&block) {
+            left = left.checked_sub(1).ok_or(Fault::Profile)?;
+            match self.step(At { file: blocks.file, block }, state) {
+                Outcome::Next => block += 1,
+                Outcome::Jump(to) if to.file == blocks.file => block = to.block,
+                Outcome::Jump(_) | Outcome::End(_) => return Err(Fault::Profile),
+                // A way that depends on what nobody knows; it leads back to the start in any case.
+                Outcome::Fork(_) => break,
+                // The fault is that block's.
+                Outcome::Fault(fault) => return Err(fault),
+            }
+        }
+        self.origin = origin;
+        self.words = words;
+        self.pending = pending;
+        self.flow = None;
+        self.machine_coordinates = false;
+        self.travel(TravelKind::Rapid, start, true, state)
+    }
+
+    /// A profile that runs profiles may come back to itself.
+    fn holds_profile_cycle(&mut self, blocks: ProfileBlocks) -> bool {
+        let mut blocks_read = (blocks.first..=blocks.last).take(MOST_BLOCKS as usize);
+        blocks_read.any(|block| {
+            let Some(place) = self.place(At { file: blocks.file, block }) else { return false };
+            let mut words = place.table.words(place.block()).iter();
+            words.any(|word| self.model.effect(word.code) == Effect::FinishProfile)
+        })
+    }
+
+    // ---- profiles in subprograms ----
+
+    /// `G70` to `G72.2` where `Q` is a subprogram.
+    fn layered_cycle(&mut self, effect: Effect, ix: CodeIx, state: &mut State<D>) -> Step {
+        let label = match self.count(Letter::of('Q'))? {
+            Some(Count::Known(number)) => number,
+            Some(Count::Unknown) => {
+                self.opaque_operation(ix, state);
+                return Ok(());
+            }
+            None => return Err(Fault::MissingWord(Letter::of('Q'))),
+        };
+        if state.plane(self.model).is_some_and(|plane| plane != Plane::Zx) {
+            return Err(Fault::Cycle(CycleFault::Plane));
+        }
+        if self.compensates(state) {
+            return Err(Fault::Cycle(CycleFault::Compensated));
+        }
+        let unit = self.unit(state);
+        let target = self.target(state)?;
+        let length = |letter: char, unset: f64| self.length(Letter::of(letter), state).unwrap_or(unset);
+        let (depth, increment, retract, last) =
+            (length('D', 0.0), length('I', unit), length('R', 0.5 * unit), length('E', 0.0));
+        let passes = self.words.number(Letter::of('P')).map_or(1.0, |p| p.trunc());
+        self.travel(TravelKind::Rapid, target, true, state)?;
+        let at = self.origin.at;
+        let Some(sub) = self.program.find_subroutine(&OLabel::Number(label), at.file) else {
+            return Err(Fault::NoSuchProgram);
+        };
+        let end = self.program.file(sub.file).and_then(|file| file.loaded.outline().o_word(sub.block)?.end);
+        let Some(end) = end else { return Err(Fault::LoopMismatch) };
+        let blocks = ProfileBlocks { file: sub.file, first: sub.block + 1, last: end.saturating_sub(1) };
+        let mut scratch = state.clone();
+        scratch.frames.push(Frame {
+            kind: FrameKind::OWord,
+            entry: sub,
+            caller: at,
+            repeats: Some(0),
+            locals: Some(Locals::new(self.model.semantics().locals[1], &D::number(0.0))),
+            counters: Vec::new(),
+            saved: None,
+            restore_on_return: false,
+            wanted_branch: None,
+        });
+        let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
+        // What the subprogram leaves as motion mode and in variables stays.
+        if let Some(mode) = scratch.mode(Role::Motion).only() {
+            state.set_mode(Role::Motion, mode);
+            state.set_mode(Role::Cycle, self.model.code_with(Effect::CycleCancel));
+        }
+        state.variables = scratch.variables;
+
+        let from = state.position.xyz();
+        let mut strokes = Vec::new();
+        let mut out = |stroke| strokes.push(stroke);
+        let result = if !profile.complete {
+            Err(CycleError::Unknown)
+        } else if effect == Effect::FinishProfile {
+            #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none")]
+            let words = LayeredFinish { first: Mm(depth), last: Mm(last), passes: passes as u32 };
+            if words.passes == 0 { Ok(from) } else { layered_finish(from, &profile.segments, &words, &mut out) }
+        } else {
+            let variant = self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() % 10);
+            let words = LayeredRoughing {
+                direction: if effect == Effect::RoughAlongX {
+                    RoughingDirection::AlongX
+                } else {
+                    RoughingDirection::AlongZ
+                },
+                increment: Mm(increment),
+                retract: Mm(retract),
+                stock: Mm(depth),
+                pockets: match variant {
+                    1 => Pockets::PassedOver,
+                    2 => Pockets::Only,
+                    _ => Pockets::Cleared,
+                },
+            };
+            layered_roughing(from, &profile.segments, &words, &mut out)
+        };
+        // Moves count as those of the subprogram's last block.
+        let origin = self.origin;
+        self.origin.n = self.sequence_number(At { file: sub.file, block: end });
+        // The cycles end on the contour: where, nobody knows when the contour is not known.
+        let mut lost = state.position;
+        for axis in [Axis::X, Axis::Z] {
+            lost.set(axis, f64::NAN);
+        }
+        let outcome = self.carry_out(&strokes, result, Plane::Zx, lost, state);
+        self.origin = origin;
+        outcome
+    }
+
+    fn sequence_number(&mut self, at: At) -> Option<u32> {
+        let place = self.place(at)?;
+        place.table.words(place.block()).iter().find(|word| word.letter == Letter::of('N')).and_then(Word::integer)
+    }
+
+    // ---- reading ----
+
+    /// What the blocks draw, beginning where `state` stands. Nothing moves; `state` is changed as a run through the
+    /// blocks would change it, but for codes that are no part of a drawing. Observers see the blocks pass.
+    ///
+    /// # Errors
+    ///
+    /// Faults of the blocks, which are then the blocks under way.
+    pub(in crate::step) fn read_profile(
+        &mut self,
+        blocks: ProfileBlocks,
+        plane: Plane,
+        state: &mut State<D>,
+    ) -> Step<ReadProfile> {
+        let (origin, words) = (self.origin, self.words.clone());
+        let pending = std::mem::take(&mut self.pending);
+        state.compensation = None;
+        state.left_compensation = None;
+        let [first, second, _] = plane.to_local(state.position.xyz());
+        let mut drawing = Drawing { plane, segments: Vec::new(), corners: Vec::new(), complete: true };
+        self.read_blocks(blocks, state, &mut drawing)?;
+        self.origin = origin;
+        self.words = words;
+        self.pending = pending;
+        self.flow = None;
+        let segments = with_corners((first.0, second.0), &drawing.segments, &drawing.corners);
+        Ok(ReadProfile { segments, complete: drawing.complete })
+    }
+
+    fn read_blocks(&mut self, blocks: ProfileBlocks, state: &mut State<D>, drawing: &mut Drawing) -> Step {
+        let mut block = blocks.first;
+        let mut left = MOST_BLOCKS;
+        while (blocks.first..=blocks.last).contains(&block) {
+            let at = At { file: blocks.file, block };
+            let Some(place) = self.place(at).filter(|_| left > 0) else { return drawing.give_up() };
+            left -= 1;
+            block += 1;
+            let table = Rc::clone(&place.table);
+            let read = table.block(place.ix);
+            if read.flags.contains(BlockFlags::BLOCK_DELETE) && self.options.skips(read.delete) {
+                continue;
+            }
+            if read.flags.contains(BlockFlags::TAPE_MARK) {
+                return Ok(());
+            }
+            self.origin = Origin {
+                at,
+                start: place.base + read.range.start,
+                end: place.base + read.range.end,
+                flags: read.flags,
+                letters: read.letters,
+                n: table.words(read).iter().find(|word| word.letter == Letter::of('N')).and_then(Word::integer),
+            };
+            self.observer.before(self.origin, state);
+            if read.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
+                return Err(Fault::Malformed);
+            }
+            if read.flags.contains(BlockFlags::STATEMENT) {
+                match self.statements(&place, &table, read, state)? {
+                    Statements::Words => {}
+                    Statements::Done(Outcome::Next) => continue,
+                    Statements::Done(Outcome::Jump(to)) if to.file == blocks.file => {
+                        block = to.block;
+                        continue;
+                    }
+                    Statements::Done(_) => return drawing.give_up(),
+                }
+            }
+            let words = table.words(read);
+            if !words.is_empty() {
+                self.read_words(&place, &table, words, state)?;
+                if self.draw(state, drawing)? == Drawn::End {
+                    return Ok(());
+                }
+            }
+            for (target, value) in std::mem::take(&mut self.pending) {
+                if self.assign(target, value, state)?.is_some() {
+                    return drawing.give_up();
+                }
+            }
+            self.observer.after(self.origin, state);
+        }
+        Ok(())
+    }
+
+    /// One block of a drawing.
+    fn draw(&mut self, state: &mut State<D>, drawing: &mut Drawing) -> Step<Drawn> {
+        use Effect as E;
+        let codes = self.words.codes().to_vec();
+        for ix in codes {
+            let Some(code) = self.model.code(ix).copied() else { continue };
+            match code.effect {
+                E::Return | E::ProgramEnd | E::ProgramEndWithPallet => return Ok(Drawn::End),
+                E::CallProgram | E::CallLocal | E::MacroCall | E::MacroModal | E::JumpUnlessInput => {
+                    drawing.complete = false;
+                    return Ok(Drawn::End);
+                }
+                _ => {}
+            }
+            if code.takes_axes {
+                return Ok(Drawn::On);
+            }
+            if let Some(role @ (Role::Motion | Role::Distance | Role::ArcCentre | Role::Diameter)) = code.role {
+                state.set_mode(role, ix);
+            }
+        }
+        let present = self.words.present();
+        let arc_words = present.intersects(LetterSet::of("IJKR"));
+        let has_axes = present.intersects(self.model.axis_letters);
+        let Some(mode) = state.mode(Role::Motion).only() else {
+            drawing.complete = false;
+            return Ok(Drawn::On);
+        };
+        let effect = self.model.effect(mode);
+        match effect {
+            E::Rapid | E::Linear if has_axes => self.draw_line(mode, effect == E::Rapid, state, drawing)?,
+            E::ArcClockwise | E::ArcCounterClockwise if has_axes || arc_words => {
+                self.draw_arc(effect == E::ArcCounterClockwise, state, drawing)?;
+            }
+            _ if has_axes => drawing.complete = false,
+            _ => {}
+        }
+        Ok(Drawn::On)
+    }
+
+    fn draw_line(&mut self, mode: CodeIx, rapid: bool, state: &mut State<D>, drawing: &mut Drawing) -> Step {
+        let mut target = self.target(state)?;
+        let ([first, second, _], _) = plane_axes(drawing.plane);
+        let entry = self.model.control().code_at(mode).map(|code| &code.entry().words);
+        let takes = |letter: &str| entry.is_some_and(|words| words.iter().any(|word| word.letter == letter));
+        let angle = self.words.number(Letter::CORNER_A).or_else(|| {
+            let plain = self.words.number(Letter::of('A'));
+            plain.filter(|_| takes("A"))
+        });
+        if let Some(angle) = angle {
+            // One coordinate and the angle from the first axis give the other coordinate.
+            let tangent = angle.to_radians().tan();
+            match (self.names_axis(first), self.names_axis(second)) {
+                (true, false) => {
+                    let way = target.raw(first) - state.position.raw(first);
+                    target.set(second, state.position.raw(second) + way * tangent);
+                }
+                (false, true) => {
+                    let way = target.raw(second) - state.position.raw(second);
+                    target.set(first, state.position.raw(first) + way / tangent);
+                }
+                _ => {}
+            }
+        }
+        let unit = self.unit(state);
+        let radius = self.words.number(Letter::CORNER_R).or_else(|| {
+            let plain = self.words.number(Letter::of('R'));
+            plain.filter(|_| takes("R"))
+        });
+        let chamfer = self.words.number(Letter::CORNER_C);
+        let corner = radius.map(|r| Corner::Round(r * unit)).or_else(|| chamfer.map(|c| Corner::Chamfer(c * unit)));
+        if let Some(corner) = corner {
+            drawing.corners.push((drawing.segments.len(), corner));
+        }
+        let to = (Mm(target.raw(first)), Mm(target.raw(second)));
+        drawing.segments.push(ProfileSegment::Line { to, rapid });
+        state.position = target;
+        state.actual = target;
+        Ok(())
+    }
+
+    fn draw_arc(&mut self, ccw: bool, state: &mut State<D>, drawing: &mut Drawing) -> Step {
+        let target = self.target(state)?;
+        let plane = drawing.plane;
+        let ([first, second, _], [i, j, _]) = plane_axes(plane);
+        let direction = if ccw { ArcDirection::Ccw } else { ArcDirection::Cw };
+        let (start, end) = (state.position.xyz(), target.xyz());
+        let tolerance = self.arc_tolerance(state);
+        let has_centre = self.words.has(i) || self.words.has(j);
+        let arc = match self.length(Letter::of('R'), state) {
+            Some(_) if has_centre && !self.model.semantics().arcs.radius_wins => {
+                return Err(Fault::Arc(ArcFault::CentreAndRadius));
+            }
+            Some(radius) => Arc::by_radius(plane, start, end, Mm(radius), direction, 1, &tolerance),
+            None if !has_centre => return Err(Fault::Arc(ArcFault::NoCentre)),
+            None => {
+                let absolute = state.effect(Role::ArcCentre, self.model) == Some(Effect::ArcCentreAbsolute);
+                let diameter = state.is_diameter(self.model) == Some(true);
+                let coordinate = |axis: Axis, letter: Letter| {
+                    let here = state.position.raw(axis);
+                    Mm(match self.length(letter, state) {
+                        Some(value) if absolute && axis == Axis::X && diameter => value / 2.0,
+                        Some(value) if absolute => value,
+                        Some(value) => here + value,
+                        None => here,
+                    })
+                };
+                let centre = (coordinate(first, i), coordinate(second, j));
+                Arc::by_centre(plane, start, end, centre, direction, 1, &tolerance)
+            }
+        };
+        let arc = arc.map_err(|_| Fault::Profile)?;
+        let to = (Mm(target.raw(first)), Mm(target.raw(second)));
+        drawing.segments.push(ProfileSegment::Arc { to, centre: arc.centre(), ccw });
+        state.position = target;
+        state.actual = target;
+        Ok(())
+    }
+}
+
+/// A profile being read.
+struct Drawing {
+    plane: Plane,
+    segments: Vec<ProfileSegment>,
+    /// Corners by the piece that they end.
+    corners: Vec<(usize, Corner)>,
+    complete: bool,
+}
+
+impl Drawing {
+    /// What follows is not known.
+    fn give_up(&mut self) -> Step {
+        self.complete = false;
+        Ok(())
+    }
+}
+
+/// Does the drawing go on behind a block?
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Drawn {
+    On,
+    End,
+}
+
+/// The pieces with fillets and chamfers between straight ones. A corner that does not fit stays sharp.
+fn with_corners(start: (f64, f64), pieces: &[ProfileSegment], corners: &[(usize, Corner)]) -> Vec<ProfileSegment> {
+    let mut shaped = Vec::with_capacity(pieces.len() + corners.len());
+    let mut at = start;
+    for (index, piece) in pieces.iter().enumerate() {
+        let (to, rapid) = match *piece {
+            ProfileSegment::Line { to, rapid } => ((to.0.0, to.1.0), rapid),
+            ProfileSegment::Arc { to, .. } => {
+                shaped.push(*piece);
+                at = (to.0.0, to.1.0);
+                continue;
+            }
+        };
+        let corner = corners.iter().find(|(behind, _)| *behind == index).map(|(_, corner)| *corner);
+        let next = match pieces.get(index + 1) {
+            Some(ProfileSegment::Line { to, .. }) => Some((to.0.0, to.1.0)),
+            _ => None,
+        };
+        let cut = corner.zip(next).and_then(|(corner, next)| cut_corner(at, to, next, corner));
+        match cut {
+            None => {
+                shaped.push(*piece);
+                at = to;
+            }
+            Some((before, piece_of_corner, behind)) => {
+                shaped.push(ProfileSegment::Line { to: (Mm(before.0), Mm(before.1)), rapid });
+                shaped.push(piece_of_corner);
+                at = behind;
+            }
+        }
+    }
+    shaped
+}
+
+/// Where a corner begins, its piece, and where it ends.
+fn cut_corner(
+    from: (f64, f64),
+    corner: (f64, f64),
+    to: (f64, f64),
+    shape: Corner,
+) -> Option<((f64, f64), ProfileSegment, (f64, f64))> {
+    let (before, behind) = ((corner.0 - from.0, corner.1 - from.1), (to.0 - corner.0, to.1 - corner.1));
+    let (length, other) = (before.0.hypot(before.1), behind.0.hypot(behind.1));
+    let (d, e) = ((before.0 / length, before.1 / length), (behind.0 / other, behind.1 / other));
+    let cross = d.0 * e.1 - d.1 * e.0;
+    let dot = d.0 * e.0 + d.1 * e.1;
+    let way = match shape {
+        Corner::Chamfer(size) => size,
+        Corner::Round(radius) => radius * (cross.atan2(dot).abs() / 2.0).tan(),
+    };
+    // Also refuses what is not known.
+    if !(way > 0.0 && way <= length + 1e-6 && way <= other + 1e-6 && cross.abs() > 1e-9) {
+        return None;
+    }
+    let begin = (corner.0 - d.0 * way, corner.1 - d.1 * way);
+    let end = (corner.0 + e.0 * way, corner.1 + e.1 * way);
+    let to = (Mm(end.0), Mm(end.1));
+    let piece = match shape {
+        Corner::Chamfer(_) => ProfileSegment::Line { to, rapid: false },
+        Corner::Round(radius) => {
+            let side = radius * cross.signum();
+            let centre = (Mm(begin.0 - d.1 * side), Mm(begin.1 + d.0 * side));
+            ProfileSegment::Arc { to, centre, ccw: cross > 0.0 }
+        }
+    };
+    Some((begin, piece, end))
+}

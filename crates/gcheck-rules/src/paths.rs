@@ -1,0 +1,450 @@
+//! Rules of the path tier: what they may watch, and what they are shown.
+//!
+//! Knows: how the engine's analysis of all paths becomes calls of rules, how a place in a program becomes a label. Must not
+//! know: any rule, how paths are found.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_engine::{
+    Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind, Library,
+    Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
+};
+use gcheck_program::{Place, Word};
+
+use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
+
+bitflags::bitflags! {
+    /// What a rule of the path tier wants to see. A rule that watches little costs little.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct Watch: u16 {
+        /// [`PathRule::block`]: blocks with a code, a statement, `F`, `S`, `T`, `H` or `D`, before they are executed.
+        const BLOCKS = 1;
+        /// [`PathRule::moved`]: every move.
+        const MOVES = 1 << 1;
+        /// [`PathRule::cut`]: a cutting move, the first one after something else than a move happened.
+        const CUTS = 1 << 2;
+        /// [`PathRule::changed`]: everything that is no move.
+        const CHANGES = 1 << 3;
+        /// [`PathRule::ended`].
+        const ENDS = 1 << 4;
+        /// [`PathRule::fault`].
+        const FAULTS = 1 << 5;
+        /// [`PathRule::vacant_read`].
+        const READS = 1 << 6;
+        /// [`PathRule::endless`].
+        const ENDLESS = 1 << 7;
+        /// [`PathRule::finish`].
+        const FINISH = 1 << 8;
+        /// [`PathRule::rapid`]: rapid moves.
+        const RAPIDS = 1 << 9;
+    }
+}
+
+/// A rule of the path tier. One is made for every file, so that it may remember what it saw.
+pub trait PathRule {
+    /// A block is about to be executed.
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let _ = (cx, report);
+    }
+
+    /// The axes moved; the state is that after the move.
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let _ = (cx, event, report);
+    }
+
+    /// The axes moved at rapid rate.
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let _ = (cx, event, report);
+    }
+
+    /// A cutting move, the first since something changed.
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let _ = (cx, event, report);
+    }
+
+    /// Something happened that is no move.
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let _ = (cx, event, report);
+    }
+
+    /// The program ends.
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        let _ = (cx, ending, report);
+    }
+
+    /// The control would stop with an alarm.
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let _ = (cx, fault, report);
+    }
+
+    /// A variable is read that was never set.
+    fn vacant_read(&mut self, cx: &PathCx<'_>, variable: u32, report: &mut Report<'_>) {
+        let _ = (cx, variable, report);
+    }
+
+    /// A loop repeats its state.
+    fn endless(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let _ = (cx, report);
+    }
+
+    /// All paths were seen.
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        let _ = (cx, report);
+    }
+}
+
+/// What a rule of the path tier may ask while a program is executed.
+#[derive(Clone, Copy)]
+pub struct PathCx<'a> {
+    /// Control, machine, other programs.
+    pub scene: Scene<'a>,
+    /// The programs in execution.
+    pub program: &'a Program<'a>,
+    /// The control, prepared for execution.
+    pub model: &'a Model<'a>,
+    flow: &'a FlowCx<'a>,
+}
+
+impl<'a> PathCx<'a> {
+    /// What may be the state.
+    pub fn state(&self) -> &'a State<Abstract> {
+        self.flow.state
+    }
+
+    /// Where facts were set.
+    pub fn trace(&self) -> &'a Trace {
+        self.flow.trace
+    }
+
+    /// The block.
+    pub fn origin(&self) -> Origin {
+        self.flow.origin
+    }
+
+    /// Every path comes here in this state. Otherwise a fact of the state holds on every path that comes here.
+    pub fn is_on_every_path(&self) -> bool {
+        self.flow.solo
+    }
+
+    /// The block's bytes.
+    pub fn range(&self) -> Range<u32> {
+        self.flow.origin.start..self.flow.origin.end
+    }
+
+    /// The block with its words.
+    pub fn place(&self) -> Option<Place> {
+        self.place_of(self.flow.origin.at)
+    }
+
+    /// A block of the main file.
+    pub fn place_of(&self, at: At) -> Option<Place> {
+        let file = self.program.file(at.file)?;
+        file.loaded.place(at.block, self.scene.dialect)
+    }
+
+    /// Bytes of a block of the main file; `None` for blocks of other files.
+    pub fn range_of(&self, at: At) -> Option<Range<u32>> {
+        (at.file == 0).then(|| self.place_of(at)).flatten().map(|place| place.range())
+    }
+
+    /// Bytes of the first word of the block that `is` says yes to; the whole block when there is none.
+    pub fn word_range(&self, is: impl Fn(&Word) -> bool) -> Range<u32> {
+        self.find_word(self.flow.origin.at, is).unwrap_or_else(|| self.range())
+    }
+
+    /// Bytes of the word with an address; the whole block when it has none.
+    pub fn letter_range(&self, letter: char) -> Range<u32> {
+        self.word_range(|word| word.letter == Letter::of(letter) && !word.letter.is_corner())
+    }
+
+    /// Bytes of the first code with an effect that `is` says yes to; the whole block when there is none.
+    pub fn effect_range(&self, is: impl Fn(Effect) -> bool) -> Range<u32> {
+        self.word_range(|word| word.code.is_some() && is(self.model.effect(word.code)))
+    }
+
+    fn find_word(&self, at: At, is: impl Fn(&Word) -> bool) -> Option<Range<u32>> {
+        let place = self.place_of(at).filter(|_| at.file == 0)?;
+        let word = place.table.words(place.block()).iter().find(|word| is(word))?;
+        Some(place.base + word.range().start..place.base + word.range().end)
+    }
+
+    /// The codes of the block.
+    pub fn codes(&self) -> Vec<CodeIx> {
+        self.place().map_or_else(Vec::new, |place| {
+            let words = place.table.words(place.block()).iter();
+            words.map(|word| word.code).filter(|code| code.is_some()).collect()
+        })
+    }
+
+    /// Does the block have a code with an effect that `is` says yes to?
+    pub fn has_effect(&self, is: impl Fn(Effect) -> bool) -> bool {
+        self.codes().into_iter().any(|code| is(self.model.effect(code)))
+    }
+
+    /// The code in effect for a role as programs write it; `None` when it may be several.
+    pub fn code_name(&self, role: Role) -> Option<String> {
+        let code = self.state().mode(role).only()?;
+        self.scene.control().code_at(code).map(|code| code.number().to_string())
+    }
+
+    /// A finding at bytes of this block, with the calls that led here.
+    pub fn finding(&self, rule: &'static RuleMeta, range: Range<u32>, message: impl Into<String>) -> Finding {
+        let mut finding = Finding::new(rule, range, message);
+        for frame in self.state().frames().iter().skip(1).rev() {
+            let how = match frame.kind {
+                FrameKind::Main => continue,
+                FrameKind::Macro => "macro called here",
+                FrameKind::Subprogram | FrameKind::Local | FrameKind::OWord => "called here",
+            };
+            if let Some(range) = self.range_of(frame.caller) {
+                finding = finding.also(range, how);
+            }
+        }
+        finding
+    }
+
+    /// Adds where a fact was set: `G41` set here. A fact that still is as at power-on is an assumption, and nothing that
+    /// rests on one is more than a warning.
+    pub fn resting_on(&self, finding: Finding, fact: Fact, what: &str) -> Finding {
+        match self.trace().set_by(fact) {
+            Some(at) if at == self.origin().at => finding,
+            Some(at) => {
+                let word = self.find_word(at, |word| sets(self.model, word, fact));
+                match word.or_else(|| self.range_of(at)) {
+                    Some(range) => finding.also(range, format!("{what} set here")),
+                    None => finding,
+                }
+            }
+            None => finding.at_most(Severity::Warning).assuming(format!("{what} is as the control has it at the start")),
+        }
+    }
+
+    /// Adds the decisions that led here, for findings that hold on some path only.
+    pub fn with_path(&self, mut finding: Finding) -> Finding {
+        finding.certainty = crate::Certainty::Maybe;
+        for decision in self.trace().decisions().iter().rev().take(3) {
+            if let Some(range) = self.range_of(decision.at) {
+                let goes_on = decision.to.block == decision.at.block + 1 && decision.to.file == decision.at.file;
+                let how = if goes_on { "when this goes on to the next block" } else { "when this is taken" };
+                finding = finding.also(range, how);
+            }
+        }
+        finding
+    }
+}
+
+/// Does the word set the fact?
+fn sets(model: &Model<'_>, word: &Word, fact: Fact) -> bool {
+    let letter = |l: char| word.letter == Letter::of(l) && !word.letter.is_corner();
+    match fact {
+        Fact::Mode(role) => word.code.is_some() && model.role(word.code) == Some(role),
+        Fact::Feed => letter('F'),
+        Fact::Speed => letter('S'),
+        Fact::Selected => letter('T'),
+        Fact::Tool => letter('T') || model.effect(word.code) == Effect::ToolChange,
+        Fact::Length => letter('H') || model.role(word.code) == Some(Role::Length),
+        Fact::Spindle => matches!(
+            model.effect(word.code),
+            Effect::SpindleClockwise | Effect::SpindleCounterClockwise | Effect::SpindleStop | Effect::SpindleOrient
+        ),
+        Fact::Shift => matches!(model.effect(word.code), Effect::SetPosition | Effect::LocalShift),
+        Fact::Coolant => matches!(
+            model.effect(word.code),
+            Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn | Effect::CoolantOff
+        ),
+    }
+}
+
+/// What a rule of the path tier may ask when all paths were seen.
+pub struct FinishCx<'a> {
+    /// Control, machine, other programs.
+    pub scene: Scene<'a>,
+    /// The programs that were executed.
+    pub program: &'a Program<'a>,
+    /// The control, prepared for execution.
+    pub model: &'a Model<'a>,
+    /// Reachability and assumptions.
+    pub result: &'a FlowResult,
+    /// Analyses with other positions of the block delete switch.
+    pub others: &'a [FlowResult],
+}
+
+impl FinishCx<'_> {
+    /// Is the block reached with no position of the block delete switch, and is that certain?
+    pub fn is_never_reached(&self, at: At) -> bool {
+        let all = std::iter::once(self.result).chain(self.others);
+        all.into_iter().all(|result| result.reach(at) == gcheck_engine::Reach::Never)
+    }
+
+    /// Bytes of a block of the main file.
+    pub fn range_of(&self, at: At) -> Option<Range<u32>> {
+        let file = self.program.file(at.file).filter(|_| at.file == 0)?;
+        file.loaded.place(at.block, self.scene.dialect).map(|place| place.range())
+    }
+}
+
+/// A rule at work.
+struct Active {
+    entry: &'static RuleEntry,
+    severity: Option<Severity>,
+    rule: Box<dyn PathRule>,
+}
+
+/// Calls the rules as the analysis goes.
+pub(crate) struct Watchers<'a, 'c> {
+    scene: Scene<'a>,
+    program: &'a Program<'a>,
+    model: &'a Model<'a>,
+    rules: Vec<Active>,
+    /// By bit of [`Watch`]: indices of the rules that watch it.
+    lists: [Vec<usize>; 10],
+    add: &'c mut dyn FnMut(Option<Severity>, Finding),
+    /// Findings made already: a loop comes by many times.
+    made: HashSet<(&'static str, u32, String)>,
+    /// Something else than a move happened since the last cut.
+    changed: bool,
+}
+
+impl<'a, 'c> Watchers<'a, 'c> {
+    pub(crate) fn new(
+        scene: Scene<'a>,
+        program: &'a Program<'a>,
+        model: &'a Model<'a>,
+        rules: &[(&'static RuleEntry, Option<Severity>)],
+        add: &'c mut dyn FnMut(Option<Severity>, Finding),
+    ) -> Self {
+        let mut lists: [Vec<usize>; 10] = Default::default();
+        let mut active = Vec::new();
+        for (entry, severity) in rules {
+            let Run::Path { watch, make } = entry.run else { continue };
+            for (bit, list) in lists.iter_mut().enumerate() {
+                if watch.bits() & (1 << bit) != 0 {
+                    list.push(active.len());
+                }
+            }
+            active.push(Active { entry, severity: *severity, rule: make() });
+        }
+        Self { scene, program, model, rules: active, lists, add, made: HashSet::new(), changed: true }
+    }
+
+    /// Does any rule watch?
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rules.is_empty()
+    }
+
+    /// Makes the rules forget what they saw, for another analysis of the same program.
+    pub(crate) fn restart(&mut self) {
+        for active in &mut self.rules {
+            if let Run::Path { make, .. } = active.entry.run {
+                active.rule = make();
+            }
+        }
+        self.changed = true;
+    }
+
+    /// All paths were seen.
+    pub(crate) fn finish(&mut self, result: &FlowResult, others: &[FlowResult]) {
+        let cx = FinishCx { scene: self.scene, program: self.program, model: self.model, result, others };
+        self.each(Watch::FINISH, |rule, report| rule.finish(&cx, report));
+    }
+
+    fn each(&mut self, watch: Watch, mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>)) {
+        let bit = watch.bits().trailing_zeros() as usize;
+        let Some(list) = self.lists.get(bit) else { return };
+        for index in list {
+            let Some(active) = self.rules.get_mut(*index) else { continue };
+            let (made, add, severity) = (&mut self.made, &mut self.add, active.severity);
+            let mut once = |finding: Finding| {
+                if made.insert((finding.rule.id, finding.range.start, finding.message.clone())) {
+                    add(severity, finding);
+                }
+            };
+            call(&mut *active.rule, &mut Report { add: &mut once });
+        }
+    }
+
+    fn watches(&self, watch: Watch) -> bool {
+        let bit = watch.bits().trailing_zeros() as usize;
+        self.lists.get(bit).is_some_and(|list| !list.is_empty())
+    }
+
+    fn show(&mut self, watch: Watch, flow: &FlowCx<'_>, mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>)) {
+        // Blocks of other files are judged when those files are checked.
+        if flow.origin.at.file != 0 || !self.watches(watch) {
+            return;
+        }
+        let (scene, program, model) = (self.scene, self.program, self.model);
+        let cx = PathCx { scene, program, model, flow };
+        self.each(watch, |rule, report| call(rule, &cx, report));
+    }
+}
+
+/// Blocks that [`PathRule::block`] is called for.
+fn is_eventful(origin: Origin) -> bool {
+    use gcheck_program::BlockFlags as F;
+    origin.flags.intersects(F::CODE | F::STATEMENT)
+        || origin.letters.intersects(gcheck_controls::LetterSet::of("FSTHD"))
+}
+
+impl FlowObserver for Watchers<'_, '_> {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        if is_eventful(cx.origin) {
+            self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+        }
+    }
+
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        let (moves, cuts) = match event {
+            Event::Travel(travel) => (true, travel.kind != TravelKind::Rapid),
+            Event::Arc(_) | Event::Curve(_) => (true, true),
+            _ => (false, false),
+        };
+        if !moves {
+            self.changed = true;
+            self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
+            return;
+        }
+        self.show(Watch::MOVES, cx, |rule, cx, report| rule.moved(cx, event, report));
+        if !cuts {
+            self.show(Watch::RAPIDS, cx, |rule, cx, report| rule.rapid(cx, event, report));
+        } else if self.changed && cx.origin.at.file == 0 {
+            self.changed = false;
+            self.show(Watch::CUTS, cx, |rule, cx, report| rule.cut(cx, event, report));
+        }
+    }
+
+    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
+        self.show(Watch::READS, cx, |rule, cx, report| rule.vacant_read(cx, variable, report));
+    }
+
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.show(Watch::FAULTS, cx, |rule, cx, report| rule.fault(cx, fault, report));
+    }
+
+    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
+        self.changed = true;
+        self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
+    }
+
+    fn endless(&mut self, cx: &FlowCx<'_>) {
+        self.show(Watch::ENDLESS, cx, |rule, cx, report| rule.endless(cx, report));
+    }
+}
+
+/// The engine's view of the programs that the scene knows.
+pub(crate) struct SceneLibrary<'a>(pub(crate) &'a dyn crate::Programs);
+
+impl Library for SceneLibrary<'_> {
+    fn by_number(&self, number: u32) -> Option<SourceFile> {
+        self.0.source_of_number(number)
+    }
+
+    fn by_name(&self, name: &str) -> Option<SourceFile> {
+        self.0.source_of_name(name)
+    }
+}
+
+/// What the verdicts of a file rest on.
+pub type Ledger = std::collections::BTreeSet<Assumption>;

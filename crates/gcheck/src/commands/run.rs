@@ -1,0 +1,105 @@
+//! `gcheck run`: the moves of a program.
+//!
+//! Knows: which format takes which sink. Must not know: how moves come about.
+
+use std::io::{self, Write};
+
+use gcheck_engine::{Ending, RunResult, Stopped};
+use gcheck_toolpath::{Canonical, Csv, JsonLines, Start, Step, Text};
+
+use crate::args::{Global, RunFormat, RunOptions};
+use crate::execution::{self, Session, Steps};
+use crate::{Problem, output};
+
+/// Runs the command; the exit code is its result.
+pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> {
+    let prepared = execution::prepare(global, &options.execution)?;
+    prepared.session(|session| {
+        if !global.quiet {
+            execution::say(&execution::control_line(session));
+        }
+        let mut ran = None;
+        let write = |out: &mut dyn Write| -> io::Result<()> {
+            ran = Some(print(session, options.output_format, out)?);
+            Ok(())
+        };
+        match &options.output_file {
+            Some(file) => output::to_file(file, write)?,
+            None => output::to_stdout(write)?,
+        }
+        // Nobody reads on: there is no result to speak of.
+        let Some(ran) = ran else { return Ok(0) };
+        execution::end_of_run(session, &ran);
+        if options.output_format == RunFormat::Text && !global.quiet {
+            execution::say(&execution::assumptions(session, &ran));
+        }
+        Ok(execution::exit_code(&ran))
+    })
+}
+
+fn print(session: &Session<'_>, format: RunFormat, out: &mut dyn Write) -> io::Result<RunResult> {
+    let timing = session.prepared.equipment.timing;
+    match format {
+        RunFormat::Canonical => {
+            let equipment = &session.prepared.equipment;
+            let mut canonical = Canonical::new(out).with_tool_table(equipment.table.clone());
+            canonical.prologue(&start(session))?;
+            let (result, canonical) = session.run(canonical)?;
+            canonical.epilogue(match result.stopped {
+                Stopped::Ended(Ending::Tape) => gcheck_toolpath::Ending::Percent,
+                Stopped::Ended(_) => gcheck_toolpath::Ending::Program,
+                Stopped::Faulted(_) | Stopped::OutOfFuel => gcheck_toolpath::Ending::Fault,
+            })?;
+            Ok(result)
+        }
+        RunFormat::Jsonl => {
+            let (result, lines) = session.run(JsonLines::new(out, session.all_axes(), timing))?;
+            lines.finish()?;
+            Ok(result)
+        }
+        RunFormat::Csv => {
+            let (result, table) = session.run(Csv::new(out, session.all_axes(), timing)?)?;
+            table.finish()?;
+            Ok(result)
+        }
+        RunFormat::Text => {
+            let (result, table) = session.run(Text::new(out, session.used_axes(), timing))?;
+            table.finish()?;
+            Ok(result)
+        }
+    }
+}
+
+/// What is in effect before the first block.
+fn start(session: &Session<'_>) -> Start {
+    let work = session.work_at_start().unwrap_or(1);
+    let offset = session.prepared.equipment.machine.offsets.get(&work);
+    let known = Start { work, ..Start::default() };
+    offset.map_or(known, |offset| Start { offset: offset.origin, rotation: offset.rotation, ..known })
+}
+
+impl<W: Write> Steps for Canonical<W> {
+    const NUMBERED_BY_EXECUTION: bool = true;
+
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.step(step)
+    }
+}
+
+impl<W: Write> Steps for JsonLines<W> {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.step(step)
+    }
+}
+
+impl<W: Write> Steps for Csv<W> {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.step(step)
+    }
+}
+
+impl<W: Write> Steps for Text<W> {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.step(step)
+    }
+}

@@ -1,0 +1,152 @@
+//! From what the engine shows to what output takes: events become steps with line, units, feed and machine coordinates.
+//!
+//! Knows: which file and line an event belongs to. Must not know: formats, what the engine computes.
+
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::rc::Rc;
+
+use gcheck_engine::{
+    Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Truth,
+};
+use gcheck_report::LineIndex;
+use gcheck_toolpath::Step;
+
+use super::Session;
+
+/// Takes the steps of a run.
+pub(crate) trait Steps {
+    /// The sequence number is that of the block being executed, which under cutter compensation may be later than the
+    /// block that a move belongs to.
+    const NUMBERED_BY_EXECUTION: bool = false;
+
+    /// One event.
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()>;
+}
+
+/// Watches a run and makes steps of its events.
+pub(super) struct Bridge<'s, S> {
+    session: &'s Session<'s>,
+    steps: S,
+    error: Option<io::Error>,
+    /// Sequence number of the block being executed.
+    executing: Option<u32>,
+    files: Vec<Option<Lines>>,
+}
+
+/// Name and lines of a file.
+struct Lines {
+    name: Rc<str>,
+    index: LineIndex,
+    /// The last place that was asked for: many events come from one block.
+    last: (u32, u32),
+}
+
+impl Lines {
+    fn line(&mut self, offset: u32) -> u32 {
+        if self.last.0 != offset {
+            self.last = (offset, self.index.line(offset));
+        }
+        self.last.1
+    }
+}
+
+/// Unwinds through the engine when output has failed: there is nobody to execute for.
+struct OutputFailed;
+
+/// Runs, unless output fails on the way.
+pub(super) fn stopping_at_errors(run: impl FnOnce() -> RunResult) -> Option<RunResult> {
+    match panic::catch_unwind(AssertUnwindSafe(run)) {
+        Ok(result) => Some(result),
+        Err(payload) if payload.is::<OutputFailed>() => None,
+        Err(payload) => panic::resume_unwind(payload),
+    }
+}
+
+impl<'s, S: Steps> Bridge<'s, S> {
+    pub(super) fn new(session: &'s Session<'s>, steps: S) -> Self {
+        Self { session, steps, error: None, executing: None, files: Vec::new() }
+    }
+
+    /// What the run left; the error is that of the output.
+    pub(super) fn finish(self, ran: Option<RunResult>) -> io::Result<(RunResult, S)> {
+        match (ran, self.error) {
+            (Some(result), None) => Ok((result, self.steps)),
+            (_, Some(error)) => Err(error),
+            (None, None) => Err(io::ErrorKind::Other.into()),
+        }
+    }
+
+    /// Name of the file and line of the block.
+    fn place(&mut self, origin: Origin) -> (Rc<str>, u32) {
+        let at = origin.at.file as usize;
+        if self.files.len() <= at {
+            self.files.resize_with(at + 1, || None);
+        }
+        let Some(slot) = self.files.get_mut(at) else { return (Rc::from(""), 0) };
+        let session = self.session;
+        let lines = slot.get_or_insert_with(|| {
+            let file = session.program.file(origin.at.file);
+            let text = file.as_ref().map_or("", |file| file.loaded.text());
+            let name = file.as_ref().map_or("", |file| &*file.name);
+            let name = if name.is_empty() { Rc::from(session.prepared.shown.as_str()) } else { Rc::from(name) };
+            Lines { name, index: LineIndex::new(text), last: (0, 1) }
+        });
+        (Rc::clone(&lines.name), lines.line(origin.start))
+    }
+}
+
+impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
+    fn before(&mut self, origin: Origin, _: &State<Concrete>) {
+        self.executing = origin.n;
+    }
+
+    fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
+        let model = self.session.model;
+        let (file, line) = self.place(origin);
+        let step = Step {
+            event,
+            n: if S::NUMBERED_BY_EXECUTION { self.executing } else { origin.n },
+            line,
+            units: state.units(model).unwrap_or(self.session.prepared.equipment.units),
+            feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),
+            feed: number(state.feed()),
+            rpm: turns(state),
+            machine: machine(state, event),
+            tool: tool(state.tool()),
+            file: &file,
+        };
+        if let Err(error) = self.steps.step(&step) {
+            self.error = Some(error);
+            panic::resume_unwind(Box::new(OutputFailed));
+        }
+    }
+}
+
+fn number(value: &ConcreteValue) -> f64 {
+    Concrete::known(value).unwrap_or(f64::NAN)
+}
+
+#[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
+fn tool(value: &ConcreteValue) -> Option<u32> {
+    Concrete::known(value).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
+}
+
+/// Turns of the spindle, or of the live tool that stands in for it.
+fn turns(state: &State<Concrete>) -> f64 {
+    match (state.spindle(), state.live_tool()) {
+        (Some(Spindle::Stopped), Truth::False) => 0.0,
+        (Some(Spindle::Clockwise | Spindle::CounterClockwise), _) | (_, Truth::True) => number(state.speed()),
+        _ => f64::NAN,
+    }
+}
+
+/// Where a move ends. The state may be ahead of the move, so that its own end counts where there is one.
+fn machine(state: &State<Concrete>, event: &Event) -> Position {
+    match event {
+        Event::Travel(travel) => state.to_machine(&travel.to),
+        Event::Arc(arc) => state.to_machine(&arc.to),
+        Event::Curve(curve) => state.to_machine(&curve.to),
+        _ => state.machine(),
+    }
+}

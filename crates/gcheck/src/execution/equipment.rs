@@ -1,0 +1,312 @@
+//! The machine of a run, from the configuration and what is usual for the control.
+//!
+//! Knows: units of configuration files, which codes are work offsets. Must not know: programs, how anything is executed.
+
+use std::collections::BTreeMap;
+use std::io;
+
+use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Unset};
+use gcheck_engine::{Axis, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
+use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+use gcheck_program::{BlockTable, OKeyword, StatementKind};
+use gcheck_toolpath::{Step, Timing};
+
+use super::{Steps, tool_table};
+use crate::Problem;
+use crate::args::{Assignment, VariableName};
+use crate::config::{self, ExecutionFacts, FileSettings, ToolTable};
+
+/// The machine, and what output needs to know of it besides.
+#[derive(Debug)]
+pub(crate) struct Equipment {
+    pub(crate) machine: Machine,
+    /// Units at power-on.
+    pub(crate) units: Units,
+    /// Nobody said them.
+    pub(crate) units_assumed: bool,
+    pub(crate) timing: Timing,
+    /// Tools of the table on disk, in its order.
+    pub(crate) table: Vec<u32>,
+    /// Remarks of the table on disk.
+    pub(crate) remarks: BTreeMap<u32, String>,
+}
+
+impl Equipment {
+    /// Puts the layers of a configuration together.
+    pub(crate) fn new(settings: &FileSettings, control: &Control) -> Result<Self, Problem> {
+        let layers = &settings.execution;
+        let configured = layers.iter().rev().find_map(|layer| layer.units).map(units);
+        let default = units_at_power_on(control, &settings.machine.settings);
+        let in_force = configured.or(default).unwrap_or(Units::Mm);
+        // Where variables that nobody set are zero, a run is one from a fresh start: everything at zero.
+        let fresh = control.semantics().unset == Unset::Zero;
+        let table_units = layers.iter().rev().find_map(|layer| layer.machine.table_units).map(units);
+        let mut equipment = Self {
+            machine: Machine {
+                units: Some(in_force),
+                settings: settings.machine.settings.clone(),
+                start: fresh.then_some(Position::ZERO),
+                table_units,
+                fresh,
+                ..Machine::default()
+            },
+            units: in_force,
+            units_assumed: configured.is_none(),
+            timing: Timing::new(None, None),
+            table: Vec::new(),
+            remarks: BTreeMap::new(),
+        };
+        let mut rotary_rapid = None;
+        for layer in layers {
+            equipment.put(layer, layer.units.map_or(in_force, units), control)?;
+            rotary_rapid = layer.machine.rotary_rapid.as_ref().map(|rate| rate.value).or(rotary_rapid);
+        }
+        equipment.timing = Timing::new(equipment.machine.rapid, equipment.machine.tool_change);
+        if let Some(rate) = rotary_rapid {
+            equipment.timing = equipment.timing.with_rotary_rapid(rate);
+        }
+        Ok(equipment)
+    }
+
+    fn put(&mut self, layer: &ExecutionFacts, units: Units, control: &Control) -> Result<(), Problem> {
+        let mm = units.in_mm();
+        let table = &layer.machine;
+        let machine = &mut self.machine;
+        if let Some(axes) = &table.axes {
+            machine.axes = Some(axes.iter().filter_map(|axis| axis_of(&axis.value)).collect());
+        }
+        for (axis, travel) in &table.travel {
+            if let Some(axis) = axis_of(&axis.value) {
+                let [low, high] = travel.value.map(|end| in_mm(axis, end, mm));
+                machine.travel.insert(axis, (low, high));
+            }
+        }
+        let value = |placed: &Option<config::Placed<f64>>| placed.as_ref().map(|placed| placed.value);
+        machine.max_rpm = value(&table.max_rpm).map(Rpm).or(machine.max_rpm);
+        machine.max_feed = value(&table.max_feed).map(|feed| MmPerMin(feed * mm)).or(machine.max_feed);
+        machine.rapid = value(&table.rapid).map(|rate| MmPerMin(rate * mm)).or(machine.rapid);
+        machine.tool_change = value(&table.tool_change_seconds).map(Seconds).or(machine.tool_change);
+        for (name, value) in &layer.variables {
+            if let Some(variable) = VariableName::parse(name) {
+                self.set_variable(variable, *value);
+            }
+        }
+        for (name, axes) in &layer.offsets {
+            // An offset that the control does not have is for other programs of the folder.
+            if let Some(number) = work_offset(name, control) {
+                self.put_offset(number, axes, mm);
+            }
+        }
+        if let Some(path) = &layer.table {
+            let units = self.machine.table_units.unwrap_or(units);
+            let read = tool_table::read(path, units)?;
+            self.machine.tools = read.tools.iter().map(|(number, tool)| (*number, *tool)).collect();
+            self.table = read.tools.iter().map(|(number, _)| *number).collect();
+            self.remarks = read.remarks;
+            self.machine.tool_table_is_complete = true;
+        }
+        for (number, tool) in &layer.tools {
+            self.put_tool(*number, tool, mm);
+        }
+        Ok(())
+    }
+
+    fn put_offset(&mut self, number: u16, axes: &[(String, f64)], mm: f64) {
+        let unnamed = if self.machine.fresh { WorkOffset::ZERO } else { WorkOffset::UNKNOWN };
+        let offset = self.machine.offsets.entry(number).or_insert(unnamed);
+        for (name, value) in axes {
+            if let Some(axis) = axis_of(name) {
+                offset.origin.set(axis, in_mm(axis, *value, mm));
+            }
+        }
+    }
+
+    fn put_tool(&mut self, number: u32, told: &ToolTable, mm: f64) {
+        let mut offset = Position::ZERO;
+        offset.set(Axis::Z, if self.machine.fresh { 0.0 } else { f64::NAN });
+        let tool = self.machine.tools.entry(number).or_insert(Tool {
+            pocket: number,
+            offset,
+            diameter: Mm::UNKNOWN,
+            corner_radius: Mm::UNKNOWN,
+            angles: [0.0; 2],
+            orientation: 0,
+        });
+        if let Some(length) = told.length {
+            tool.offset.set(Axis::Z, length * mm);
+        }
+        for (name, value) in &told.offset {
+            if let Some(axis) = axis_of(&name.value) {
+                tool.offset.set(axis, in_mm(axis, *value, mm));
+            }
+        }
+        tool.diameter = told.diameter.map_or(tool.diameter, |diameter| Mm(diameter * mm));
+        tool.corner_radius = told.corner_radius.map_or(tool.corner_radius, |radius| Mm(radius * mm));
+        tool.orientation = told.orientation.as_ref().map_or(tool.orientation, |orientation| orientation.value);
+        tool.pocket = told.pocket.unwrap_or(tool.pocket);
+    }
+
+    /// Variables of the command line.
+    pub(super) fn set(&mut self, assignments: &[Assignment]) {
+        for assignment in assignments {
+            self.set_variable(assignment.variable.clone(), assignment.value);
+        }
+    }
+
+    fn set_variable(&mut self, variable: VariableName, value: f64) {
+        match variable {
+            VariableName::Number(number) => {
+                self.machine.variables.insert(number, value);
+            }
+            VariableName::Name(name) => {
+                self.machine.parameters.insert(name, value);
+            }
+        }
+    }
+}
+
+fn units(units: config::Units) -> Units {
+    match units {
+        config::Units::Mm => Units::Mm,
+        config::Units::Inch => Units::Inch,
+    }
+}
+
+fn axis_of(name: &str) -> Option<Axis> {
+    Axis::of(Letter::parse(&name.to_ascii_uppercase())?)
+}
+
+fn in_mm(axis: Axis, value: f64, mm: f64) -> f64 {
+    if axis.is_rotary() { value } else { value * mm }
+}
+
+/// The unit that a control counts in when nobody says otherwise: by its data, else by the setting that decides, whose page
+/// names the usual value first.
+fn units_at_power_on(control: &Control, settings: &BTreeMap<String, String>) -> Option<Units> {
+    let model = Model::new(control);
+    match start_code(&model, Role::Units).map(|code| model.effect(code)) {
+        Some(Effect::Inch) => return Some(Units::Inch),
+        Some(Effect::Millimetre) => return Some(Units::Mm),
+        _ => {}
+    }
+    let decides = |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
+    let setting = control.settings().iter().find(|setting| decides(&setting.values))?;
+    let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
+    match value.as_str() {
+        "inch" => Some(Units::Inch),
+        "mm" => Some(Units::Mm),
+        _ => None,
+    }
+}
+
+/// The code of a role that is in effect at power-on.
+pub(super) fn start_code(model: &Model<'_>, role: Role) -> Option<CodeIx> {
+    let control = model.control();
+    let defaults = control.groups().iter().filter_map(|group| group.default.as_ref());
+    let of_role = |name: &String| {
+        let code = control.code_ix(CodeNumber::parse(name)?);
+        (code.is_some() && model.role(code) == Some(role)).then_some(code)
+    };
+    defaults.chain(&model.semantics().at_start).filter_map(of_role).last()
+}
+
+/// The number of a work offset as a configuration names it: `G54`, `G154 P3`.
+fn work_offset(name: &str, control: &Control) -> Option<u16> {
+    let mut parts = name.split_whitespace();
+    let effect = control.code(CodeNumber::parse(&parts.next()?.to_ascii_uppercase())?)?.effect();
+    let p = parts.next().and_then(|part| part.strip_prefix(['P', 'p']));
+    match (effect, p) {
+        (Effect::WorkOffset(number), None) => Some(number),
+        (Effect::WorkOffsetByP(first), Some(p)) => first.checked_add(p.parse::<u16>().ok()?.checked_sub(1)?),
+        _ => None,
+    }
+}
+
+/// The axes that a control may have.
+pub(super) fn axes_of(model: &Model<'_>) -> Vec<Axis> {
+    let control = model.control();
+    let increments: Vec<Letter> =
+        model.semantics().increments.keys().filter_map(|letter| Letter::parse(letter)).collect();
+    let is_axis = |axis: &Axis| control.axes().contains(axis.letter()) && !increments.contains(&axis.letter());
+    Axis::ALL.into_iter().filter(is_axis).collect()
+}
+
+/// Which axes the blocks of a file name.
+pub(super) struct AxesSeen<'m> {
+    model: &'m Model<'m>,
+    letters: LetterSet,
+    /// Something is called, which may stand in another file and move what it likes.
+    pub(super) calls: bool,
+}
+
+impl<'m> AxesSeen<'m> {
+    pub(super) fn new(model: &'m Model<'m>) -> Self {
+        Self { model, letters: LetterSet::EMPTY, calls: false }
+    }
+
+    pub(super) fn look(&mut self, table: &BlockTable) {
+        let is_call = |kind: &StatementKind| matches!(kind, StatementKind::OWord { keyword: OKeyword::Call, .. });
+        self.calls |= table.all_statements().iter().any(|(_, statement)| is_call(&statement.kind));
+        for (_, block) in table.blocks() {
+            let mut has_arguments = false;
+            if block.letters.intersects(LetterSet::of("GM")) {
+                for word in table.words(block) {
+                    let effect = self.model.effect(word.code);
+                    let is_macro = matches!(effect, Effect::MacroCall | Effect::MacroModal)
+                        || self.model.control().code_at(word.code).is_some_and(|code| code.alias().is_some());
+                    has_arguments |= is_macro;
+                    self.calls |= is_macro || effect == Effect::CallProgram;
+                }
+            }
+            if !has_arguments {
+                self.letters = self.letters.or(block.letters);
+            }
+        }
+    }
+
+    /// Those of the machine that are named, by themselves or by their increments, and the ones that every mill or lathe has.
+    pub(super) fn axes(&self, machine: Option<&[Axis]>) -> Vec<Axis> {
+        let control = self.model.control();
+        let usual = match control.machine() {
+            gcheck_controls::Machine::Mill => LetterSet::of("XYZ"),
+            gcheck_controls::Machine::Lathe => LetterSet::of("XZ"),
+        };
+        let increments = &self.model.semantics().increments;
+        let increased = increments.iter().filter_map(|(letter, axis)| {
+            let named = Letter::parse(letter).is_some_and(|letter| self.letters.contains(letter));
+            if named { Letter::parse(axis) } else { None }
+        });
+        let shown = self.letters.or(usual).or(increased.collect());
+        let all = machine.map_or_else(|| axes_of(self.model), <[Axis]>::to_vec);
+        all.into_iter().filter(|axis| shown.contains(axis.letter())).collect()
+    }
+}
+
+/// Finds the axes that move.
+#[derive(Debug, Default)]
+pub(super) struct AxesMoved(Vec<Axis>);
+
+impl Steps for AxesMoved {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        let (from, to) = match step.event {
+            Event::Travel(travel) => (&travel.from, &travel.to),
+            Event::Arc(arc) => (&arc.from, &arc.to),
+            Event::Curve(curve) => (&curve.from, &curve.to),
+            Event::RigidTap { from, to, .. } => (from, to),
+            _ => return Ok(()),
+        };
+        for axis in Axis::ALL {
+            if from.raw(axis).to_bits() != to.raw(axis).to_bits() && !self.0.contains(&axis) {
+                self.0.push(axis);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl AxesMoved {
+    /// Together with others, in the usual order.
+    pub(super) fn and(self, others: &[Axis]) -> Vec<Axis> {
+        Axis::ALL.into_iter().filter(|axis| self.0.contains(axis) || others.contains(axis)).collect()
+    }
+}

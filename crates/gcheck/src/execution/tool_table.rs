@@ -1,0 +1,261 @@
+//! Tool tables on disk: lines of words (`T1 P1 Z0.511 D0.125 ;end mill`), or columns with a heading (CSV).
+//!
+//! Knows: both forms, and how a mistake in them reads. Must not know: which machine the tools are for.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::Path;
+
+use gcheck_controls::Letter;
+use gcheck_engine::{Axis, Position, Tool, Units};
+use gcheck_geometry::Mm;
+
+use crate::{Problem, paths, reading};
+
+/// More tools than this are a mistake.
+const MAX_TOOLS: usize = 100_000;
+
+/// Tools in the order of the file.
+#[derive(Debug, Default)]
+pub(super) struct ToolTableFile {
+    pub(super) tools: Vec<(u32, Tool)>,
+    /// What the file says of a tool in words.
+    pub(super) remarks: BTreeMap<u32, String>,
+}
+
+/// Reads a table; its lengths are in `units`.
+pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> {
+    let name = paths::shown_from_here(path);
+    let source = reading::file(path).map_err(|problem| problem.help("`tools.table` names this file"))?;
+    let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+    let read = if is_csv { columns } else { words };
+    read(source.text(), units.in_mm())
+        .map_err(|Mistake { range, message }| Problem::at(&name, source.text(), &range, message))
+}
+
+/// What is wrong, and where.
+#[derive(Debug)]
+struct Mistake {
+    range: Range<usize>,
+    message: String,
+}
+
+impl Mistake {
+    fn new(range: Range<usize>, message: impl Into<String>) -> Self {
+        Self { range, message: message.into() }
+    }
+}
+
+/// Lines without their ends, with their first byte.
+fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let mut start = 0;
+    text.split_inclusive(['\n', '\r']).map(move |line| {
+        let at = start;
+        start += line.len();
+        (at, line.trim_end_matches(['\n', '\r']))
+    })
+}
+
+const NO_TOOL: Tool = Tool {
+    pocket: 0,
+    offset: Position::ZERO,
+    diameter: Mm(0.0),
+    corner_radius: Mm::UNKNOWN,
+    angles: [0.0; 2],
+    orientation: 0,
+};
+
+impl ToolTableFile {
+    fn add(&mut self, number: u32, tool: Tool, remark: &str, range: Range<usize>) -> Result<(), Mistake> {
+        if self.tools.len() >= MAX_TOOLS {
+            return Err(Mistake::new(range, format!("more than {MAX_TOOLS} tools")));
+        }
+        self.tools.push((number, tool));
+        let remark = remark.trim().trim_start_matches(';').trim();
+        if !remark.is_empty() {
+            self.remarks.insert(number, remark.to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// A line a tool, each value behind its letter.
+fn words(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
+    let mut table = ToolTableFile::default();
+    for (start, line) in lines(text) {
+        let (told, remark) = line.split_once(';').unwrap_or((line, ""));
+        if told.trim().is_empty() {
+            continue;
+        }
+        let mut number = None;
+        let mut pocket = None;
+        let mut tool = NO_TOOL;
+        let mut at = 0;
+        for word in told.split_inclusive(char::is_whitespace) {
+            let range = start + at..start + at + word.trim_end().len();
+            at += word.len();
+            let word = word.trim();
+            let Some(letter) = word.chars().next() else { continue };
+            let value = word.get(letter.len_utf8()..).unwrap_or_default();
+            let no_number = || Mistake::new(range.clone(), format!("`{word}` is no letter with a number"));
+            let parsed: f64 = value.parse().map_err(|_| no_number())?;
+            if !parsed.is_finite() {
+                return Err(no_number());
+            }
+            let whole = || whole(parsed).ok_or_else(|| Mistake::new(range.clone(), format!("`{word}` must be a whole number")));
+            match letter.to_ascii_uppercase() {
+                'T' => number = Some(whole()?),
+                'P' => pocket = Some(whole()?),
+                'D' => tool.diameter = Mm(parsed * mm),
+                'I' => tool.angles[0] = parsed,
+                'J' => tool.angles[1] = parsed,
+                'Q' => {
+                    tool.orientation = u8::try_from(whole()?)
+                        .ok()
+                        .filter(|orientation| *orientation <= 9)
+                        .ok_or_else(|| Mistake::new(range.clone(), "`Q`, where the tip points, is 0 to 9"))?;
+                }
+                other => match Axis::ALL.into_iter().find(|axis| axis.name() == other) {
+                    Some(axis) => tool.offset.set(axis, if axis.is_rotary() { parsed } else { parsed * mm }),
+                    None => {
+                        let known = "T, P, X, Y, Z, A, B, C, U, V, W, D, I, J and Q";
+                        return Err(Mistake::new(range, format!("`{letter}` says nothing of a tool; known are {known}")));
+                    }
+                },
+            }
+        }
+        let range = start..start + told.trim_end().len();
+        let Some(number) = number else { return Err(Mistake::new(range, "a tool's line has its number: `T1`")) };
+        // A line's place is its own when it names none.
+        tool.pocket = pocket.unwrap_or(number);
+        table.add(number, tool, remark, range)?;
+    }
+    Ok(table)
+}
+
+#[expect(clippy::cast_sign_loss, reason = "in the range of u32")]
+fn whole(value: f64) -> Option<u32> {
+    (value >= 0.0 && value <= f64::from(u32::MAX) && value.fract() == 0.0).then_some(value as u32)
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Column {
+    Number,
+    Pocket,
+    Offset(Axis),
+    Diameter,
+    /// Of the cutter.
+    Radius,
+    CornerRadius,
+    Orientation,
+    Remark,
+    Other,
+}
+
+impl Column {
+    fn of(heading: &str) -> Self {
+        let heading: String =
+            heading.to_lowercase().chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+        match heading.trim_matches('_') {
+            "t" | "tool" | "number" | "no" | "nr" | "tool_number" | "toolnumber" => Self::Number,
+            "p" | "pocket" => Self::Pocket,
+            "length" | "h" | "length_offset" | "offset" => Self::Offset(Axis::Z),
+            "d" | "diameter" | "dia" => Self::Diameter,
+            "radius" => Self::Radius,
+            "corner_radius" | "nose_radius" | "tip_radius" => Self::CornerRadius,
+            "q" | "orientation" | "tip" | "tip_direction" => Self::Orientation,
+            "comment" | "remark" | "description" | "name" | "title" => Self::Remark,
+            one if one.len() == 1 => Letter::parse(&one.to_uppercase())
+                .and_then(Axis::of)
+                .map_or(Self::Other, Self::Offset),
+            _ => Self::Other,
+        }
+    }
+}
+
+/// Columns under a heading, parted by commas, semicolons or tabs.
+fn columns(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
+    let mut table = ToolTableFile::default();
+    let mut lines = lines(text).filter(|(_, line)| !line.trim().is_empty());
+    let Some((start, heading)) = lines.next() else { return Ok(table) };
+    // A mark of the byte order is no part of the first heading.
+    let cut = heading.len() - heading.trim_start_matches('\u{FEFF}').len();
+    let (start, heading) = (start + cut, heading.get(cut..).unwrap_or_default());
+    let separator = [';', '\t', ','].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
+    let columns: Vec<Column> = cells(heading, separator).map(|(_, cell)| Column::of(&cell)).collect();
+    if !columns.contains(&Column::Number) {
+        let message = "the first line has no column called `tool`, `number` or `T`";
+        return Err(Mistake::new(start..start + heading.len(), message));
+    }
+    for (start, line) in lines {
+        let mut number = None;
+        let mut remark = String::new();
+        // What a table does not list is not known, unlike in the other form, where every value has a default.
+        let mut tool = NO_TOOL;
+        tool.offset.set(Axis::Z, f64::NAN);
+        tool.diameter = Mm::UNKNOWN;
+        let mut pocket = None;
+        for ((range, cell), column) in cells(line, separator).zip(&columns) {
+            let range = start + range.start..start + range.end;
+            if cell.is_empty() || *column == Column::Other {
+                continue;
+            }
+            if *column == Column::Remark {
+                remark = cell;
+                continue;
+            }
+            // A decimal comma can only be meant where commas part nothing.
+            let text = if separator == ',' { cell.clone() } else { cell.replace(',', ".") };
+            let text = if *column == Column::Number { text.trim_start_matches(['T', 't']) } else { &text };
+            let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+                Mistake::new(range.clone(), format!("`{cell}` is no number"))
+            })?;
+            let whole = || whole(value).ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` must be a whole number")));
+            match column {
+                Column::Number => number = Some(whole()?),
+                Column::Pocket => pocket = Some(whole()?),
+                Column::Offset(axis) => {
+                    tool.offset.set(*axis, if axis.is_rotary() { value } else { value * mm });
+                }
+                Column::Diameter => tool.diameter = Mm(value * mm),
+                Column::Radius => tool.diameter = Mm(2.0 * value * mm),
+                Column::CornerRadius => tool.corner_radius = Mm(value * mm),
+                Column::Orientation => {
+                    tool.orientation = u8::try_from(whole()?)
+                        .ok()
+                        .filter(|orientation| *orientation <= 9)
+                        .ok_or_else(|| Mistake::new(range.clone(), "a tip points in one of the directions 0 to 9"))?;
+                }
+                Column::Remark | Column::Other => {}
+            }
+        }
+        let range = start..start + line.len();
+        let Some(number) = number else { return Err(Mistake::new(range, "this line has no tool number")) };
+        tool.pocket = pocket.unwrap_or(number);
+        table.add(number, tool, &remark, range)?;
+    }
+    Ok(table)
+}
+
+/// Cells of a line with their bytes; quotes may hold separators.
+fn cells(line: &str, separator: char) -> impl Iterator<Item = (Range<usize>, String)> {
+    let mut rest = Some(0);
+    std::iter::from_fn(move || {
+        let start = rest?;
+        let tail = line.get(start..)?;
+        let mut quoted = false;
+        let end = tail.char_indices().find_map(|(at, c)| {
+            quoted ^= c == '"';
+            (c == separator && !quoted).then_some(at)
+        });
+        rest = end.map(|end| start + end + separator.len_utf8());
+        let cell = tail.get(..end.unwrap_or(tail.len()))?;
+        let plain = cell.trim();
+        let plain = match plain.strip_prefix('"').and_then(|inner| inner.strip_suffix('"')) {
+            Some(inner) => inner.replace("\"\"", "\""),
+            None => plain.to_owned(),
+        };
+        Some((start..start + cell.len(), plain.trim().to_owned()))
+    })
+}

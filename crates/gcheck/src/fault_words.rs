@@ -1,0 +1,295 @@
+//! What a fault is called, why the control refuses the block, and what to do.
+//!
+//! Knows: the wording of every fault. Must not know: where it happened, how it is printed.
+
+use gcheck_controls::{CodeIx, Letter};
+use gcheck_engine::{ArcFault, CompensationFault, CycleFault, Fault, Model, Role, Units, ValueFault};
+
+/// A fault in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Words {
+    /// What is wrong, in one sentence without an end.
+    pub(crate) message: String,
+    /// Why the control stops there.
+    pub(crate) why: Option<String>,
+    /// What to do.
+    pub(crate) help: Option<String>,
+}
+
+impl Words {
+    fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), why: None, help: None }
+    }
+
+    fn why(mut self, why: impl Into<String>) -> Self {
+        self.why = Some(why.into());
+        self
+    }
+
+    fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+}
+
+/// A fault in words; lengths are shown in `units`, those of the program.
+#[expect(clippy::too_many_lines, reason = "one arm a fault, in the order of their definition")]
+pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
+    match fault {
+        Fault::Value(value) => of_value(*value),
+        Fault::Undecidable => Words::new("what happens next depends on a value that nobody told gcheck")
+            .why("a condition, a repeat count, a target or a code is computed from an unknown value")
+            .help("give the value: `--set '#100=2.5'`, or `[variables]`, `[offsets]`, `[tools]` in gcheck.toml"),
+        Fault::UnsetParameter => Words::new("this named parameter was never set")
+            .why("a named parameter has no value before the program gives it one")
+            .help("assign it first, or give it for this run: `--set '#<name>=1'`"),
+        Fault::ReadOnlyVariable(number) => Words::new(format!("`#{number}` can be read but not written"))
+            .why("the control keeps this variable itself"),
+        Fault::VariableNumber => Words::new("there is no variable of this number")
+            .why("the number is not whole, or outside the range of the control's variables"),
+        Fault::MissingValue(letter) => {
+            Words::new(format!("`{letter}` has no value")).help("write a number behind the letter, or take the letter away")
+        }
+        Fault::MissingWord(letter) => Words::new(format!("`{letter}` is missing in this block"))
+            .why(format!("a code of the block needs a `{letter}` word")),
+        Fault::WordRange(letter) => Words::new(format!("the value of `{letter}` is outside what the code takes")),
+        Fault::UnknownCode => Words::new("the control does not have this code")
+            .help("`gcheck codes` lists the codes; `[codes]` in gcheck.toml adds those of the shop"),
+        Fault::NotNow(refused, None) => Words::new(format!("{} cannot be carried out here", code(model, *refused)))
+            .why("the modes in effect do not allow it"),
+        Fault::NotNow(refused, Some(active)) if refused == active => {
+            Words::new(format!("{} is in effect already", code(model, *refused)))
+        }
+        Fault::NotNow(refused, Some(active)) => {
+            let words =
+                Words::new(format!("{} cannot be carried out while {} is in effect", code(model, *refused), code(model, *active)));
+            match ends(model, *active) {
+                Some(end) => words.help(format!("end it first, with `{end}`")),
+                None => words,
+            }
+        }
+        Fault::Malformed => Words::new("the control cannot read this block")
+            .help("`gcheck check` says what is wrong with its form"),
+        Fault::Conflict => Words::new("two codes of this block cannot stand together")
+            .why("they belong to one modal group, or both use the same words")
+            .help("put one of them on a block of its own"),
+
+        Fault::NoFeed => Words::new("a cut without a feed rate")
+            .why("no `F` was given since the program began, or the last change of the feed mode cleared it")
+            .help("give `F` on this block or before it"),
+        Fault::NoInverseTimeFeed => Words::new("inverse-time feed, and the block has no `F`")
+            .why("in inverse time `F` is the time of one move, so that every cutting block needs its own")
+            .help("give `F` on this block"),
+        Fault::SpindleStopped => Words::new("this needs a turning spindle, and it stands still")
+            .help("start the spindle first: `S` with `M3` or `M4`"),
+        Fault::SpindleDirection => Words::new("the spindle turns the wrong way for this cycle"),
+        Fault::NoSuchAxis(letter) => Words::new(format!("the machine has no axis `{letter}`"))
+            .help("`[machine] axes` in gcheck.toml says which axes it has"),
+        Fault::NoMotionMode => Words::new("axis words, and no code says how to move")
+            .why("no motion code is in effect: none was given, or `G80` ended it")
+            .help("write `G0`, `G1`, `G2` or `G3` on this block"),
+        Fault::NoAxisWords => Words::new("the code needs axis words, and the block has none"),
+        Fault::Arc(arc) => of_arc(arc, units),
+        Fault::Cycle(cycle) => of_cycle(*cycle),
+        Fault::Compensation(compensation) => of_compensation(compensation, units),
+        Fault::NoSuchTool(tool) => Words::new(format!("the tool table has no tool {tool}"))
+            .help("add it to the tool table, or to `[tools]` in gcheck.toml"),
+        Fault::NoToolSelected => Words::new("a tool change, and no tool was called for")
+            .help("give the tool before or beside the change: `T1 M6`"),
+        Fault::Probe => Words::new("the probing move cannot start")
+            .why("it needs a feed, a way to go, and neither cutter compensation nor inverse-time feed"),
+        Fault::NoDwellTime => Words::new("a dwell without its time").help("say how long: `P` with the dwell"),
+        Fault::Profile => Words::new("the profile of this cycle is not found, or cannot be cut")
+            .why("the blocks from `P` to `Q` must stand in this program and go in one direction"),
+        Fault::OverTravel(letter) => Words::new(format!("`{letter}` would leave the travel of the machine"))
+            .why("the end point lies outside `travel` of `[machine]` in gcheck.toml"),
+        Fault::NoSavedModes => {
+            Words::new("modes are to be restored, and none were saved").help("save them before, with `M70`")
+        }
+
+        Fault::NoSuchLabel(number) => Words::new(format!("the program has no block `N{number}` to jump to")),
+        Fault::NoSuchProgram => Words::new("the called program is not found")
+            .help("it may stand in the folder of the program, or in one of `[search] paths` of gcheck.toml"),
+        Fault::TooDeep => Words::new("calls are nested deeper than the control allows")
+            .why("a program that calls itself without an end does this"),
+        Fault::LoopMismatch => Words::new("the other end of this loop or condition is not found"),
+        Fault::StrayReturn => Words::new("a return, and nothing was called"),
+        Fault::NoProgramEnd => {
+            Words::new("the program ends without an end of program").help("write `M2` or `M30` at its end, or `%` around it")
+        }
+        Fault::Alarm(number) => alarm(*number, None),
+    }
+}
+
+/// `#3000`: the alarm that a program raises itself, with the text it gives.
+pub(crate) fn alarm(number: i64, text: Option<&str>) -> Words {
+    let text = text.map(|text| format!(": {text}")).unwrap_or_default();
+    Words::new(format!("the program raises alarm {number} itself{text}"))
+        .why("it assigns to `#3000`, which stops the machine")
+}
+
+/// More blocks than allowed.
+pub(crate) fn out_of_fuel(blocks: u64) -> Words {
+    let blocks = if blocks == 1 { "1 block".to_owned() } else { format!("{blocks} blocks") };
+    Words::new(format!("the program had not ended after {blocks}; here gcheck stopped executing it"))
+        .why("a loop may never end")
+        .help("`--fuel BLOCKS` allows more")
+}
+
+fn of_value(fault: ValueFault) -> Words {
+    match fault {
+        ValueFault::DivisionByZero => {
+            Words::new("division by zero").help("make sure that the divisor is not zero before this block")
+        }
+        ValueFault::NegativeRoot => Words::new("the square root of a negative number"),
+        ValueFault::LogarithmOfNonPositive => Words::new("the logarithm of zero or of a negative number"),
+        ValueFault::ArcFunctionRange => Words::new("`ASIN` and `ACOS` take numbers from -1 to 1"),
+        ValueFault::NegativePower => Words::new("a negative number to a power that is not whole"),
+        ValueFault::NotFinite => Words::new("the result is too large for the control"),
+        ValueFault::Malformed => Words::new("the expression is not well formed")
+            .help("`gcheck check` says what is wrong with its form"),
+        ValueFault::NoSuchFunction => {
+            Words::new("the control does not have this function, or takes other arguments with it")
+        }
+    }
+}
+
+fn of_arc(fault: &ArcFault, units: Units) -> Words {
+    match *fault {
+        ArcFault::NoCentre => Words::new("an arc without centre and radius")
+            .help("give the centre (`I`, `J`, `K`, those of the plane) or the radius (`R`)"),
+        ArcFault::CentreAndRadius => Words::new("an arc with both centre and radius").help("take `R` or the centre away"),
+        ArcFault::WrongPlane(letter) => Words::new(format!("`{letter}` belongs to an arc of another plane"))
+            .why("`G17` takes `I` and `J`, `G18` `I` and `K`, `G19` `J` and `K`"),
+        ArcFault::ZeroRadius => Words::new("the radius of the arc is zero")
+            .why("the centre is the start point, or `R` is zero"),
+        ArcFault::RadiusTooSmall { half_chord, radius } => Words::new("the radius is too small to reach the end point")
+            .why(format!(
+                "the radius is {}, and half the way from start to end is {}",
+                length(radius, units),
+                length(half_chord, units)
+            )),
+        ArcFault::OffCircle { start, end } => Words::new("the end point is not on the circle of the start point").why(format!(
+            "it lies {} from the centre, and the start {}",
+            length(end, units),
+            length(start, units)
+        )),
+        ArcFault::FullCircleByRadius => Words::new("a full circle by its radius")
+            .why("start and end are one point, so that `R` does not say where the centre lies")
+            .help("give the centre (`I`, `J`, `K`)"),
+        ArcFault::Turns => Words::new("`P` of an arc is its number of turns, a whole number from 1"),
+    }
+}
+
+fn of_cycle(fault: CycleFault) -> Words {
+    match fault {
+        CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
+            .why("it stands neither in this block nor in an earlier one of the cycle"),
+        CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the bottom of the hole"),
+        CycleFault::NotPositive(letter) => Words::new(format!("`{letter}` of the canned cycle must be above zero")),
+        CycleFault::ZeroRepeats => Words::new("the canned cycle is repeated `L0` times"),
+        CycleFault::Rotary => Words::new("rotary axes cannot move in a canned cycle"),
+        CycleFault::InverseTime => Words::new("a canned cycle cannot run with inverse-time feed")
+            .help("go back to feed per minute (`G94`) before it"),
+        CycleFault::Compensated => Words::new("a canned cycle cannot run while cutter compensation is on")
+            .help("end compensation (`G40`) before it"),
+        CycleFault::Plane => Words::new("the canned cycle does not run in this plane"),
+        CycleFault::Geometry => Words::new("the words of the cycle contradict each other"),
+    }
+}
+
+fn of_compensation(fault: &CompensationFault, units: Units) -> Words {
+    match *fault {
+        CompensationFault::EntryTooShort { needed, got } => {
+            Words::new("the move that switches cutter compensation on is too short")
+                .why(format!("it is {} long, and the radius is {}", length(got, units), length(needed, units)))
+                .help("start compensation on a longer straight move, away from the contour")
+        }
+        CompensationFault::EntryIsArc => Words::new("cutter compensation cannot begin on an arc")
+            .help("switch it on with a straight move"),
+        CompensationFault::ExitIsArc => {
+            Words::new("cutter compensation cannot end on an arc").help("switch it off with a straight move")
+        }
+        CompensationFault::Gouge => Words::new("the cutter does not fit into the contour")
+            .why("with its radius it would cut into a part of the contour that comes before or after")
+            .help("take a smaller cutter, or open the corner"),
+        CompensationFault::Plane => Words::new("cutter compensation does not work in this plane"),
+        CompensationFault::NotWhileOn => Words::new("this cannot be done while cutter compensation is on")
+            .help("end compensation (`G40`) before it"),
+        CompensationFault::AlreadyOn => Words::new("cutter compensation is on already")
+            .help("end it (`G40`) before switching it on again"),
+    }
+}
+
+/// A code as people name it.
+fn code(model: &Model<'_>, ix: CodeIx) -> String {
+    match model.control().code_at(ix) {
+        Some(code) => format!("`{}` ({})", code.entry().code, code.entry().title),
+        None => "this code".to_owned(),
+    }
+}
+
+/// The code that ends a mode: by its own entry, else the other side of its switch.
+fn ends(model: &Model<'_>, active: CodeIx) -> Option<String> {
+    use gcheck_controls::Effect as E;
+    let entry = model.control().code_at(active)?.entry();
+    if let Some(code) = entry.cancelled_by.iter().find(|code| !code.starts_with('@')) {
+        return Some(code.clone());
+    }
+    let off = match model.role(active)? {
+        Role::Compensation => E::CompensationOff,
+        Role::Cycle => E::CycleCancel,
+        Role::Length => E::LengthOff,
+        Role::Scaling => E::ScalingOff,
+        Role::Rotation => E::RotationOff,
+        Role::Mirror => E::MirrorOff,
+        Role::Polar => E::PolarOff,
+        Role::TiltedPlane => E::TiltedPlaneOff,
+        Role::DynamicOffset => E::DynamicOffsetOff,
+        Role::FeedMode => E::FeedPerMinute,
+        Role::SpindleMode => E::ConstantSpeed,
+        _ => return None,
+    };
+    let found = model.control().codes().find(|code| code.effect() == off)?;
+    (model.control().code_ix(found.number()) != active).then(|| found.entry().code.clone())
+}
+
+/// A length in the units of the program.
+fn length(mm: f64, units: Units) -> String {
+    let (value, decimals, unit) = match units {
+        Units::Inch => (mm / 25.4, 4, "inch"),
+        Units::Mm => (mm, 3, "mm"),
+    };
+    let text = format!("{value:.decimals$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    format!("{text} {unit}")
+}
+
+/// The word of the block that a fault is about, if it is about one.
+pub(crate) fn culprit(fault: &Fault) -> Option<Culprit> {
+    Some(match fault {
+        Fault::MissingValue(letter)
+        | Fault::WordRange(letter)
+        | Fault::NoSuchAxis(letter)
+        | Fault::OverTravel(letter)
+        | Fault::Arc(ArcFault::WrongPlane(letter))
+        | Fault::Cycle(CycleFault::NotPositive(letter)) => Culprit::Letter(*letter),
+        Fault::Arc(ArcFault::Turns) => Culprit::Letter(Letter::of('P')),
+        Fault::Arc(ArcFault::RadiusTooSmall { .. } | ArcFault::FullCircleByRadius) => Culprit::Letter(Letter::of('R')),
+        Fault::NoSuchTool(_) => Culprit::Letter(Letter::of('T')),
+        Fault::NotNow(code, _) => Culprit::Code(*code),
+        Fault::UnknownCode => Culprit::UnknownCode,
+        _ => return None,
+    })
+}
+
+/// A word of a block.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Culprit {
+    /// The last with this address.
+    Letter(Letter),
+    /// The one that names this code.
+    Code(CodeIx),
+    /// The first `G` or `M` that names no code.
+    UnknownCode,
+}
