@@ -599,6 +599,17 @@ pub enum SystemValue {
     FloodOn,
     CompensationOn,
     CallLevel,
+    /// 1 while the code `of` is in effect.
+    CodeActive,
+    FeedOverrideOn,
+    SpeedOverrideOn,
+    AdaptiveFeedOn,
+    FeedStopOn,
+    LengthOffsetOn,
+    /// The line of the block in its file, from 1.
+    LineNumber,
+    /// The number `of`.
+    Constant,
     /// An alarm: the program ends with the block's comment.
     Alarm,
     /// A stop with a message; the program goes on after cycle start.

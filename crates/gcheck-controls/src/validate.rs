@@ -379,6 +379,11 @@ impl Problems<'_> {
             | V::Shift
             | V::Reference1
             | V::Reference2 => of.is_none_or(by_axis),
+            V::CodeActive => {
+                let code = of.and_then(CodeNumber::parse);
+                code.is_some_and(|number| self.control.code(number).is_some())
+            }
+            V::Constant => of.is_some_and(|text| text.parse::<f64>().is_ok()),
             _ => of.is_none(),
         };
         if !right {

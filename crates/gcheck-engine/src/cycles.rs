@@ -25,7 +25,8 @@ pub use pockets::{CircularPocket, GeneralPocket, PocketPlan, circular_pocket, ge
 pub use profile::{ProfileFault, ProfileSegment};
 pub use roughing::{PatternRepeat, Roughing, RoughingDirection, finish_profile, pattern_repeat, roughing};
 pub use turning::{
-    Grooving, InFeed, TaperEnds, TaperedThread, ThreadHeights, box_pass, grooving, multi_pass_thread, tapered_thread,
+    Grooving, InFeed, TaperEnds, TaperedThread, ThreadHeights, box_pass, grooving, multi_pass_thread,
+    tapered_thread,
 };
 
 /// Most strokes that one block may give. A peck of a micrometre in a hole of a hundred millimetres would give as many.
@@ -201,9 +202,12 @@ mod test_support {
             let name = name.split_once(' ').map_or(name.as_str(), |(name, _)| name);
             match stroke {
                 Stroke::Arc { centre: (cz, cx), turns, .. } => {
-                    writeln!(text, "arc z{} x{} about z{} x{} turns {turns}", n(z), n(x), n(cz), n(cx)).unwrap();
+                    writeln!(text, "arc z{} x{} about z{} x{} turns {turns}", n(z), n(x), n(cz), n(cx))
+                        .unwrap();
                 }
-                Stroke::Thread { lead, .. } => writeln!(text, "thread z{} x{} lead {}", n(z), n(x), n(lead)).unwrap(),
+                Stroke::Thread { lead, .. } => {
+                    writeln!(text, "thread z{} x{} lead {}", n(z), n(x), n(lead)).unwrap();
+                }
                 Stroke::Rapid(_) | Stroke::Feed(_) => writeln!(text, "{name} z{} x{}", n(z), n(x)).unwrap(),
                 _ => writeln!(text, "{}", line(stroke)).unwrap(),
             }

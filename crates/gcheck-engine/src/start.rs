@@ -10,7 +10,7 @@ use gcheck_geometry::Mm;
 
 use crate::assumption::Assumption;
 use crate::event::{Spindle, Units};
-use crate::machine::{Machine, WorkOffset};
+use crate::machine::{Machine, Tool, WorkOffset};
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
@@ -60,6 +60,7 @@ pub(crate) fn start_state<D: Domain>(
             gcheck_controls::Effect::WorkOffset(number) => Some(number),
             _ => None,
         }),
+        in_effect: WorkOffset::UNKNOWN,
         shift: Position::ZERO,
         shift_on: true,
         local: Position::ZERO,
@@ -79,6 +80,15 @@ pub(crate) fn start_state<D: Domain>(
         feed_hold: Truth::False,
         tool: if machine.fresh { D::number(0.0) } else { D::unknown() },
         selected: if machine.fresh { D::number(0.0) } else { D::unknown() },
+        loaded: Tool {
+            pocket: 0,
+            offset: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
+            diameter: if machine.fresh { Mm(0.0) } else { Mm::UNKNOWN },
+            corner_radius: Mm::UNKNOWN,
+            angles: [0.0; 2],
+            orientation: 0,
+        },
+        loaded_row: 1,
         cycle: CycleWords::NONE,
         turning: None,
         transform: Transform::NONE,
@@ -104,6 +114,7 @@ pub(crate) fn start_state<D: Domain>(
         left_compensation: None,
         nurbs: None,
     };
+    state.in_effect = state.work.map_or(WorkOffset::UNKNOWN, |number| state.tables.offset(number));
     for (number, value) in &machine.variables {
         let [first, last] = model.semantics().locals;
         if (first..=last).contains(number)
@@ -130,6 +141,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     tables.unsure = true;
     state.tables = Rc::new(tables);
     state.work = None;
+    state.in_effect = WorkOffset::UNKNOWN;
     state.shift = Position::UNKNOWN;
     state.local = Position::UNKNOWN;
     state.length = Position::UNKNOWN;
@@ -144,6 +156,8 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.flood = Truth::Unknown;
     state.tool = D::unknown();
     state.selected = D::unknown();
+    state.loaded.offset = Position::UNKNOWN;
+    state.loaded.diameter = Mm::UNKNOWN;
     state.transform.angle = f64::NAN;
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;

@@ -245,6 +245,8 @@ pub struct State<D: Domain> {
     pub(crate) tables: Rc<Tables>,
     /// Number of the active work coordinate system, 1 the first; `None` unknown.
     pub(crate) work: Option<u16>,
+    /// The active work coordinate system as it came into effect: a table written later counts when it is chosen again.
+    pub(crate) in_effect: WorkOffset,
     /// `G92`; also `G52` where they are one.
     pub(crate) shift: Position,
     /// The shift counts (`G92.2` suspends it).
@@ -273,6 +275,10 @@ pub struct State<D: Domain> {
     pub(crate) tool: D::Value,
     /// The tool called for.
     pub(crate) selected: D::Value,
+    /// Data of the tool as it was loaded: what compensation by "the tool in the spindle" reads, and its row in the table
+    /// (1 for the first).
+    pub(crate) loaded: crate::machine::Tool,
+    pub(crate) loaded_row: u32,
     pub(crate) cycle: CycleWords,
     /// Words of turning cycles; none before the first one.
     pub(crate) turning: Option<Rc<TurningWords>>,
@@ -478,6 +484,12 @@ impl<D: Domain> State<D> {
         &self.frames
     }
 
+    /// A local variable as the program under way sees it; `None` for a number that is no local.
+    pub fn local(&self, number: u32) -> Option<&D::Value> {
+        let locals = self.frames.iter().rev().find_map(|frame| frame.locals.as_ref())?;
+        if number == 0 { None } else { locals.get(number) }
+    }
+
     /// The variables.
     pub fn variables(&self) -> &Variables<D> {
         &self.variables
@@ -550,7 +562,7 @@ impl<D: Domain> State<D> {
 
     /// The active offset, rotation included.
     pub fn work_offset(&self) -> WorkOffset {
-        self.work.map_or(WorkOffset::UNKNOWN, |number| self.tables.offset(number))
+        self.in_effect
     }
 
     /// From work coordinates to machine coordinates.
@@ -579,6 +591,8 @@ impl<D: Domain> State<D> {
         joined.actual = self.actual.join(&other.actual);
         joined.tables = join_tables(&self.tables, &other.tables);
         joined.work = if self.work == other.work { self.work } else { None };
+        joined.in_effect.origin = self.in_effect.origin.join(&other.in_effect.origin);
+        joined.in_effect.rotation = number(self.in_effect.rotation, other.in_effect.rotation);
         joined.shift = self.shift.join(&other.shift);
         if self.shift_on != other.shift_on {
             joined.shift_on = true;
@@ -601,6 +615,10 @@ impl<D: Domain> State<D> {
         joined.feed_hold = truth(self.feed_hold, other.feed_hold);
         joined.tool = value(&self.tool, &other.tool);
         joined.selected = value(&self.selected, &other.selected);
+        if self.loaded != other.loaded {
+            joined.loaded.offset = self.loaded.offset.join(&other.loaded.offset);
+            joined.loaded.diameter = Mm::UNKNOWN;
+        }
         joined.cycle = self.cycle.join(&other.cycle);
         if self.turning != other.turning {
             joined.turning = Some(Rc::new(self.turning().join(&other.turning())));
@@ -671,6 +689,8 @@ impl<D: Domain> PartialEq for State<D> {
             && self.actual == other.actual
             && (Rc::ptr_eq(&self.tables, &other.tables) || self.tables == other.tables)
             && self.work == other.work
+            && self.in_effect.origin == other.in_effect.origin
+            && self.in_effect.rotation.to_bits() == other.in_effect.rotation.to_bits()
             && self.shift == other.shift
             && self.shift_on == other.shift_on
             && self.local == other.local
@@ -686,6 +706,9 @@ impl<D: Domain> PartialEq for State<D> {
                 == (other.feed_override, other.speed_override, other.adaptive, other.feed_hold)
             && self.tool == other.tool
             && self.selected == other.selected
+            && self.loaded.offset == other.loaded.offset
+            && self.loaded.diameter.0.to_bits() == other.loaded.diameter.0.to_bits()
+            && self.loaded_row == other.loaded_row
             && self.cycle.bits() == other.cycle.bits()
             && self.turning == other.turning
             && format_bits(&self.transform) == format_bits(&other.transform)

@@ -110,6 +110,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     flow: Option<Flow<D>>,
     /// `G53`, `G9` and the like: what holds for this block only.
     machine_coordinates: bool,
+    /// The operation under way passes its points exactly though blending is on.
+    passes_exactly: bool,
     /// The last `RETURN` or `ENDSUB` gave a value.
     returned: bool,
     /// Assignments that wait for the end of the block.
@@ -176,6 +178,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             },
             flow: None,
             machine_coordinates: false,
+            passes_exactly: false,
             returned: false,
             pending: Vec::new(),
         }
@@ -298,7 +301,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn emit(&mut self, state: &mut State<D>, event: Event) {
         let at_once = matches!(
             event,
-            Event::SelectTool(_) | Event::ToolTableEntry(_) | Event::SetToolNumber(_) | Event::Message(_)
+            Event::SelectTool(_)
+                | Event::ToolTableEntry(_)
+                | Event::SetToolNumber(_)
+                | Event::Message(_)
+                | Event::Units(_)
         );
         if state.compensation.is_some() && !at_once {
             self.emit_compensated(state, event);
@@ -390,7 +397,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let codes = self.words.codes();
         // A block that only moves: nothing to put in order.
         if codes.is_empty() && !present.intersects(LetterSet::of("FST")) {
-            return if present.intersects(self.model.axis_letters) || present.intersects(BARE_MOTION) {
+            return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) {
                 self.motion(state)
             } else {
                 Ok(())
@@ -404,7 +411,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 count += 1;
             }
         };
-        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(BARE_MOTION);
+        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR);
         let mut taken = false;
         let mut macro_call = false;
         for ix in codes {
@@ -421,7 +428,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 _ => {}
             }
-            taken |= code.takes_axes;
+            taken |= code.takes_axes || owns_axes(code.effect);
             let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
             moves |= is_motion && code.effect != Effect::CycleCancel;
             add(if is_motion { self.model.motion_rank } else { code.rank }, Action::Code(*ix));
@@ -496,8 +503,18 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
         let semantics = self.model.semantics();
         let bottom = self.stack.len();
-        for op in ops {
+        for (index, op) in ops.iter().enumerate() {
             let result = match op {
+                // `EXISTS[#<name>]` asks whether reading it would be a fault.
+                Op::Named { .. } | Op::Variable(_)
+                    if matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _))) =>
+                {
+                    let exists = match op {
+                        Op::Named { start, end } => self.read_named(place, (*start, *end), state).is_ok(),
+                        _ => true,
+                    };
+                    Ok(D::number(f64::from(u8::from(exists))))
+                }
                 Op::Number(number) => Ok(D::number(*number)),
                 Op::Variable(number) => self.read_variable(*number, state),
                 Op::Named { start, end } => self.read_named(place, (*start, *end), state),
@@ -514,10 +531,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let left = self.stack.pop().unwrap_or_else(D::unknown);
                     D::binary(*op, &left, &right, semantics).map_err(Fault::Value)
                 }
-                Op::Call(Function::Exists, _) => {
-                    self.stack.pop();
-                    self.exists(place, ops, state)
-                }
+                Op::Call(Function::Exists, _) => Ok(self.stack.pop().unwrap_or_else(D::unknown)),
                 Op::Call(function, count) => {
                     let from = self.stack.len().saturating_sub(usize::from(*count)).max(bottom);
                     let result = D::call(*function, self.stack.get(from..).unwrap_or_default(), semantics);
@@ -536,16 +550,6 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let value = self.stack.pop().unwrap_or_else(D::unknown);
         self.stack.truncate(bottom);
         Ok(value)
-    }
-
-    /// `EXISTS[#<name>]`: the name is the last one read. Reading an unset name for it is no fault, so it is asked of the table.
-    fn exists(&mut self, place: &Place, ops: &[Op], state: &State<D>) -> Step<D::Value> {
-        let named = ops.iter().rev().find_map(|op| match op {
-            Op::Named { start, end } => Some((*start, *end)),
-            _ => None,
-        });
-        let Some(range) = named else { return Ok(D::unknown()) };
-        Ok(D::number(if self.read_named(place, range, state).is_ok() { 1.0 } else { 0.0 }))
     }
 
     fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {
@@ -850,8 +854,13 @@ enum Action {
 /// Codes of a block, and `F`, `S`, `T` and the motion.
 const MOST_ACTIONS: usize = 28;
 
-/// Words that make a block move without an axis word: a centre of a full circle, polar words.
-const BARE_MOTION: LetterSet = LetterSet::of("@^");
+/// Polar words: distance and angle from the origin.
+pub(crate) const POLAR: LetterSet = {
+    let mut letters = LetterSet::EMPTY;
+    letters.insert(Letter::AT);
+    letters.insert(Letter::CARET);
+    letters
+};
 
 fn variable_number(number: f64) -> Step<u32> {
     let whole = number.round();
@@ -886,6 +895,47 @@ fn opposite(op: BinaryOp) -> Option<BinaryOp> {
         BinaryOp::LessEqual => BinaryOp::Greater,
         _ => return None,
     })
+}
+
+/// Axis words belong to the operation, not to the motion mode.
+fn owns_axes(effect: Effect) -> bool {
+    use Effect as E;
+    matches!(
+        effect,
+        E::ThreadCycle
+            | E::FinishProfile
+            | E::RoughAlongZ
+            | E::RoughAlongX
+            | E::RepeatPattern
+            | E::GrooveFace
+            | E::GrooveDiameter
+            | E::CircularPocketClockwise
+            | E::CircularPocketCounterClockwise
+            | E::GeneralPocket
+            | E::BoltCircle
+            | E::BoltArc
+            | E::BoltLine
+            | E::Engrave
+            | E::BarFeed
+            | E::Skip
+            | E::ProbeDiameter
+            | E::ProbeLength
+            | E::ProbeOffset
+            | E::ProbeCentre
+            | E::ReturnReference(_)
+            | E::ReturnFromReference
+            | E::StoreReference(_)
+            | E::WriteOffsets
+            | E::LocalShift
+            | E::SetPosition
+            | E::ScalingOn
+            | E::RotationOn
+            | E::MirrorOn
+            | E::MirrorOff
+            | E::CylinderMapping
+            | E::MacroCall
+            | E::MacroModal
+    )
 }
 
 /// How numbers without decimal point count on this machine.

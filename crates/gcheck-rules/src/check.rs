@@ -203,7 +203,7 @@ fn check_paths(
     let model = Model::new(job.scene.control());
     let program = Program::new(loaded, job.scene.dialect, &library);
     let mut add = |severity: Option<Severity>, finding: Finding| collector.add(severity, finding);
-    let mut watchers = Watchers::new(job.scene, &program, &model, &plan.path, &mut add);
+    let mut watchers = Watchers::new(job.scene, &program, &model, survey, &plan.path, &mut add);
     let machine = &job.scene.machine.engine;
     let mut results = Vec::new();
     for skip in switch_positions(job.execution.block_skip, survey.block_deletes) {

@@ -4,6 +4,8 @@
 //!
 //! A rule is one file under `rules/<group>/`; `cargo xtask new-rule` scaffolds it and [`all`] lists them.
 
+mod assumptions;
+mod boundary;
 mod check;
 mod context;
 mod contract;
@@ -19,7 +21,9 @@ mod selection;
 mod suppression;
 #[cfg(test)]
 mod testing;
+mod usage;
 
+pub use assumptions::{Described, describe, describe_all, pins, work_offset_name};
 pub use check::{Execution, Job, MAX_FINDINGS, Outcome, check};
 pub use context::{
     BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit,

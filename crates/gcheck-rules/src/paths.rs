@@ -11,7 +11,7 @@ use gcheck_engine::{
     Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind, Library,
     Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
 };
-use gcheck_program::{Place, Word};
+use gcheck_program::{Place, Survey, Word};
 
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
@@ -104,6 +104,8 @@ pub struct PathCx<'a> {
     pub program: &'a Program<'a>,
     /// The control, prepared for execution.
     pub model: &'a Model<'a>,
+    /// What the main file holds, without regard to paths.
+    pub survey: &'a Survey,
     flow: &'a FlowCx<'a>,
 }
 
@@ -164,7 +166,8 @@ impl<'a> PathCx<'a> {
         self.word_range(|word| word.code.is_some() && is(self.model.effect(word.code)))
     }
 
-    fn find_word(&self, at: At, is: impl Fn(&Word) -> bool) -> Option<Range<u32>> {
+    /// Bytes of the first word of a block of the main file that `is` says yes to.
+    pub fn find_word(&self, at: At, is: impl Fn(&Word) -> bool) -> Option<Range<u32>> {
         let place = self.place_of(at).filter(|_| at.file == 0)?;
         let word = place.table.words(place.block()).iter().find(|word| is(word))?;
         Some(place.base + word.range().start..place.base + word.range().end)
@@ -265,6 +268,8 @@ pub struct FinishCx<'a> {
     pub program: &'a Program<'a>,
     /// The control, prepared for execution.
     pub model: &'a Model<'a>,
+    /// What the main file holds, without regard to paths.
+    pub survey: &'a Survey,
     /// Reachability and assumptions.
     pub result: &'a FlowResult,
     /// Analyses with other positions of the block delete switch.
@@ -297,6 +302,7 @@ pub(crate) struct Watchers<'a, 'c> {
     scene: Scene<'a>,
     program: &'a Program<'a>,
     model: &'a Model<'a>,
+    survey: &'a Survey,
     rules: Vec<Active>,
     /// By bit of [`Watch`]: indices of the rules that watch it.
     lists: [Vec<usize>; 10],
@@ -312,6 +318,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
         scene: Scene<'a>,
         program: &'a Program<'a>,
         model: &'a Model<'a>,
+        survey: &'a Survey,
         rules: &[(&'static RuleEntry, Option<Severity>)],
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
@@ -326,7 +333,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             }
             active.push(Active { entry, severity: *severity, rule: make() });
         }
-        Self { scene, program, model, rules: active, lists, add, made: HashSet::new(), changed: true }
+        Self { scene, program, model, survey, rules: active, lists, add, made: HashSet::new(), changed: true }
     }
 
     /// Does any rule watch?
@@ -346,7 +353,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
 
     /// All paths were seen.
     pub(crate) fn finish(&mut self, result: &FlowResult, others: &[FlowResult]) {
-        let cx = FinishCx { scene: self.scene, program: self.program, model: self.model, result, others };
+        let cx = FinishCx { scene: self.scene, program: self.program, model: self.model, survey: self.survey, result, others };
         self.each(Watch::FINISH, |rule, report| rule.finish(&cx, report));
     }
 
@@ -375,8 +382,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         if flow.origin.at.file != 0 || !self.watches(watch) {
             return;
         }
-        let (scene, program, model) = (self.scene, self.program, self.model);
-        let cx = PathCx { scene, program, model, flow };
+        let (scene, program, model, survey) = (self.scene, self.program, self.model, self.survey);
+        let cx = PathCx { scene, program, model, survey, flow };
         self.each(watch, |rule, report| call(rule, &cx, report));
     }
 }

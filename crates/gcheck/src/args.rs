@@ -8,6 +8,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use gcheck_report::Format;
 use gcheck_rules::Severity;
 
+/// Blocks that may be executed when nobody says otherwise.
+const FUEL: u64 = 50_000_000;
+
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
 #[command(name = "gcheck", version, max_term_width = 100)]
@@ -118,6 +121,15 @@ pub struct CheckOptions {
     /// Let no comment silence a rule
     #[arg(long)]
     pub no_suppressions: bool,
+    /// A variable's value before programs start: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
+    pub set: Vec<Assignment>,
+    /// The block delete switch: whether blocks with `/` are skipped; every position is looked at without it
+    #[arg(long, value_enum, value_name = "on|off")]
+    pub block_skip: Option<Switch>,
+    /// Blocks of a program that may be executed
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    pub fuel: u64,
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
@@ -174,7 +186,7 @@ pub struct ExecutionOptions {
     #[arg(long, value_enum, value_name = "on|off", default_value_t)]
     pub optional_stop: Switch,
     /// Blocks that may be executed
-    #[arg(long, value_name = "BLOCKS", default_value_t = 50_000_000)]
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
     pub fuel: u64,
 }
 

@@ -12,16 +12,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use gcheck_controls::Control;
-use gcheck_engine::{Axis, Library, Model, Options, Program, Role, RunResult, SourceFile, Stopped};
+use gcheck_engine::{Axis, Model, Options, Program, Role, RunResult, Stopped};
 use gcheck_program::{Dialect, Loaded};
 use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
 use gcheck_toolpath::View;
 
 pub(crate) use bridge::Steps;
-pub(crate) use closing::{assumptions, control_line, end_of_run, say};
-pub(crate) use equipment::Equipment;
-pub(crate) use tool_names::ToolNames;
+pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, say};
+pub(crate) use equipment::{Equipment, Start};
 
 use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
@@ -30,6 +29,7 @@ use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, paths, reading};
 use bridge::Bridge;
 use equipment::{AxesMoved, AxesSeen};
+use tool_names::ToolNames;
 
 /// Standard input as a file name.
 const STANDARD_INPUT: &str = "-";
@@ -70,7 +70,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
-    let mut equipment = Equipment::new(&settings, &control)?;
+    let mut equipment = Equipment::new(&settings, &control, Start::Fresh)?;
     equipment.set(&options.set);
     Ok(Prepared {
         shown: paths::shown(&path),
@@ -91,6 +91,7 @@ pub(crate) struct Session<'s> {
     pub(crate) program: &'s Program<'s>,
     pub(crate) model: &'s Model<'s>,
     axes: &'s AxesSeen<'s>,
+    tools: &'s ToolNames<'s>,
 }
 
 impl Prepared {
@@ -99,46 +100,15 @@ impl Prepared {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
         let folders = ProgramFolders::default();
-        let own = self.path.parent().map(PathBuf::from).unwrap_or_default();
-        let library = OtherFiles {
-            main: paths::absolute(&self.path),
-            reachable: Reachable {
-                folders: &folders,
-                paths: std::iter::once(own).chain(self.search.iter().cloned()).collect(),
-            },
-        };
+        let library = Reachable::new(&folders, &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
-        let loaded = Loaded::new(self.source.text(), &dialect, |_, table, _| axes.look(table));
+        let mut tools = ToolNames::new(&model);
+        let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {
+            axes.look(table);
+            tools.look(table, text);
+        });
         let program = Program::new(loaded, &dialect, &library);
-        with(&Session { prepared: self, program: &program, model: &model, axes: &axes })
-    }
-}
-
-/// Files that a run may call into.
-struct OtherFiles<'f> {
-    reachable: Reachable<'f>,
-    /// The main program's file, which is loaded already: what it lacks is not in it.
-    main: PathBuf,
-}
-
-impl Library for OtherFiles<'_> {
-    fn by_number(&self, number: u32) -> Option<SourceFile> {
-        self.source(self.reachable.file_by_number(number)?)
-    }
-
-    fn by_name(&self, name: &str) -> Option<SourceFile> {
-        self.source(self.reachable.file_by_name(name)?)
-    }
-}
-
-impl OtherFiles<'_> {
-    /// A file that cannot be read is not there: the run says which program it lacks.
-    fn source(&self, path: PathBuf) -> Option<SourceFile> {
-        if path == self.main {
-            return None;
-        }
-        let text = reading::file(&path).ok()?.text().to_owned();
-        Some(SourceFile { name: paths::shown_from_here(&path).into(), text })
+        with(&Session { prepared: self, program: &program, model: &model, axes: &axes, tools: &tools })
     }
 }
 
@@ -169,6 +139,12 @@ impl Session<'_> {
             Ok((_, moved)) => self.view(&moved.and(&named)),
             Err(_) => self.all_axes(),
         }
+    }
+
+    /// What a tool is called: by the program, else by the tool table.
+    pub(crate) fn tool_name(&self, tool: u32) -> Option<String> {
+        let remark = || self.prepared.equipment.remarks.get(&tool).map(String::as_str);
+        self.tools.get(tool).or_else(remark).map(str::to_owned)
     }
 
     fn view(&self, axes: &[Axis]) -> View {

@@ -37,9 +37,7 @@ impl Words {
 pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),
-        Fault::Undecidable => Words::new("what happens next depends on a value that nobody told gcheck")
-            .why("a condition, a repeat count, a target or a code is computed from an unknown value")
-            .help("give the value: `--set '#100=2.5'`, or `[variables]`, `[offsets]`, `[tools]` in gcheck.toml"),
+        Fault::Undecidable => undecidable(&[]),
         Fault::UnsetParameter => Words::new("this named parameter was never set")
             .why("a named parameter has no value before the program gives it one")
             .help("assign it first, or give it for this run: `--set '#<name>=1'`"),
@@ -134,6 +132,21 @@ pub(crate) fn out_of_fuel(blocks: u64) -> Words {
     Words::new(format!("the program had not ended after {blocks}; here gcheck stopped executing it"))
         .why("a loop may never end")
         .help("`--fuel BLOCKS` allows more")
+}
+
+/// A way on that cannot be chosen; `variables` are those of the block that have no known value.
+pub(crate) fn undecidable(variables: &[u32]) -> Words {
+    let names: Vec<String> = variables.iter().map(|number| format!("`#{number}`")).collect();
+    let (what, example) = match (names.split_last(), variables.first()) {
+        (Some((last, [])), Some(first)) => (format!("{last}, and its value is not known"), *first),
+        (Some((last, others)), Some(first)) => {
+            (format!("{} and {last}, and their values are not known", others.join(", ")), *first)
+        }
+        _ => ("a value that nobody told gcheck".to_owned(), 100),
+    };
+    Words::new(format!("what happens next depends on {what}"))
+        .why("a condition, a repeat count, a target or a code is computed from it")
+        .help(format!("give the value: `--set '#{example}=1'`, or `[variables]`, `[offsets]`, `[tools]` in gcheck.toml"))
 }
 
 fn of_value(fault: ValueFault) -> Words {

@@ -9,10 +9,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use gcheck_engine::{Library, SourceFile};
 use gcheck_rules::Programs;
 
 use crate::discovery::is_program_name;
-use crate::paths;
+use crate::{paths, reading};
 
 /// Files of one folder that are looked into.
 const MAX_FILES: usize = 5_000;
@@ -38,9 +39,37 @@ struct Folder {
 
 /// The programs that one file can call.
 pub(crate) struct Reachable<'f> {
-    pub(crate) folders: &'f ProgramFolders,
+    folders: &'f ProgramFolders,
     /// The file's own folder, then those of the search path.
-    pub(crate) paths: Vec<PathBuf>,
+    paths: Vec<PathBuf>,
+    /// The file itself: what it lacks is not found by reading it once more.
+    main: PathBuf,
+}
+
+impl<'f> Reachable<'f> {
+    /// For the program at `path`, with the folders of its search path.
+    pub(crate) fn new(folders: &'f ProgramFolders, path: &Path, search: &[PathBuf]) -> Self {
+        let own = path.parent().map(PathBuf::from).unwrap_or_default();
+        let paths = std::iter::once(own).chain(search.iter().cloned()).collect();
+        Self { folders, paths, main: paths::absolute(path) }
+    }
+
+    /// A file that cannot be read is not there: who asks says which program is missing.
+    fn read(&self, path: &Path) -> Option<SourceFile> {
+        if path == self.main {
+            return None;
+        }
+        let text = reading::file(path).ok()?.text().to_owned();
+        Some(SourceFile { name: paths::shown_from_here(path).into(), text })
+    }
+
+    fn in_first_folder(&self, find: impl Fn(&Folder) -> Option<&PathBuf>) -> Option<SourceFile> {
+        self.paths.iter().find_map(|path| {
+            let folder = self.folders.of(path);
+            let found = find(&folder).cloned()?;
+            self.read(&found)
+        })
+    }
 }
 
 impl Programs for Reachable<'_> {
@@ -57,17 +86,23 @@ impl Programs for Reachable<'_> {
             folder.is_partial || folder.names.contains_key(name)
         })
     }
-}
 
-impl Reachable<'_> {
-    /// The file with the program of a number: the first folder that has one.
-    pub(crate) fn file_by_number(&self, number: u32) -> Option<PathBuf> {
-        self.paths.iter().find_map(|path| self.folders.of(path).numbers.get(&number).cloned())
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        self.by_number(number)
     }
 
-    /// The file with the subroutine of a name, lower case.
-    pub(crate) fn file_by_name(&self, name: &str) -> Option<PathBuf> {
-        self.paths.iter().find_map(|path| self.folders.of(path).names.get(name).cloned())
+    fn source_of_name(&self, name: &str) -> Option<SourceFile> {
+        self.by_name(name)
+    }
+}
+
+impl Library for Reachable<'_> {
+    fn by_number(&self, number: u32) -> Option<SourceFile> {
+        self.in_first_folder(|folder| folder.numbers.get(&number))
+    }
+
+    fn by_name(&self, name: &str) -> Option<SourceFile> {
+        self.in_first_folder(|folder| folder.names.get(name))
     }
 }
 

@@ -1,5 +1,7 @@
 //! The oracle suite: what we execute is what the installed LinuxCNC interpreter (`rs274`) executes.
 //!
+//! Knows: both command lines and the form they share. Must not know: how either of them executes anything.
+//!
 //! Both print the canonical machining functions of a program, one a line; [`canonical`] says when two outputs are equal:
 //! names, order and the `N` column exactly, numbers to 1e-4, comments and messages left out, and both end or both refuse.
 //! The installed interpreter decides, in all three parts:

@@ -16,7 +16,6 @@ use crate::fault::CycleFault;
 
 /// One hole of a canned cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "independent facts of a block")]
 pub struct Hole {
     /// The plane that the hole stands on.
     pub plane: Plane,
@@ -255,8 +254,8 @@ impl Tool<'_, '_> {
         while let Some(step) = peck.next() {
             depth += direction * step;
             since_r += step;
-            // Written so that an unknown number ends the loop.
-            if !((bottom - depth) * direction > 0.0) {
+            let left = (bottom - depth) * direction;
+            if left.is_nan() || left <= 0.0 {
                 break;
             }
             let level = from_program_units(depth, units);
@@ -498,7 +497,7 @@ mod tests {
         }
     }
 
-    fn check(rules: &CycleRules, effect: Effect, words: &Hole, from: [f64; 3], expected: Expect) {
+    fn check(rules: &CycleRules, effect: Effect, words: &Hole, from: [f64; 3], expected: &Expect) {
         expected.assert_eq(&shown(|out| hole(effect, words, from.map(Mm), rules, out).map(drop)));
     }
 
@@ -510,7 +509,7 @@ mod tests {
             Effect::CycleDrill,
             &at(0.0, 0.0, [3.0, 1.0, -2.5]),
             [1.0, 2.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 0 0 3
             rapid 0 0 1
@@ -529,7 +528,7 @@ mod tests {
             Effect::CycleDrill,
             &words,
             [5.0, 5.0, -3.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 5 5 -2
             exact path
             rapid 6 5 -2
@@ -543,7 +542,7 @@ mod tests {
             Effect::CycleDrill,
             &again,
             [6.0, 5.0, -2.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 6 5 -2
             feed 6 5 -5
             rapid 6 5 -2
@@ -560,7 +559,7 @@ mod tests {
             Effect::CycleDrill,
             &words,
             [0.0, 0.0, 1.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 5 0 2
             feed 5 0 0
@@ -572,7 +571,7 @@ mod tests {
             Effect::CycleDrill,
             &at(8.0, 0.0, [5.0, 3.0, 0.0]),
             [7.0, 0.0, 2.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 8 0 5
             rapid 8 0 3
@@ -591,7 +590,7 @@ mod tests {
             Effect::CycleDrill,
             &words,
             [11.0, 7.0, 11.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 11 7 7
             exact path
             rapid 18 7 7
@@ -608,7 +607,7 @@ mod tests {
             Effect::CycleDrill,
             &at(6.0, 5.0, [-3.0, -2.0, -5.0]),
             [5.0, 5.0, -3.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 6 5 -3
             rapid 6 5 -2
             feed 6 5 -5
@@ -626,7 +625,7 @@ mod tests {
             Effect::CycleDrill,
             &words,
             [1.0, 5.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 0 5 1
             rapid 0 1 1
@@ -640,7 +639,7 @@ mod tests {
             Effect::CyclePeck,
             &words,
             [-1.0, 0.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 2 0 3
             exact path
             rapid 2 5 5
@@ -662,7 +661,7 @@ mod tests {
             Effect::CyclePeck,
             &words,
             [2.0, 0.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 2 0 3
             rapid 2 0 1
@@ -695,7 +694,7 @@ mod tests {
             Effect::CycleChipBreak,
             &words,
             [0.0, 0.0, inch(3.0)],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 0 0 76.2
             rapid 0 0 25.4
@@ -719,7 +718,7 @@ mod tests {
             Effect::CyclePeck,
             &words,
             [0.0, 0.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 0 0 1
             feed 0 0 -1
             rapid 0 0 1
@@ -743,7 +742,7 @@ mod tests {
             Effect::CycleChipBreak,
             &words,
             [0.0, 0.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 0 0 0
             feed 0 0 -3
             rapid 0 0 -2.5
@@ -770,7 +769,7 @@ mod tests {
             Effect::CycleChipBreak,
             &words,
             [0.0, 0.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 0 0 0
             feed 0 0 -1
             rapid 0 0 -0.5
@@ -794,7 +793,7 @@ mod tests {
             Effect::CycleTap,
             &words,
             [1.0, 5.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 1 1 5
             rapid 1 1 2
@@ -817,7 +816,7 @@ mod tests {
             Effect::CycleTap,
             &off,
             [1.0, 5.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 1 1 5
             rapid 1 1 2
@@ -837,7 +836,7 @@ mod tests {
             Effect::CycleLeftTap,
             &words,
             [1.0, 5.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 1 1 5
             rapid 1 1 2
             spindle counter-clockwise
@@ -860,7 +859,7 @@ mod tests {
             Effect::CycleBoreFeedOut,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -874,7 +873,7 @@ mod tests {
             Effect::CycleBoreStop,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -890,7 +889,7 @@ mod tests {
             Effect::CycleBoreDwellManual,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -906,7 +905,7 @@ mod tests {
             Effect::CycleBoreDwell,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 2 1 5
             rapid 2 1 1
@@ -920,7 +919,7 @@ mod tests {
             Effect::CycleBoreDwell,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             rapid 2 1 5
             rapid 2 1 1
             feed 2 1 -2
@@ -941,7 +940,7 @@ mod tests {
             Effect::CycleBackBore,
             &words,
             [0.0, 0.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 1 1 3
             rapid 1 1 1
@@ -977,7 +976,7 @@ mod tests {
             Effect::CycleBackBore,
             &words,
             [1.0, 5.0, 3.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 6 5 3
             exact path
             rapid 6 0 7
@@ -1007,7 +1006,7 @@ mod tests {
             Effect::CycleBackBore,
             &words,
             [0.0, 0.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 1 1 5
             spindle stops
             orient
@@ -1035,7 +1034,7 @@ mod tests {
             Effect::CycleFineBore,
             &words,
             [1.0, 1.0, 5.0],
-            expect![[r#"
+            &expect![[r#"
             rapid 1 1 1
             feed 1 1 -3
             spindle stops
@@ -1052,31 +1051,31 @@ mod tests {
     fn what_cannot_be_drilled_is_refused() {
         let from = [0.0, 0.0, 5.0];
         let words = at(0.0, 0.0, [5.0, 1.0, -1.0]);
-        check(&exact(), Effect::CyclePeck, &words, from, expect!["Fault(Missing(Q))\n"]);
-        check(&exact(), Effect::CycleDrillDwell, &words, from, expect!["Fault(Missing(P))\n"]);
-        check(&exact(), Effect::CycleBackBore, &words, from, expect!["Fault(Missing(I))\n"]);
+        check(&exact(), Effect::CyclePeck, &words, from, &expect!["Fault(Missing(Q))\n"]);
+        check(&exact(), Effect::CycleDrillDwell, &words, from, &expect!["Fault(Missing(P))\n"]);
+        check(&exact(), Effect::CycleBackBore, &words, from, &expect!["Fault(Missing(I))\n"]);
         check(
             &plain(),
             Effect::CycleFineBore,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             rapid 0 0 1
             Fault(Missing(Q))
         "#]],
         );
         let zero = Hole { peck: Some(Mm(0.0)), ..words };
-        check(&plain(), Effect::CyclePeck, &zero, from, expect!["Fault(NotPositive(Q))\n"]);
+        check(&plain(), Effect::CyclePeck, &zero, from, &expect!["Fault(NotPositive(Q))\n"]);
         let upside_down = at(0.0, 0.0, [5.0, 1.0, 2.0]);
-        check(&exact(), Effect::CycleDrill, &upside_down, from, expect!["Fault(RBelowBottom)\n"]);
+        check(&exact(), Effect::CycleDrill, &upside_down, from, &expect!["Fault(RBelowBottom)\n"]);
         let unknown = at(0.0, 0.0, [5.0, f64::NAN, 2.0]);
-        check(&exact(), Effect::CycleDrill, &unknown, from, expect!["Unknown\n"]);
+        check(&exact(), Effect::CycleDrill, &unknown, from, &expect!["Unknown\n"]);
         check(
             &exact(),
             Effect::Rapid,
             &words,
             from,
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 0 0 5
             rapid 0 0 1
@@ -1101,7 +1100,7 @@ mod tests {
             Effect::CycleDrill,
             &at(1.0, 2.0, [f64::NAN, 1.0, -1.0]),
             [f64::NAN; 3],
-            expect![[r#"
+            &expect![[r#"
             exact path
             rapid 1 2 NaN
             rapid 1 2 1

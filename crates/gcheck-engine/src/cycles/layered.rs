@@ -12,10 +12,13 @@ use gcheck_geometry::Mm;
 
 use super::profile::{Cut, Point, cuts, distance};
 use super::{CycleError, MAX_STROKES, ProfileFault, ProfileSegment, RoughingDirection, Sink, Stroke, known};
+use crate::event::Units;
 use crate::fault::CycleFault;
 
 /// Closer than this is the same, millimetres.
 const SAME: f64 = 1e-9;
+/// An outer corner is rounded when the moved pieces are further apart than this along the passes, in program units.
+const CORNER_GAP: f64 = 0.01;
 
 /// What happens where a profile turns back toward the spindle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +44,8 @@ pub struct LayeredRoughing {
     pub stock: Mm,
     /// What to do with pockets.
     pub pockets: Pockets,
+    /// The units of the program.
+    pub units: Units,
 }
 
 /// Finishing passes. Lengths in X are radii.
@@ -52,6 +57,8 @@ pub struct LayeredFinish {
     pub last: Mm,
     /// `P`: passes.
     pub passes: u32,
+    /// The units of the program.
+    pub units: Units,
 }
 
 /// The strokes of [`LayeredRoughing`] after the move to its start point `from`. Ends at the end of the contour.
@@ -70,10 +77,9 @@ pub fn layered_roughing(
     if words.increment <= Mm::ZERO {
         return Err(CycleFault::NotPositive(Letter::of('I')).into());
     }
-    let Some(contour) = Contour::of(from, profile, words.direction == RoughingDirection::AlongX)? else {
-        return Ok(from);
-    };
-    let cuts = contour.offset(words.stock.0)?;
+    let along_x = words.direction == RoughingDirection::AlongX;
+    let Some(contour) = Contour::of(from, profile, along_x)? else { return Ok(from) };
+    let cuts = contour.offset(words.stock.0, words.units)?;
     let Some(first) = cuts.first() else { return Ok(from) };
     let start = contour.approach();
     let mut path = vec![Cut::Line { from: start, to: first.from(), rapid: true }];
@@ -125,7 +131,16 @@ pub fn layered_finish(
     if words.passes == 0 {
         return Err(CycleFault::NotPositive(Letter::of('P')).into());
     }
-    let Some(contour) = Contour::of(from, profile, false)? else { return Ok(from) };
+    // A profile that goes on along X only, or turns back along Z, is seen from X.
+    let upward = only_begins_upward(profile);
+    let contour = match Contour::of(from, profile, false) {
+        Ok(Some(contour)) if upward => Contour::of(from, profile, true).or(Ok(Some(contour))),
+        Err(CycleError::Profile(ProfileFault::NotMonotonic(_))) if !upward => {
+            Contour::of(from, profile, true)
+        }
+        contour => contour,
+    };
+    let Some(contour) = contour? else { return Ok(from) };
     let mut layers = Layers {
         contour: &contour,
         sink: Sink::new(from, out),
@@ -136,7 +151,7 @@ pub fn layered_finish(
     };
     for pass in 1..=words.passes {
         let part = f64::from(pass) / f64::from(words.passes);
-        let cuts = contour.offset((words.first + (words.last - words.first) * part).0)?;
+        let cuts = contour.offset((words.first + (words.last - words.first) * part).0, words.units)?;
         let Some(first) = cuts.first() else { return Ok(from) };
         layers.rapid(contour.approach())?;
         layers.rapid(first.from())?;
@@ -148,12 +163,23 @@ pub fn layered_finish(
     Ok(layers.sink.at)
 }
 
+/// Does a profile go toward +Z, and that in its first piece only?
+fn only_begins_upward(profile: &[ProfileSegment]) -> bool {
+    let mut levels = profile.iter().map(|segment| match segment {
+        ProfileSegment::Line { to, .. } | ProfileSegment::Arc { to, .. } => to.0.0,
+    });
+    let (Some(begin), Some(top)) = (levels.next(), levels.next()) else { return false };
+    top > begin + SAME && levels.all(|level| (level - top).abs() <= SAME)
+}
+
 /// A profile in coordinates `(u, w)`: it runs toward larger u, and its end lies at a larger w than its begin.
 struct Contour {
     transposed: bool,
     signs: Point,
     /// The start point of the cycle.
     start: Point,
+    /// The start point lies deeper than the profile's begin, so that stock is left on the other side.
+    inside_out: bool,
     cuts: Vec<Cut>,
 }
 
@@ -168,16 +194,29 @@ impl Contour {
         let cuts: Vec<Cut> =
             cuts.iter().skip(1).map(|cut| if transposed { cut.transposed() } else { *cut }).collect();
         let (Some(first), Some(last)) = (cuts.first(), cuts.last()) else { return Ok(None) };
-        let sign = |from: f64, to: f64| if to < from { -1.0 } else { 1.0 };
-        let signs = (sign(first.from().0, last.to().0), sign(first.from().1, last.to().1));
+        // What does not move at all counts as falling, but X across passes along Z as rising.
+        let sign =
+            |from: f64, to: f64, rises: bool| if to > from || rises && to >= from { 1.0 } else { -1.0 };
+        let (begin, end) = (first.from(), last.to());
+        let signs = (sign(begin.0, end.0, false), sign(begin.1, end.1, !transposed));
         let cuts: Vec<Cut> = cuts.iter().map(|cut| cut.mirrored(signs)).collect();
         for (index, cut) in cuts.iter().enumerate() {
             if cut.monotonic_pieces().iter().any(|piece| piece.to().0 < piece.from().0 - SAME) {
                 return Err(ProfileFault::NotMonotonic(index + 1).into());
             }
         }
-        let (z, x) = if transposed { (x0.0, z0.0) } else { (z0.0, x0.0) };
-        Ok(Some(Self { transposed, signs, start: (z * signs.0, x * signs.1), cuts }))
+        let (u, w) = if transposed { (x0.0, z0.0) } else { (z0.0, x0.0) };
+        let start = (u * signs.0, w * signs.1);
+        let begin_w = begin.1 * signs.1;
+        let rises = end.1 * signs.1 > begin_w;
+        // A profile that begins with a climb hides a start point below it; one of a single piece has but one side.
+        let mut ways = cuts.iter().map(direction);
+        let hidden = match (ways.next(), ways.next()) {
+            (Some(first), Some(second)) => first.0.abs() <= SAME && first.1 > 0.0 && second.1 > SAME,
+            _ => true,
+        };
+        let inside_out = start.1 < begin_w - SAME && rises && !hidden;
+        Ok(Some(Self { transposed, signs, start, inside_out, cuts }))
     }
 
     /// Where the tool goes before the contour: beside the profile's begin, at the level of the start point.
@@ -196,33 +235,22 @@ impl Contour {
 
     /// The pieces moved by `distance` to the side of the start point: corners that stick out are rounded, others cut where
     /// the pieces meet.
-    fn offset(&self, distance: f64) -> Result<Vec<Cut>, CycleError> {
-        let distance = if self.start.1 < self.begin().1 { -distance } else { distance };
-        if distance.abs() <= SAME {
+    fn offset(&self, way: f64, units: Units) -> Result<Vec<Cut>, CycleError> {
+        if way.abs() <= SAME {
             return Ok(self.cuts.clone());
         }
+        let way = if self.inside_out { -way } else { way };
+        let gap = CORNER_GAP * units.in_mm();
         let mut moved: Vec<Cut> = Vec::with_capacity(self.cuts.len() * 2);
-        let mut before: Option<&Cut> = None;
         for cut in &self.cuts {
-            let Some(mut next) = beside(cut, distance) else { return Err(CycleFault::Geometry.into()) };
-            if let (Some(before), Some(last)) = (before, moved.last_mut()) {
-                let (a, b) = (direction(before, true), direction(cut, false));
-                let turn = (a.0 * b.1 - a.1 * b.0).atan2(a.0 * b.0 + a.1 * b.1);
-                let lines = matches!((before, cut), (Cut::Line { .. }, Cut::Line { .. }));
-                if turn.abs() < 1e-6 {
-                    // Two lines in one direction are a corner that the control does not find.
-                    if lines {
-                        return Err(CycleFault::Geometry.into());
-                    }
-                } else if (turn < 0.0) == (distance > 0.0) {
-                    let round = Cut::Arc {
-                        from: last.to(),
-                        to: next.from(),
-                        centre: cut.from(),
-                        ccw: distance < 0.0,
-                    };
-                    moved.push(round);
-                } else {
+            let Some(mut next) = beside(cut, way) else { return Err(CycleFault::Geometry.into()) };
+            if let Some(last) = moved.last_mut() {
+                let (end, begin) = (last.to(), next.from());
+                let lines = matches!((&last, cut), (Cut::Line { .. }, Cut::Line { .. }));
+                if begin.0 - end.0 > gap {
+                    moved.push(Cut::Arc { from: end, to: begin, centre: cut.from(), ccw: way < 0.0 });
+                } else if lines || distance(end, begin) > 1e-4 {
+                    // Two lines in one direction have no corner that the control could find.
                     let Some(corner) = meeting(last, &next, cut.from()) else {
                         return Err(CycleFault::Geometry.into());
                     };
@@ -231,7 +259,6 @@ impl Contour {
                 }
             }
             moved.push(next);
-            before = Some(cut);
         }
         Ok(moved)
     }
@@ -241,7 +268,7 @@ impl Contour {
 fn beside(cut: &Cut, way: f64) -> Option<Cut> {
     match *cut {
         Cut::Line { from, to, rapid } => {
-            let (du, dw) = direction(cut, false);
+            let (du, dw) = direction(cut);
             let shift = |(u, w): Point| (u - dw * way, w + du * way);
             Some(Cut::Line { from: shift(from), to: shift(to), rapid })
         }
@@ -261,13 +288,12 @@ fn beside(cut: &Cut, way: f64) -> Option<Cut> {
     }
 }
 
-/// Unit tangent at the begin or the end.
-fn direction(cut: &Cut, end: bool) -> Point {
+/// Unit tangent at the begin.
+fn direction(cut: &Cut) -> Point {
     let (du, dw) = match *cut {
         Cut::Line { from, to, .. } => (to.0 - from.0, to.1 - from.1),
-        Cut::Arc { from, to, centre, ccw } => {
-            let at = if end { to } else { from };
-            let (u, w) = (at.0 - centre.0, at.1 - centre.1);
+        Cut::Arc { from, centre, ccw, .. } => {
+            let (u, w) = (from.0 - centre.0, from.1 - centre.1);
             if ccw { (-w, u) } else { (w, -u) }
         }
     };
@@ -288,28 +314,31 @@ fn set_from(cut: &mut Cut, point: Point) {
 }
 
 /// Where two pieces, taken as whole lines and circles, meet nearest to `near`.
-fn meeting(a: &Cut, b: &Cut, near: Point) -> Option<Point> {
-    let candidates = match (*a, *b) {
-        (Cut::Line { from: p, .. }, Cut::Line { from: q, .. }) => {
-            let (d, e) = (direction(a, false), direction(b, false));
-            let cross = d.0 * e.1 - d.1 * e.0;
-            let along = ((q.0 - p.0) * e.1 - (q.1 - p.1) * e.0) / cross;
-            [Some((p.0 + d.0 * along, p.1 + d.1 * along)), None]
+fn meeting(first: &Cut, second: &Cut, near: Point) -> Option<Point> {
+    let candidates = match (*first, *second) {
+        (Cut::Line { from, .. }, Cut::Line { from: on, .. }) => {
+            let (way, other) = (direction(first), direction(second));
+            let cross = way.0 * other.1 - way.1 * other.0;
+            if cross.abs() < 1e-9 {
+                return None;
+            }
+            let along = ((on.0 - from.0) * other.1 - (on.1 - from.1) * other.0) / cross;
+            [Some((from.0 + way.0 * along, from.1 + way.1 * along)), None]
         }
         (Cut::Line { from, .. }, Cut::Arc { from: on, centre, .. }) => {
-            line_and_circle(from, direction(a, false), centre, distance(on, centre))
+            line_and_circle(from, direction(first), centre, distance(on, centre))
         }
         (Cut::Arc { from: on, centre, .. }, Cut::Line { from, .. }) => {
-            line_and_circle(from, direction(b, false), centre, distance(on, centre))
+            line_and_circle(from, direction(second), centre, distance(on, centre))
         }
-        (Cut::Arc { from: on_a, centre: c, .. }, Cut::Arc { from: on_b, centre: d, .. }) => {
-            let (r, s) = (distance(on_a, c), distance(on_b, d));
-            let apart = distance(c, d);
-            let to_chord = (apart * apart + r * r - s * s) / (2.0 * apart);
-            let unit = ((d.0 - c.0) / apart, (d.1 - c.1) / apart);
+        (Cut::Arc { from, centre, .. }, Cut::Arc { from: on, centre: other, .. }) => {
+            let (radius, other_radius) = (distance(from, centre), distance(on, other));
+            let apart = distance(centre, other);
+            let to_chord = (apart * apart + radius * radius - other_radius * other_radius) / (2.0 * apart);
+            let unit = ((other.0 - centre.0) / apart, (other.1 - centre.1) / apart);
             // The common chord as a line, cut by the first circle.
-            let foot = (c.0 + unit.0 * to_chord, c.1 + unit.1 * to_chord);
-            line_and_circle(foot, (-unit.1, unit.0), c, r)
+            let foot = (centre.0 + unit.0 * to_chord, centre.1 + unit.1 * to_chord);
+            line_and_circle(foot, (-unit.1, unit.0), centre, radius)
         }
     };
     candidates
@@ -325,7 +354,7 @@ fn line_and_circle(on: Point, (du, dw): Point, centre: Point, radius: f64) -> [O
     let off = distance(foot, centre);
     let half = radius * radius - off * off;
     // A tangent may miss by a rounding.
-    if !(half > -1e-9 * radius.max(1.0)) {
+    if half.is_nan() || half < -1e-9 * radius.max(1.0) {
         return [None, None];
     }
     let half = half.max(0.0).sqrt();
@@ -361,6 +390,10 @@ impl Layers<'_, '_> {
     /// Along a piece from where the tool stands to `to`. Pieces of one arc become one stroke again, except at its top.
     fn follow(&mut self, cut: &Cut, to: Point) -> Result<(), CycleError> {
         let Cut::Arc { from, centre, ccw, .. } = *cut else { return self.feed(to) };
+        if distance(from, to) <= SAME && distance(from, cut.to()) > SAME {
+            // Nothing of the arc is cut yet.
+            return Ok(());
+        }
         if let Some(Cut::Arc { to: end, centre: same, ccw: sense, .. }) = &mut self.pending
             && *same == centre
             && *sense == ccw
@@ -440,9 +473,9 @@ impl Layers<'_, '_> {
             let half = (stop - begin.0) / 2.0;
             let away = if self.retract < 0.0 { half } else { self.retract.min(half) };
             if by_rapid {
-                self.rapid(begin)?
+                self.rapid(begin)?;
             } else {
-                self.follow(piece, begin)?
+                self.follow(piece, begin)?;
             }
             self.feed((stop, level))?;
             self.rapid((stop - away, level + away))?;
@@ -461,24 +494,29 @@ impl Layers<'_, '_> {
             let beyond = path.get(index + 1..).unwrap_or_default();
             layer = self.passes(piece, index == 0, beyond, top, layer)?;
             if index == 0 {
-                self.rapid(piece.to())?
+                self.rapid(piece.to())?;
             } else {
-                self.follow(piece, piece.to())?
+                self.follow(piece, piece.to())?;
             }
             level = piece.to().1;
         }
         let mut over = false;
+        let mut around = None;
         for piece in rest {
             let (from, to) = (piece.from(), piece.to());
             if to.1 < level - SAME || to.1 < from.1 - SAME {
-                // An arc that leads down from its top still names that point.
-                if !over && matches!(piece, Cut::Arc { centre, .. } if (from.0 - centre.0).abs() <= 1e-6) {
+                // An arc that begins at its top still names that point.
+                if !over
+                    && matches!(piece, Cut::Arc { centre, .. }
+                        if (from.0 - centre.0).abs() <= 1e-6 && around != Some(*centre))
+                {
                     self.feed(from)?;
                 }
                 over = true;
                 continue;
             }
             over = false;
+            around = if let Cut::Arc { centre, .. } = piece { Some(*centre) } else { None };
             let begin = if from.1 < level - SAME { (piece.crossing(level), level) } else { from };
             self.feed(begin)?;
             if distance(begin, to) > SAME {
@@ -559,10 +597,11 @@ mod tests {
             retract: Mm(retract),
             stock: Mm(0.0),
             pockets: Pockets::Cleared,
+            units: Units::Mm,
         }
     }
 
-    fn check(shown: &str, expected: Expect) {
+    fn check(shown: &str, expected: &Expect) {
         expected.assert_eq(shown);
     }
 
@@ -576,7 +615,7 @@ mod tests {
                 "10 1, 10 -10, 15 -15, 20 -15",
                 LayeredRoughing { stock: Mm(0.5), ..words(5.0, 1.0) },
             ),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -14.5, rapid 23 -13.5, rapid 23 1, rapid 22 2, 
             rapid 17 1.5652, 17 -14.5, rapid 18 -13.5, rapid 18 0.5652, rapid 17 1.5652, 
             rapid 12 1.1304, 12 -11.2929, rapid 13 -10.2929, rapid 13 0.1304, rapid 12 1.1304, 
@@ -588,7 +627,7 @@ mod tests {
     fn pockets_are_cleared_from_their_rim() {
         check(
             &rough((22.0, 2.0), POCKET, words(2.0, 1.0)),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -22, rapid 23 -21, rapid 23 1, rapid 22 2, rapid 20 1.8333, 
             20 -22, rapid 21 -21, rapid 21 0.8333, rapid 20 1.8333, rapid 18 1.6667, 18 -12, 
             rapid 19 -11, rapid 19 0.6667, rapid 18 1.6667, rapid 16 1.5, 16 -11.5, rapid 17 -10.5, 
@@ -604,7 +643,7 @@ mod tests {
     fn pockets_may_be_passed_over() {
         check(
             &rough((22.0, 2.0), POCKET, LayeredRoughing { pockets: Pockets::PassedOver, ..words(6.0, 1.0) }),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -22, rapid 23 -21, rapid 23 1, rapid 22 2, rapid 16 1.5, 
             16 -11.5, rapid 17 -10.5, rapid 17 0.5, rapid 16 1.5, rapid 10 1, 10 1, 10 -10, 10 -10, 
             18 -12, 18 -12, 18 -15, 18 -21.5, 20 -22, 20 -22, 22 -22, "#]],
@@ -615,7 +654,7 @@ mod tests {
     fn pockets_may_be_all_that_is_cleared() {
         check(
             &rough((22.0, 2.0), POCKET, LayeredRoughing { pockets: Pockets::Only, ..words(2.0, 1.0) }),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 10 1, 10 -10, 18 -12, 18 -15, 18 -15, 18 -21.5, rapid 19 -20.5, 
             rapid 19 -16, 18 -15, 16 -16, 16 -21, rapid 17 -20, rapid 17 -17, 16 -16, 14 -17, 
             14 -20.5, rapid 15 -19.5, rapid 15 -18, 14 -17, 12 -18, 12 -20, 20 -22, 22 -22, "#]],
@@ -626,7 +665,7 @@ mod tests {
     fn stock_rounds_outer_corners() {
         check(
             &rough((22.0, 2.0), POCKET, LayeredRoughing { stock: Mm(0.5), ..words(6.0, 1.0) }),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -21.5149, rapid 23 -20.5149, rapid 23 1, rapid 22 2, 
             rapid 16 1.4783, 16 -10.9846, rapid 17 -9.9846, rapid 17 0.4783, rapid 16 1.4783, 
             rapid 10.5 1, 10.5 -9.6096, 18.1213 -11.5149, arc 18.5 -12 about 18 -12 turns 1, 
@@ -640,7 +679,7 @@ mod tests {
     fn arcs_are_followed_in_parts_where_layers_begin_on_them() {
         check(
             &rough((22.0, 2.0), "10 1, 10 -4, 20 -4, 20 -14 cw 20 -9, 21 -20", words(3.0, 0.5)),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -20, rapid 22.5 -19.5, rapid 22.5 1.5, rapid 22 2, 
             rapid 19 1.75, 19 -4, rapid 19.5 -3.5, rapid 19.5 1.25, rapid 19 1.75, rapid 16 1.5, 
             16 -4, rapid 16.5 -3.5, rapid 16.5 1, rapid 16 1.5, rapid 13 1.25, 13 -4, 
@@ -651,7 +690,7 @@ mod tests {
         );
         check(
             &rough((22.0, 2.0), "10 1, 10 -4, 20 -4, 20 -14 ccw 20 -9, 21 -20", words(6.0, 0.5)),
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 22 2, 22 -4.4174, rapid 22.5 -3.9174, rapid 22.5 1.5, rapid 22 2, 
             rapid 16 1.5, 16 -4, rapid 16.5 -3.5, rapid 16.5 1, rapid 16 1.5, rapid 10 1, 10 -4, 
             20 -4, arc 25 -9 about 20 -9 turns 1, arc 22 -13.5826 about 20 -9 turns 1, 22 -20, 
@@ -664,7 +703,7 @@ mod tests {
     fn short_passes_leave_by_half_their_length() {
         check(
             &rough((20.0, 2.0), "16 1, 12 -4, 14 -5, 10 -8, 15 -9, 9 -10, 20 -15", words(3.0, 2.0)),
-            expect![[r#"
+            &expect![[r#"
             rapid 20 2, rapid 20 2, 20 -15, rapid 22 -13, rapid 22 0, rapid 20 2, rapid 17 1.25, 
             17 -13.6364, rapid 19 -11.6364, rapid 19 -0.75, rapid 17 1.25, rapid 16 1, 14 -1.5, 
             14 -5, rapid 15.75 -3.25, rapid 15.75 -3.25, 14 -1.5, 12 -4, 14 -5, 14 -5, 14 -8.8, 
@@ -679,7 +718,7 @@ mod tests {
     fn holes_are_bored_from_the_inside() {
         check(
             &rough((2.0, 2.0), "10 1, 10 -10, 5 -15, 2 -15", words(4.0, 1.0)),
-            expect![[r#"
+            &expect![[r#"
             rapid 2 2, rapid 2 2, 2 -15, rapid 1 -14, rapid 1 1, rapid 2 2, rapid 6 1.5, 6 -14, 
             rapid 5 -13, rapid 5 0.5, rapid 6 1.5, rapid 10 1, 10 -10, 5 -15, 2 -15, "#]],
         );
@@ -693,7 +732,7 @@ mod tests {
                 "10 1, 10 -10, 15 -15, 20 -15",
                 LayeredRoughing { direction: RoughingDirection::AlongX, ..words(3.0, 1.0) },
             ),
-            expect!["rapid 10 2, 10 1, 10 -10, 15 -15, 20 -15, "],
+            &expect!["rapid 10 2, 10 1, 10 -10, 15 -15, 20 -15, "],
         );
     }
 
@@ -703,13 +742,13 @@ mod tests {
             layered_finish(
                 [Mm(22.0), Mm(0.0), Mm(2.0)],
                 &profile("10 1, 10 -10, 15 -15, 20 -15"),
-                &LayeredFinish { first: Mm(1.0), last: Mm(0.2), passes: 3 },
+                &LayeredFinish { first: Mm(1.0), last: Mm(0.2), passes: 3, units: Units::Mm },
                 out,
             )
         });
         check(
             &shown,
-            expect![[r#"
+            &expect![[r#"
             rapid 22 2, rapid 10.7333 1, 10.7333 -9.6962, 15.3038 -14.2667, 20 -14.2667, rapid 22 2, 
             rapid 10.4667 1, 10.4667 -9.8067, 15.1933 -14.5333, 20 -14.5333, rapid 22 2, 
             rapid 10.2 1, 10.2 -9.9172, 15.0828 -14.8, 20 -14.8, "#]],
@@ -720,12 +759,12 @@ mod tests {
     fn unusable_profiles_are_refused() {
         check(
             &rough((22.0, 2.0), "10 1, 10 -10, 18 -12, 18 -11, 20 -22", words(2.0, 1.0)),
-            expect!["Profile(NotMonotonic(3))"],
+            &expect!["Profile(NotMonotonic(3))"],
         );
-        check(&rough((22.0, 2.0), "10 1, 10 -10", words(0.0, 1.0)), expect!["Fault(NotPositive(I))"]);
-        check(&rough((22.0, 2.0), "10 1", words(1.0, 1.0)), expect![[r#""#]]);
-        check(&rough((22.0, 2.0), "10 1, 10 -10, 18 -12", words(1e-9, 1.0)), expect!["TooManyStrokes"]);
+        check(&rough((22.0, 2.0), "10 1, 10 -10", words(0.0, 1.0)), &expect!["Fault(NotPositive(I))"]);
+        check(&rough((22.0, 2.0), "10 1", words(1.0, 1.0)), &expect![[r#""#]]);
+        check(&rough((22.0, 2.0), "10 1, 10 -10, 18 -12", words(1e-9, 1.0)), &expect!["TooManyStrokes"]);
         let collinear = LayeredRoughing { stock: Mm(0.5), ..words(2.0, 1.0) };
-        check(&rough((22.0, 2.0), "10 1, 10 0, 10 -10, 20 -12", collinear), expect!["Fault(Geometry)"]);
+        check(&rough((22.0, 2.0), "10 1, 10 0, 10 -10, 20 -12", collinear), &expect!["Fault(Geometry)"]);
     }
 }

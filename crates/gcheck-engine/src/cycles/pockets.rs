@@ -193,8 +193,10 @@ pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Resu
     if count > f64::from(super::MAX_STROKES) {
         return Err(CycleError::TooManyStrokes);
     }
-    let levels: Vec<Mm> = (1..=count as u32)
-        .map(|layer| (words.r - words.layer * f64::from(layer)).max(words.bottom))
+    let levels = (1..=super::MAX_STROKES)
+        .map(f64::from)
+        .take_while(|layer| *layer <= count)
+        .map(|layer| (words.r - words.layer * layer).max(words.bottom))
         .collect();
 
     let area = area(&corners).abs();
@@ -240,8 +242,8 @@ fn flattened(cuts: &[Cut]) -> Vec<(f64, f64)> {
         let (start, sweep) = cut.angles();
         let radius = distance(from, centre);
         let count = (sweep.abs().to_degrees() / 2.0).ceil().clamp(1.0, 180.0);
-        for chord in 1..count as u32 {
-            let angle = start + sweep * f64::from(chord) / count;
+        for chord in (1..180_u32).map(f64::from).take_while(|chord| *chord < count) {
+            let angle = start + sweep * chord / count;
             corners.push((centre.0 + radius * angle.cos(), centre.1 + radius * angle.sin()));
         }
     }
@@ -287,7 +289,7 @@ mod tests {
         }
     }
 
-    fn check(words: &CircularPocket, expected: Expect) {
+    fn check(words: &CircularPocket, expected: &Expect) {
         let from = [Mm(10.0), Mm(20.0), Mm(2.0)];
         expected.assert_eq(&shown(|out| circular_pocket(from, words, out).map(drop)));
     }
@@ -296,7 +298,7 @@ mod tests {
     fn one_circle_is_entered_and_left_by_half_circles() {
         check(
             &circular(),
-            expect![[r#"
+            &expect![[r#"
             feed 10 20 -3
             arc 13 20 -3 about 11.5 20 turns 1
             arc 13 20 -3 about 10 20 turns 1
@@ -311,7 +313,7 @@ mod tests {
             CircularPocket { finished: Some(Mm(13.0)), step: Some(Mm(4.0)), clockwise: true, ..circular() };
         check(
             &words,
-            expect![[r#"
+            &expect![[r#"
             feed 10 20 -3
             arc 13 20 -3 about 11.5 20 turns -1
             arc 13 20 -3 about 10 20 turns -1
@@ -328,7 +330,7 @@ mod tests {
     fn rounds_go_deeper() {
         check(
             &CircularPocket { rounds: 2, deeper: Mm(-1.5), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             feed 10 20 -3
             arc 13 20 -3 about 11.5 20 turns 1
             arc 13 20 -3 about 10 20 turns 1
@@ -345,37 +347,37 @@ mod tests {
     fn circles_that_cannot_be_cut_are_refused() {
         check(
             &CircularPocket { tool_radius: Mm(8.0), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(Geometry)
         "#]],
         );
         check(
             &CircularPocket { finished: Some(Mm(20.0)), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(Missing(Q))
         "#]],
         );
         check(
             &CircularPocket { step: Some(Mm(2.0)), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(Missing(K))
         "#]],
         );
         check(
             &CircularPocket { finished: Some(Mm(8.0)), step: Some(Mm(2.0)), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(Geometry)
         "#]],
         );
         check(
             &CircularPocket { finished: Some(Mm(9.0)), step: Some(Mm(0.0)), ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(NotPositive(Q))
         "#]],
         );
         check(
             &CircularPocket { rounds: 0, ..circular() },
-            expect![[r#"
+            &expect![[r#"
             Fault(ZeroRepeats)
         "#]],
         );

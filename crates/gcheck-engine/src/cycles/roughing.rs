@@ -260,9 +260,9 @@ impl View {
         (u * self.signs.0, v * self.signs.1)
     }
 
-    fn back(&self, (u, v): Point, y: Mm) -> [Mm; 3] {
-        let (u, v) = (u * self.signs.0, v * self.signs.1);
-        let (z, x) = if self.transposed { (v, u) } else { (u, v) };
+    fn back(&self, point: Point, y: Mm) -> [Mm; 3] {
+        let (along, across) = (point.0 * self.signs.0, point.1 * self.signs.1);
+        let (z, x) = if self.transposed { (across, along) } else { (along, across) };
         [Mm(x), y, Mm(z)]
     }
 
@@ -307,7 +307,7 @@ mod tests {
         }
     }
 
-    fn check(from: [Mm; 3], profile: &[ProfileSegment], words: &Roughing, expected: Expect) {
+    fn check(from: [Mm; 3], profile: &[ProfileSegment], words: &Roughing, expected: &Expect) {
         expected.assert_eq(&shown_zx(|out| roughing(from, profile, words, out).map(drop)));
     }
 
@@ -318,7 +318,7 @@ mod tests {
             at(20.0, 2.0),
             &profile,
             &along_z(),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x16
             feed z-15 x16
             rapid z-14 x17
@@ -345,7 +345,7 @@ mod tests {
             at(20.0, 2.0),
             &profile,
             &words,
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x14
             feed z-9.9 x14
             rapid z-8.9 x15
@@ -368,7 +368,7 @@ mod tests {
             at(10.0, 2.0),
             &profile,
             &words,
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x16
             feed z-10 x16
             rapid z-9 x15
@@ -390,7 +390,7 @@ mod tests {
             at(20.0, 0.0),
             &profile,
             &words,
-            expect![[r#"
+            &expect![[r#"
             rapid z-4 x20
             feed z-4 x10
             rapid z-3 x11
@@ -414,7 +414,7 @@ mod tests {
             at(20.0, 2.0),
             &profile,
             &along_z(),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x16
             feed z-19.1652 x16
             rapid z-18.1652 x17
@@ -436,13 +436,13 @@ mod tests {
     fn pockets_need_a_first_block_with_both_axes() {
         let profile =
             [rapid(10.0, 1.0), line(10.0, -5.0), line(16.0, -6.0), line(12.0, -10.0), line(20.0, -12.0)];
-        check(at(20.0, 2.0), &profile, &along_z(), expect!["Profile(FirstPiece)\n"]);
+        check(at(20.0, 2.0), &profile, &along_z(), &expect!["Profile(FirstPiece)\n"]);
         let words = Roughing { pockets: true, ..along_z() };
         check(
             at(20.0, 2.0),
             &profile,
             &words,
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x16
             feed z-6 x16
             rapid z-5 x17
@@ -467,33 +467,33 @@ mod tests {
         );
         let type_one =
             [rapid(10.0, 2.0), line(10.0, -5.0), line(16.0, -6.0), line(12.0, -10.0), line(20.0, -12.0)];
-        check(at(20.0, 2.0), &type_one, &words, expect!["Profile(NotMonotonic(3))\n"]);
+        check(at(20.0, 2.0), &type_one, &words, &expect!["Profile(NotMonotonic(3))\n"]);
     }
 
     #[test]
     fn unusable_profiles_are_refused() {
-        check(at(20.0, 2.0), &[], &along_z(), expect!["Profile(Empty)\n"]);
+        check(at(20.0, 2.0), &[], &along_z(), &expect!["Profile(Empty)\n"]);
         check(
             at(20.0, 2.0),
             &[line(20.0, -5.0), line(10.0, -5.0)],
             &along_z(),
-            expect!["Profile(FirstPiece)\n"],
+            &expect!["Profile(FirstPiece)\n"],
         );
         let back = [line(10.0, 2.0), line(10.0, -5.0), line(12.0, -4.0), line(20.0, -8.0)];
-        check(at(20.0, 2.0), &back, &along_z(), expect!["Profile(NotMonotonic(2))\n"]);
+        check(at(20.0, 2.0), &back, &along_z(), &expect!["Profile(NotMonotonic(2))\n"]);
         let beyond = [line(10.0, 2.0), line(10.0, -5.0), line(21.0, -5.0)];
-        check(at(20.0, 2.0), &beyond, &along_z(), expect!["Profile(Start)\n"]);
+        check(at(20.0, 2.0), &beyond, &along_z(), &expect!["Profile(Start)\n"]);
         let good = [line(10.0, 2.0), line(10.0, -5.0), line(20.0, -5.0)];
         check(
             at(20.0, 2.0),
             &good,
             &Roughing { depth: Mm(0.0), ..along_z() },
-            expect!["Fault(NotPositive(D))\n"],
+            &expect!["Fault(NotPositive(D))\n"],
         );
-        check(at(20.0, 2.0), &good, &Roughing { depth: Mm(1e-9), ..along_z() }, expect!["TooManyStrokes\n"]);
-        check(at(f64::NAN, 2.0), &good, &along_z(), expect!["Unknown\n"]);
+        check(at(20.0, 2.0), &good, &Roughing { depth: Mm(1e-9), ..along_z() }, &expect!["TooManyStrokes\n"]);
+        check(at(f64::NAN, 2.0), &good, &along_z(), &expect!["Unknown\n"]);
         let off = ProfileSegment::Arc { to: (Mm(-9.0), Mm(20.0)), centre: (Mm(0.0), Mm(0.0)), ccw: true };
-        check(at(20.0, 2.0), &[line(10.0, 2.0), off], &along_z(), expect!["Profile(Arc(1))\n"]);
+        check(at(20.0, 2.0), &[line(10.0, 2.0), off], &along_z(), &expect!["Profile(Arc(1))\n"]);
     }
 
     #[test]

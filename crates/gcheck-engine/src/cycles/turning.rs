@@ -400,7 +400,7 @@ mod tests {
         [Mm(x), Mm(0.0), Mm(z)]
     }
 
-    fn check(run: impl FnOnce(&mut dyn FnMut(Stroke)) -> Result<[Mm; 3], CycleError>, expected: Expect) {
+    fn check(run: impl FnOnce(&mut dyn FnMut(Stroke)) -> Result<[Mm; 3], CycleError>, expected: &Expect) {
         expected.assert_eq(&shown_zx(|out| run(out).map(drop)));
     }
 
@@ -418,7 +418,7 @@ mod tests {
     fn a_turning_pass_goes_around_its_box() {
         check(
             pass(Effect::TurningPass, 0.0, 0.0),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x20
             feed z-30 x20
             feed z-30 x25
@@ -431,7 +431,7 @@ mod tests {
     fn a_taper_moves_the_start_of_the_cut() {
         check(
             pass(Effect::TurningPass, -3.0, 0.0),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x17
             feed z-30 x20
             feed z-30 x25
@@ -440,7 +440,7 @@ mod tests {
         );
         check(
             pass(Effect::FacingPass, -3.0, 0.0),
-            expect![[r#"
+            &expect![[r#"
             rapid z-33 x25
             feed z-30 x20
             feed z2 x20
@@ -453,7 +453,7 @@ mod tests {
     fn a_threading_pass_is_tied_to_the_spindle_and_may_pull_out() {
         check(
             pass(Effect::ThreadingPass, 0.0, 0.0),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x20
             thread z-30 x20 lead 1.5
             rapid z-30 x25
@@ -462,7 +462,7 @@ mod tests {
         );
         check(
             pass(Effect::ThreadingPass, 0.0, 2.0),
-            expect![[r#"
+            &expect![[r#"
             rapid z2 x20
             thread z-28 x20 lead 1.5
             thread z-30 x22 lead 1.5
@@ -483,7 +483,7 @@ mod tests {
         };
         check(
             |out| grooving(Effect::GrooveFace, at(20.0, 1.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             feed z-2 x20
             rapid z-1.5 x20
             feed z-5 x20
@@ -514,7 +514,7 @@ mod tests {
         };
         check(
             |out| grooving(Effect::GrooveDiameter, at(20.0, -10.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             feed z-10 x17
             rapid z-10 x17.5
             feed z-10 x15
@@ -536,7 +536,7 @@ mod tests {
         };
         check(
             |out| grooving(Effect::GrooveDiameter, at(20.0, -10.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             Fault(NotPositive(I))
         "#]],
         );
@@ -565,7 +565,7 @@ mod tests {
     fn thread_passes_grow_by_the_root_of_their_number() {
         check(
             |out| multi_pass_thread(at(12.0, 3.0), &heights(), out),
-            expect![[r#"
+            &expect![[r#"
             rapid z2.7113 x12
             rapid z2.7113 x9.5
             thread z-20 x9.5 lead 1.5
@@ -607,7 +607,7 @@ mod tests {
         };
         check(
             |out| multi_pass_thread(at(9.0, 3.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             rapid z3 x10.8
             thread z-20 x10.8 lead 1.5
             rapid z-20 x9
@@ -625,7 +625,7 @@ mod tests {
         let words = ThreadHeights { height: Mm(0.0), ..heights() };
         check(
             |out| multi_pass_thread(at(12.0, 3.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             Fault(NotPositive(K))
         "#]],
         );
@@ -656,7 +656,7 @@ mod tests {
         let words = TaperedThread { slide: Degrees(29.5), springs: 1, ..tapered() };
         check(
             |out| tapered_thread(at(2.0, 5.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             rapid z4.7737 x2.4
             rapid z4.7737 x1.1
             feed override false
@@ -698,7 +698,7 @@ mod tests {
         };
         check(
             |out| tapered_thread(at(2.0, 5.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             rapid z4.7737 x2.4
             feed override false
             sync 1.886796
@@ -752,7 +752,7 @@ mod tests {
         };
         check(
             |out| tapered_thread(at(2.0, 5.0), &words, out),
-            expect![[r#"
+            &expect![[r#"
             rapid z4.7691 x1.6
             rapid z4.7691 x2.9
             feed override false
@@ -785,7 +785,7 @@ mod tests {
             let words = TaperedThread { first: Mm(first), depth: Mm(depth), ..tapered() };
             let mut passes = 0;
             tapered_thread(at(2.0, 5.0), &words, &mut |stroke| {
-                passes += u32::from(stroke == Stroke::Sync(None))
+                passes += u32::from(stroke == Stroke::Sync(None));
             })
             .map(|_| passes)
         };

@@ -75,6 +75,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !arc.is_known() {
             return self.unknown_arc(target, state);
         }
+        self.announce_inverse_time(arc.length().0, state);
         let sign = if counter_clockwise { 1 } else { -1 };
         let turns = sign * i32::try_from(turns).unwrap_or(i32::MAX);
         if state.compensation.is_some() {

@@ -120,6 +120,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Radius of the cutter that `D` names, NaN unknown, with the orientation of a lathe tool.
     fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
         let Some(number) = D::known(&state.d) else { return Ok((f64::NAN, 0)) };
+        if state.tables.complete && D::known(&state.tool) == Some(number) && !self.words.has(Letter::of('D')) {
+            return Ok((state.loaded.diameter.0 / 2.0, state.loaded.orientation));
+        }
         if number == 0.0 {
             return Ok((0.0, 0));
         }
@@ -247,7 +250,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.segment(compensation, &segment, &payload, payload.target, false, state);
                 }
                 OffsetEvent::Inserted { segment, before, after } => {
-                    let others = before.map_or(compensation.at, |before| before.target);
+                    let _ = before;
+                    let others = after.target;
                     self.segment(compensation, &segment, &after, others, true, state);
                 }
             }

@@ -193,18 +193,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
         let number = |value: f64| if value.is_nan() { None } else { Some(value) };
         let units = state.units(self.model).unwrap_or(Units::Mm);
-        let exact = self.changes_path_mode(state);
-        if relative && rules.rise_to_r && level < r {
-            // The rise comes before the path mode changes.
-            let mut up = state.position;
-            up.set(depth, r);
-            self.travel(TravelKind::Rapid, up, true, state)?;
-        }
-        if exact {
-            self.path_mode(PathMode::ExactPath, state);
-        }
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
-        let drills = points.len() > 0;
         let mut result = Ok(());
         for (turn, at) in points.enumerate() {
             let facts = Hole {
@@ -230,10 +219,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 break;
             }
         }
-        if exact && drills {
-            let mode = self.current_path_mode(state);
-            self.path_mode(mode, state);
-        }
+        self.end_exact_path(state);
         result
     }
 
@@ -271,9 +257,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    /// Some controls pass the points of a cycle exactly, whatever the path mode is.
-    pub(super) fn changes_path_mode(&self, state: &State<D>) -> bool {
-        self.model.semantics().cycles.rise_to_r && self.current_path_mode(state) != PathMode::ExactPath
+    /// The path mode that an operation changed is brought back.
+    pub(super) fn end_exact_path(&mut self, state: &mut State<D>) {
+        if std::mem::take(&mut self.passes_exactly) {
+            let mode = self.current_path_mode(state);
+            self.path_mode(mode, state);
+        }
     }
 
     /// Gives out the strokes of an operation.
@@ -312,7 +301,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 Stroke::Orient => self.emit(state, Event::OrientSpindle { angle: 0.0, way: 3 }),
                 Stroke::ExactPath => {
-                    if self.changes_path_mode(state) {
+                    if !self.passes_exactly && self.current_path_mode(state) != PathMode::ExactPath {
+                        self.passes_exactly = true;
                         self.path_mode(PathMode::ExactPath, state);
                     }
                 }

@@ -466,10 +466,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if values.len() > self.model.semantics().locals[1] as usize {
                     return Err(Fault::Conflict);
                 }
-                let Some(target) = self.program.find_subroutine(label, at.file) else {
-                    if let OLabel::Computed = label {
-                        return Err(Fault::Undecidable);
+                let computed = match label {
+                    // `O[#1] CALL`: the first expression is the label's.
+                    OLabel::Computed => {
+                        let number = (!values.is_empty()).then(|| values.remove(0).1);
+                        let number = number.as_ref().and_then(D::known).ok_or(Fault::Undecidable)?;
+                        for (slot, _) in &mut values {
+                            *slot -= 1;
+                        }
+                        #[expect(clippy::cast_sign_loss, reason = "negative numbers are no labels and become 0")]
+                        Some(OLabel::Number(number.round() as u32))
                     }
+                    _ => None,
+                };
+                let label = computed.as_ref().unwrap_or(label);
+                let Some(target) = self.program.find_subroutine(label, at.file) else {
                     self.assumptions.insert(Assumption::MissingSubroutine(match label {
                         OLabel::Name(name) => name.clone(),
                         OLabel::Number(number) => number.to_string(),

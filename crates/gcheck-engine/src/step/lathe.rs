@@ -23,6 +23,7 @@ use crate::cycles::{
 };
 use crate::event::{FeedMode, Units};
 use crate::fault::{CycleFault, Fault};
+use crate::modal::ModeSet;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -57,12 +58,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(lead) = self.lead(state).filter(|_| threads) {
             words.lead = Some(lead);
         }
-        keep(words, state);
+        keep(&words, state);
         let [x, z] = words.corner.map(|coordinate| Mm(coordinate.unwrap_or(f64::NAN)));
         let taper = Mm(words.taper.unwrap_or(0.0));
         let lead = Mm(words.lead.or_else(|| self.modal_lead(state)).unwrap_or(f64::NAN));
         let pull_out = if threads { self.pull_out(lead) } else { Mm::ZERO };
-        let checked = if threads { self.check_lead(words.lead, state) } else { self.check_feed(state) };
+        let checked = if threads { Self::check_lead(words.lead, state) } else { self.check_feed(state) };
         let from = state.position.xyz();
         let mut strokes = Vec::new();
         let result = box_pass(effect, from, (x, z), taper, lead, pull_out, &mut |stroke| strokes.push(stroke));
@@ -79,7 +80,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let stores = !one_block && !present.intersects(END_POINT) && !present.intersects(LetterSet::of("PQ"));
         if stores && present.contains(Letter::of('R')) {
             let words = TurningWords { peck_retract: self.length(Letter::of('R'), state), ..state.turning() };
-            keep(words, state);
+            keep(&words, state);
             return Ok(());
         }
         let target = self.target(state)?;
@@ -90,21 +91,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let (p, q) = (self.least_length('P', state), self.least_length('Q', state));
             if effect == Effect::GrooveFace { (q, p) } else { (p, q) }
         };
-        let stored = state.turning().peck_retract.filter(|_| !one_block);
+        let retract = state.turning().peck_retract.filter(|_| !one_block);
         let relief = self.length(Letter::of(if one_block { 'D' } else { 'R' }), state);
         let words = Grooving {
             to: (Mm(target.raw(Axis::X)), Mm(target.raw(Axis::Z))),
             peck: deep.map(Mm),
             step: side.filter(|step| *step != 0.0).map(Mm),
-            retract: Mm(stored.unwrap_or(self.model.semantics().cycles.chip_break_retract)),
+            retract: Mm(retract.unwrap_or(self.model.semantics().cycles.chip_break_retract)),
             relief: Mm(relief.unwrap_or(0.0)),
         };
         let checked = self.check_feed(state);
         let held = self.hold_compensation(state)?;
         let mut strokes = Vec::new();
         let result = grooving(effect, state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
-        self.carry_out(&strokes, result, Plane::Zx, state.position, state)?;
-        state.compensation = held;
+        let outcome = self.carry_out(&strokes, result, Plane::Zx, state.position, state);
+        Self::release_compensation(held, state);
+        outcome?;
         checked
     }
 
@@ -123,7 +125,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let target = self.target(state)?;
             let to = (Mm(target.raw(Axis::X)), Mm(target.raw(Axis::Z)));
             let lead = self.lead(state);
-            let checked = self.check_lead(lead, state);
+            let checked = Self::check_lead(lead, state);
             let lead = Mm(lead.or_else(|| self.modal_lead(state)).unwrap_or(f64::NAN));
             let words = if present.intersects(LetterSet::of("KD")) {
                 self.thread_of_one_block(to, lead, state)?
@@ -133,8 +135,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let held = self.hold_compensation(state)?;
             let mut strokes = Vec::new();
             let result = multi_pass_thread(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
-            self.carry_out(&strokes, result, Plane::Zx, state.position, state)?;
-            state.compensation = held;
+            let outcome = self.carry_out(&strokes, result, Plane::Zx, state.position, state);
+            Self::release_compensation(held, state);
+            outcome?;
             return checked;
         }
         self.store_thread(state);
@@ -157,7 +160,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(r) = self.length(Letter::of('R'), state) {
             *finish = Some(r);
         }
-        keep(words, state);
+        keep(&words, state);
     }
 
     fn thread_of_one_block(&mut self, to: (Mm, Mm), lead: Mm, state: &State<D>) -> Step<ThreadHeights> {
@@ -269,8 +272,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let result = tapered_thread(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
         let plane = state.plane(self.model).unwrap_or(Plane::Zx);
         self.carry_out(&strokes, result, plane, target, state)?;
-        // The cycle stays the motion mode, and no block may move by it without naming it.
-        self.leave_motion_modes(state);
+        self.end_motion_cycle(state);
         Ok(())
     }
 
@@ -301,15 +303,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Cycles of many passes follow their own path: the moves that cutter compensation holds back come first, and it
     /// goes on where the cycle ends.
-    pub(super) fn hold_compensation(&mut self, state: &mut State<D>) -> Step<Option<Box<Compensation>>> {
+    pub(super) fn hold_compensation(&mut self, state: &mut State<D>) -> Step<HeldCompensation> {
         self.flush_compensation(state)?;
-        Ok(state.compensation.take())
+        let modes = *state.mode(Role::Compensation);
+        if self.compensates(state) || modes.only().is_none() {
+            state.set_mode(Role::Compensation, self.model.code_with(Effect::CompensationOff));
+        }
+        Ok(HeldCompensation { compensation: state.compensation.take(), modes })
     }
 
-    /// A code that is neither motion nor canned cycle took the place of both.
-    pub(super) fn leave_motion_modes(&mut self, state: &mut State<D>) {
-        state.set_mode(Role::Motion, gcheck_controls::CodeIx::NONE);
+    /// Goes on with what was held.
+    pub(super) fn release_compensation(held: HeldCompensation, state: &mut State<D>) {
+        state.compensation = held.compensation;
+        if let Some(slot) = state.modes.get_mut(Role::Compensation.index()) {
+            *slot = held.modes;
+        }
+    }
+
+    /// A cycle that is a motion mode of its own, by which no block moves without naming it, has read the block's axis words.
+    fn end_motion_cycle(&mut self, state: &mut State<D>) {
         state.set_mode(Role::Cycle, self.model.code_with(Effect::CycleCancel));
+        let taken = |ix: &gcheck_controls::CodeIx| self.model.code(*ix).is_some_and(|code| code.takes_axes);
+        if self.words.codes().iter().any(taken) {
+            state.set_mode(Role::Motion, gcheck_controls::CodeIx::NONE);
+        } else {
+            self.words.clear();
+        }
     }
 
     /// Does the block name the axis, by its own address or as an increment?
@@ -329,7 +348,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A thread needs a lead from somewhere.
-    fn check_lead(&self, lead: Option<f64>, state: &State<D>) -> Step {
+    fn check_lead(lead: Option<f64>, state: &State<D>) -> Step {
         match lead {
             Some(lead) if lead <= 0.0 => Err(Fault::NoFeed),
             None if D::known(&state.feed) == Some(0.0) => Err(Fault::NoFeed),
@@ -386,10 +405,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
+/// Cutter compensation set aside while a cycle goes its own way.
+pub(super) struct HeldCompensation {
+    compensation: Option<Box<Compensation>>,
+    modes: ModeSet,
+}
+
+impl HeldCompensation {
+    /// Leaves the path: compensation stays the mode, but where its path goes on is not known.
+    pub(super) fn without_path(self) -> Self {
+        Self { compensation: None, ..self }
+    }
+}
+
 /// Keeps words of turning cycles.
-fn keep<D: Domain>(words: TurningWords, state: &mut State<D>) {
-    if state.turning.as_deref() != Some(&words) {
-        state.turning = Some(Rc::new(words));
+fn keep<D: Domain>(words: &TurningWords, state: &mut State<D>) {
+    if state.turning.as_deref() != Some(words) {
+        state.turning = Some(Rc::new(*words));
     }
 }
 

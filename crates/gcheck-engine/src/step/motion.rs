@@ -31,7 +31,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn active_motion(&mut self, state: &mut State<D>) -> Step {
         let present = self.words.present();
-        let has_axes = present.intersects(self.model.axis_letters) || present.intersects(LetterSet::of("@^"));
+        let has_axes = present.intersects(self.model.axis_letters) || present.intersects(super::POLAR);
         let Some(cycle) = state.active_cycle(self.model) else { return self.lose_position(state) };
         if cycle.is_some() {
             return self.cycle(cycle, state);
@@ -71,11 +71,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Effect::SplineCubic | Effect::SplineQuadratic if has_axes => self.spline(effect, state),
             Effect::NurbsOpen => self.nurbs_point(state),
-            Effect::Rapid => Ok(()),
-            Effect::Linear => {
-                // `G1` without axis words is the place where a missing feed is found on some controls.
-                if self.words.codes().contains(&mode) { self.check_feed_of_code(state) } else { Ok(()) }
+            // Some controls make a move of no length of it, which needs a feed as every other.
+            Effect::Rapid | Effect::Linear if self.refuses_incomplete() && self.words.codes().contains(&mode) => {
+                self.straight(if effect == Effect::Rapid { TravelKind::Rapid } else { TravelKind::Feed }, state)
             }
+            Effect::Rapid | Effect::Linear => Ok(()),
             Effect::None if mode == CodeIx::NONE && has_axes => Err(Fault::NoMotionMode),
             Effect::None if has_axes => self.lose_position(state),
             _ => self.bare_motion_code(),
@@ -89,14 +89,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Controls that refuse words and codes that do not fit together.
     pub(super) fn refuses_incomplete(&self) -> bool {
         self.model.semantics().compensation.freezes_modes
-    }
-
-    fn check_feed_of_code(&self, state: &State<D>) -> Step {
-        if self.refuses_incomplete() && D::known(&state.feed) == Some(0.0) && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
-        {
-            return Err(Fault::NoFeed);
-        }
-        Ok(())
     }
 
     /// A move whose mode is not known: the named axes end nobody knows where.
@@ -137,7 +129,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             };
             target.set(axis, value);
         }
-        if self.words.present().intersects(LetterSet::of("@^")) {
+        if self.words.present().intersects(super::POLAR) {
             self.polar_target(&mut target, state)?;
         } else if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) {
             self.polar_words(&mut target, state);
@@ -230,6 +222,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// Under inverse time every cut has a feed of its own, from its length.
+    pub(super) fn announce_inverse_time(&mut self, length: f64, state: &mut State<D>) {
+        if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
+            let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length;
+            self.emit(state, Event::FeedRate(rate));
+        }
+    }
+
     /// `G53`: the words are machine coordinates.
     fn machine_move(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
         if state.is_incremental(self.model) == Some(true) && self.refuses_incomplete() {
@@ -266,6 +266,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// A straight move to a programmed point.
     pub(super) fn travel(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) -> Step {
         if state.compensation.is_some() {
+            if kind == TravelKind::Feed {
+                self.announce_inverse_time(straight_length(&state.position, &target), state);
+            }
             return self.compensated_line(kind, target, state);
         }
         if state.left_compensation.is_some() {
@@ -289,6 +292,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         expanded: bool,
         state: &mut State<D>,
     ) {
+        if kind == TravelKind::Feed {
+            self.announce_inverse_time(straight_length(&state.actual, &to), state);
+        }
         let travel = Travel { kind, from: state.actual, programmed, to, expanded };
         state.actual = to;
         self.emit(state, Event::Travel(travel));
@@ -403,6 +409,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.set_mode(Role::Motion, CodeIx::NONE);
         Ok(())
     }
+}
+
+/// Length of a straight move in millimetres; of a move of rotary axes alone, degrees.
+fn straight_length(from: &Position, to: &Position) -> f64 {
+    let norm = |axes: [Axis; 3]| axes.map(|axis| to.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt();
+    let linear = norm([Axis::X, Axis::Y, Axis::Z]);
+    if linear != 0.0 {
+        return linear;
+    }
+    let secondary = norm([Axis::U, Axis::V, Axis::W]);
+    if secondary == 0.0 { norm([Axis::A, Axis::B, Axis::C]) } else { secondary }
 }
 
 /// A Bézier curve as chords within a hundredth of a millimetre.

@@ -40,7 +40,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G54` and its kin.
     pub(super) fn select_work_offset(&mut self, number: Option<u16>, state: &mut State<D>) {
-        self.reframe(state, |state| state.work = number);
+        if number.is_some() && number == state.work && self.refuses_incomplete() {
+            // The system in use stays as it is.
+            return;
+        }
+        self.reframe(state, |state| {
+            state.work = number;
+            state.in_effect = number.map_or(WorkOffset::UNKNOWN, |n| state.tables.offset(n));
+        });
         if let Some(number) = number
             && !state.tables.offset(number).origin.is_known()
         {
@@ -163,7 +170,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     return self.length_number(1.0, state);
                 }
                 let named = self.named(state);
-                let mut length = Position::ZERO;
+                // Axes that are not named keep their offsets.
+                let mut length = state.length;
                 for (axis, value) in named {
                     length.set(axis, value);
                 }
@@ -180,6 +188,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
+            Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
             Some(Count::Known(number)) => {
                 if number == 0 && !rules.length_from_tool {
                     // H0 is length zero, and ends the compensation on some controls.
@@ -194,6 +203,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
+            None if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
             None if rules.length_from_tool => match D::known(&state.tool) {
                 #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
                 Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
@@ -220,8 +230,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
+    /// The length of the tool in the spindle, as it was loaded.
+    fn loaded_length(&mut self, sign: f64, state: &mut State<D>) -> Step {
+        state.h = state.tool.clone();
+        let mut length = state.loaded.offset;
+        for axis in Axis::ALL {
+            length.set(axis, sign * length.raw(axis));
+        }
+        self.set_length(length, state);
+        Ok(())
+    }
+
     /// Offsets of a tool of which nothing is known: only along Z on mills.
-    fn unknown_length(&self, state: &State<D>) -> Position {
+    pub(super) fn unknown_length(&self, state: &State<D>) -> Position {
         let mut length = Position::ZERO;
         length.set(Axis::Z, f64::NAN);
         if state.is_diameter(self.model) == Some(true) {
@@ -329,7 +350,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn forget_offsets(&mut self, state: &mut State<D>) {
-        self.reframe(state, |state| Rc::make_mut(&mut state.tables).unsure = true);
+        self.reframe(state, |state| {
+            Rc::make_mut(&mut state.tables).unsure = true;
+            state.in_effect = WorkOffset::UNKNOWN;
+        });
     }
 
     fn write_work_offset(&mut self, number: Option<Count>, here: bool, state: &mut State<D>) -> Step {
@@ -389,7 +413,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         let active = state.work == Some(system);
-        self.reframe(state, |state| Rc::make_mut(&mut state.tables).set_offset(system, offset));
+        self.reframe(state, |state| {
+            Rc::make_mut(&mut state.tables).set_offset(system, offset);
+            if active {
+                state.in_effect = offset;
+            }
+        });
         if active {
             self.announce_offset(state);
             self.announce_rotation(state);
@@ -445,8 +474,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('Q'))),
             _ => {}
         }
+        let written = *tool;
+        let row = state.tables.tools.iter().position(|(n, _)| *n == number).map_or(0, |row| row as u32 + 1);
+        let tool = &written;
         let entry = ToolEntry {
-            pocket: tool.pocket,
+            pocket: row,
             tool: number,
             offset: tool.offset,
             diameter: tool.diameter,
@@ -454,7 +486,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             orientation: tool.orientation,
         };
         self.emit(state, Event::ToolTableEntry(entry));
-        if D::known(&state.tool) == Some(f64::from(number)) {
+        if state.loaded_row == row {
+            state.loaded = written;
             self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
         }
         Ok(())

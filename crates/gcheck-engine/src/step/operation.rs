@@ -34,7 +34,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rounds = match self.count(Letter::of('L'))? {
             None => 1,
             Some(Count::Known(rounds)) => rounds,
-            Some(Count::Unknown) => return self.lose_operation(&target, state),
+            Some(Count::Unknown) => {
+                self.lose_operation(&target, state);
+                return Ok(());
+            }
         };
         let deeper = match incremental {
             Some(true) => target.raw(Axis::Z) - state.position.raw(Axis::Z),
@@ -59,8 +62,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // The tool is left in the centre of the floor, whatever the way there was.
         let mut end = target;
         end.set(Axis::Z, target.raw(Axis::Z) + deeper * f64::from(rounds.saturating_sub(1)));
-        self.carry_out(&strokes, result, Plane::Xy, end, state)?;
-        state.compensation = held;
+        let outcome = self.carry_out(&strokes, result, Plane::Xy, end, state);
+        Self::release_compensation(held, state);
+        outcome?;
         checked
     }
 
@@ -79,68 +83,65 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None if state.cycle.r.is_nan() => return Err(needed('R')),
             None => state.cycle.r,
         };
-        let incremental = state.is_incremental(self.model);
-        let repeats = match self.count(Letter::of('L'))? {
-            Some(Count::Known(repeats)) if incremental == Some(true) => repeats.max(1),
-            _ => 1,
-        };
-        let bottom = if incremental == Some(false) { target.raw(Axis::Z) } else { f64::NAN };
-        let r = if incremental == Some(false) { r } else { f64::NAN };
-        let step = target - state.position;
         let length = |letter: char| self.length(Letter::of(letter), state).map(Mm);
-        let (step_x, step_y) = (length('I'), length('J'));
-        let finish = length('K').unwrap_or(Mm::ZERO);
-        let compensates = self.compensates(state);
-        let tool_radius = if compensates { self.pocket_tool_radius(state)? } else { 0.0 };
-        let checked = self.check_feed(state);
-        // Compensation belongs to the walls; a move that ends it comes afterwards.
-        self.hold_compensation(state)?;
-
-        let mut start = state.position;
-        start.set(Axis::X, target.raw(Axis::X));
-        start.set(Axis::Y, target.raw(Axis::Y));
-        let outline = self.outline(program, &start, state)?;
-        for turn in 0..repeats.min(crate::cycles::MAX_STROKES) {
-            if turn > 0 {
-                start.set(Axis::X, start.raw(Axis::X) + step.raw(Axis::X));
-                start.set(Axis::Y, start.raw(Axis::Y) + step.raw(Axis::Y));
-            }
-            let here = (Mm(start.raw(Axis::X)), Mm(start.raw(Axis::Y)));
-            let mut end = start;
-            end.set(Axis::Z, r);
-            let words = GeneralPocket {
-                start: here,
-                r: Mm(r),
-                bottom: Mm(bottom),
-                layer: Mm(layer),
-                step_x,
-                step_y,
-                finish,
-                tool_radius: Mm(tool_radius),
-                feed: MmPerMin(D::known(&state.feed).unwrap_or(f64::NAN)),
-            };
-            // Further pockets have the outline of the first.
-            let plan = match &outline {
-                Some(outline) if turn == 0 => general_pocket(outline, &words).map(Some),
-                Some(_) => Ok(None),
-                None => Err(CycleError::Unknown),
-            };
-            let mut strokes = Vec::new();
-            if let Ok(Some(plan)) = &plan {
-                let [x, y, z] = [here.0, here.1, Mm(state.position.raw(Axis::Z))];
-                strokes.push(Stroke::Rapid([x, y, z]));
-                strokes.push(Stroke::Rapid([x, y, words.r]));
-                strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
-                strokes.push(Stroke::Rapid(plan.end));
-            }
-            let result = match plan {
-                Ok(Some(plan)) => Ok(plan.end),
-                Ok(None) => Err(CycleError::Unknown),
-                Err(error) => Err(error),
-            };
-            self.carry_out(&strokes, result, Plane::Xy, end, state)?;
+        let mut words = GeneralPocket {
+            start: (Mm(target.raw(Axis::X)), Mm(target.raw(Axis::Y))),
+            r: Mm(r),
+            bottom: Mm(target.raw(Axis::Z)),
+            layer: Mm(layer),
+            step_x: length('I'),
+            step_y: length('J'),
+            finish: length('K').unwrap_or(Mm::ZERO),
+            tool_radius: Mm::ZERO,
+            feed: MmPerMin(D::known(&state.feed).unwrap_or(f64::NAN)),
+        };
+        if self.compensates(state) {
+            words.tool_radius = Mm(self.pocket_tool_radius(state)?);
         }
+        let checked = self.check_feed(state);
+        if state.is_incremental(self.model) != Some(false) {
+            return self.pockets_by_increments(&target, state).and(checked);
+        }
+        let mut start = target;
+        start.set(Axis::Z, state.position.raw(Axis::Z));
+        let outline = self.outline(program, &start, state)?;
+        let plan = outline.map_or(Err(CycleError::Unknown), |outline| general_pocket(&outline, &words));
+        let mut strokes = Vec::new();
+        if let Ok(plan) = &plan {
+            let (x, y) = words.start;
+            strokes.push(Stroke::Rapid(start.xyz()));
+            strokes.push(Stroke::Rapid([x, y, words.r]));
+            strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
+            strokes.push(Stroke::Rapid(plan.end));
+        }
+        let mut end = start;
+        end.set(Axis::Z, r);
+        // Compensation belongs to the walls, and is ended by a move afterwards.
+        let held = self.hold_compensation(state)?;
+        let outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        Self::release_compensation(held.without_path(), state);
+        outcome?;
         checked
+    }
+
+    /// `G91` with `L`: pockets side by side. What their levels count from is not known, where the last one stands is.
+    fn pockets_by_increments(&mut self, target: &Position, state: &mut State<D>) -> Step {
+        let repeats = match self.count(Letter::of('L'))? {
+            None => 1.0,
+            Some(Count::Known(repeats)) => f64::from(repeats.max(1)),
+            Some(Count::Unknown) => f64::NAN,
+        };
+        let mut end = state.position;
+        for axis in [Axis::X, Axis::Y] {
+            let step = target.raw(axis) - state.position.raw(axis);
+            end.set(axis, state.position.raw(axis) + step * if step == 0.0 { 1.0 } else { repeats });
+        }
+        end.set(Axis::Z, f64::NAN);
+        let held = self.hold_compensation(state)?;
+        state.position = end;
+        state.actual = self.axes_of(&end, state);
+        Self::release_compensation(held.without_path(), state);
+        Ok(())
     }
 
     /// The pieces of an outline, from the start hole on; `None` when they are not all known.
@@ -187,11 +188,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Repeats that nobody knows: the tool ends over the point, at a depth nobody knows.
-    fn lose_operation(&mut self, target: &Position, state: &mut State<D>) -> Step {
+    fn lose_operation(&mut self, target: &Position, state: &mut State<D>) {
         state.position = *target;
         state.position.set(Axis::Z, f64::NAN);
         state.actual = self.axes_of(&state.position, state);
-        Ok(())
     }
 
     // ---- patterns ----

@@ -55,12 +55,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             .into_iter()
             .filter(|axis| target.raw(*axis).to_bits() != state.position.raw(*axis).to_bits())
             .collect();
+        let from = state.position;
         self.travel(kind, target, false, state)?;
         self.emit(state, Event::Probe(false));
         self.assumptions.insert(Assumption::ProbeTouch);
         if self.machine.fresh {
+            if let TravelKind::Probe { toward: false, .. } = kind {
+                // Away from a workpiece that is not there, the simulation stops a hundredth of an inch short.
+                self.stop_short(from, 0.254, state);
+            }
             state.probed = state.actual;
-            state.probe_result = Truth::True;
+            state.probe_result = Truth::False;
             return Ok(());
         }
         state.probed = state.actual;
@@ -71,6 +76,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         state.probe_result = Truth::Unknown;
         Ok(())
+    }
+
+    fn stop_short(&mut self, from: Position, distance: f64, state: &mut State<D>) {
+        let length = Axis::ALL.map(|axis| state.position.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt();
+        if length > distance {
+            for axis in Axis::ALL {
+                let (start, end) = (from.raw(axis), state.position.raw(axis));
+                state.position.set(axis, end - (end - start) * distance / length);
+            }
+            state.actual = self.axes_of(&state.position, state);
+        }
     }
 
     /// `G35`, `G36`, `G37`, `G136`: a touch whose result goes into a table.

@@ -44,12 +44,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         match effect {
             Effect::WorkOffset(number) => {
-                if state.work != Some(number) {
-                    let machine = state.machine();
-                    state.work = Some(number);
-                    state.actual = state.from_machine(&machine);
-                    state.position = self.programmed_of(&state.actual, state);
-                }
+                let machine = state.machine();
+                state.work = Some(number);
+                state.in_effect = state.tables.offset(number);
+                state.actual = state.from_machine(&machine);
+                state.position = self.programmed_of(&state.actual, state);
                 self.announce_offset(state);
                 self.announce_rotation(state);
             }
@@ -154,16 +153,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Units::Mm => Units::Mm,
             }));
         }
-        if differs(Role::Plane) && let Some(plane) = state.plane(self.model) {
-            self.emit(state, Event::Plane(plane));
-        }
         if feed_mode && let Some(mode) = state.feed_mode(self.model) {
             self.emit(state, Event::FeedMode(mode));
         }
-        state.feed = known::<D>(saved.feed);
+        // A change of the feed mode leaves no feed; else the saved one is in effect again.
+        let feed = if feed_mode { 0.0 } else { saved.feed };
+        state.feed = known::<D>(feed);
         state.speed = known::<D>(saved.speed);
         if (feed_mode || was.feed.to_bits() != saved.feed.to_bits()) && state.feed_mode(self.model) != Some(FeedMode::InverseTime) {
-            self.emit(state, Event::FeedRate(saved.feed));
+            self.emit(state, Event::FeedRate(feed));
         }
         if spindle_mode {
             let surface = state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed);
@@ -177,6 +175,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if let Some(spindle) = saved.spindle {
                 self.emit(state, Event::Spindle(spindle));
             }
+        }
+        if differs(Role::Plane) && let Some(plane) = state.plane(self.model) {
+            self.emit(state, Event::Plane(plane));
         }
         if was.length != saved.length {
             set(state, Role::Length);
@@ -193,8 +194,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let mode = self.current_path_mode(state);
             self.path_mode(mode, state);
         }
-        if (was.mist, was.flood) != (saved.mist, saved.flood) {
+        if was.mist != saved.mist || saved.mist == Truth::False && was.flood != saved.flood && saved.flood == Truth::False {
             self.coolant(Coolant::Mist, saved.mist == Truth::True, state);
+        }
+        if was.flood != saved.flood {
             self.coolant(Coolant::Flood, saved.flood == Truth::True, state);
         }
         for (kind, old, new) in [

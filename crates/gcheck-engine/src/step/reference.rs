@@ -39,17 +39,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.assumptions.insert(Assumption::ReferencePosition(number));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
-        let mut machine = state.machine();
-        for axis in &axes {
-            machine.set(*axis, reference.raw(*axis));
-        }
-        let target = state.from_machine(&machine);
+        let target = state.from_machine(&reference);
         let mut to = state.actual;
-        for axis in Axis::ALL {
-            let turned = state.work_offset().rotation != 0.0 && matches!(axis, Axis::X | Axis::Y);
-            if axes.contains(&axis) || turned {
-                to.set(axis, target.raw(axis));
-            }
+        for axis in &axes {
+            to.set(*axis, target.raw(*axis));
         }
         let programmed = self.programmed_of(&to, state);
         self.travel(TravelKind::Rapid, programmed, true, state)?;

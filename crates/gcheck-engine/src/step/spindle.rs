@@ -27,8 +27,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             (_, Some(number)) => D::number(number * self.unit(state)),
             (_, None) => D::unknown(),
         };
-        let rate = D::known(&state.feed).unwrap_or(f64::NAN);
-        self.emit(state, Event::FeedRate(rate));
+        if mode != Some(FeedMode::InverseTime) {
+            let rate = D::known(&state.feed).unwrap_or(f64::NAN);
+            self.emit(state, Event::FeedRate(rate));
+        }
         Ok(())
     }
 
@@ -182,7 +184,30 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {
         state.tool = number.map_or_else(D::unknown, |n| D::number(f64::from(n)));
+        self.load(number, state);
         self.emit(state, Event::ToolChange(number));
+    }
+
+    /// The tool's data come with it. No tool leaves those of the last one where they are.
+    fn load(&mut self, number: Option<u32>, state: &mut State<D>) {
+        match number {
+            Some(0) => {}
+            Some(number) => {
+                let row = state.tables.tools.iter().position(|(n, _)| *n == number);
+                state.loaded_row = row.map_or(0, |row| row as u32 + 1);
+                match state.tables.tool(number) {
+                    Some(tool) => state.loaded = *tool,
+                    None => {
+                        state.loaded.offset = self.unknown_length(state);
+                        state.loaded.diameter = gcheck_geometry::Mm::UNKNOWN;
+                    }
+                }
+            }
+            None => {
+                state.loaded.offset = self.unknown_length(state);
+                state.loaded.diameter = gcheck_geometry::Mm::UNKNOWN;
+            }
+        }
     }
 
     /// `M61`.

@@ -103,6 +103,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::MistOn => truth(state.mist),
             V::FloodOn => truth(state.flood),
             V::CompensationOn => flag(Some(self.compensates(state))),
+            V::CodeActive => {
+                let number = variable.of.as_deref().and_then(CodeNumber::parse);
+                let code = number.map(|n| self.model.control().code_ix(n));
+                let mode = code.and_then(|code| Some((code, self.model.role(code)?)));
+                match mode.map(|(code, role)| (code, state.mode(role).only())) {
+                    Some((code, Some(active))) => flag(Some(code == active)),
+                    _ => D::unknown(),
+                }
+            }
+            V::FeedOverrideOn => truth(state.feed_override),
+            V::SpeedOverrideOn => truth(state.speed_override),
+            V::AdaptiveFeedOn => truth(state.adaptive),
+            V::FeedStopOn => truth(state.feed_hold),
+            V::LengthOffsetOn => {
+                let length = state.length.values();
+                flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
+            }
+            V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
+                let before = file.loaded.text().as_bytes().get(..self.origin.start as usize).unwrap_or_default();
+                D::number(before.iter().filter(|byte| **byte == b'\n').count() as f64 + 1.0)
+            }),
+            V::Constant => variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number),
             V::CallLevel => D::number((state.frames.len() - 1) as f64),
             V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
                 Unset::Vacant => D::vacant(),
@@ -113,7 +135,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn in_program_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
-        let diameter = axis == Axis::X && state.is_diameter(self.model) == Some(true);
+        // The interpreter shows radii in diameter mode too.
+        let diameter = axis == Axis::X && state.is_diameter(self.model) == Some(true) && !self.refuses_incomplete();
         let value = if diameter { value * 2.0 } else { value };
         if axis.is_rotary() { value } else { value / self.unit(state) }
     }
@@ -167,7 +190,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let value = f64::from(number.tenths());
                 D::number(if tenths { value } else { value / 10.0 })
             }
-            Some(None) if tenths => D::number(-10.0),
+            // No motion mode is what the code says that ends them.
+            Some(None) if tenths => {
+                let cancel = self.model.control().code_at(self.model.cycle_cancel);
+                cancel.map_or_else(D::unknown, |code| D::number(f64::from(code.number().tenths())))
+            }
             _ => D::unknown(),
         }
     }
@@ -207,6 +234,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 // Written, but in effect only when the system is chosen again; elsewhere at once.
                 if state.work == Some(system) && !self.refuses_incomplete() {
+                    state.in_effect = offset;
                     state.actual = Position::UNKNOWN;
                     state.position = Position::UNKNOWN;
                 }

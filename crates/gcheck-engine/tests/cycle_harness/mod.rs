@@ -66,7 +66,7 @@ impl Observer<Concrete> for Recorder {
 }
 
 /// A tool of this diameter under number 1; everything else is fresh.
-pub fn machine(diameter: f64) -> Machine {
+pub(crate) fn machine(diameter: f64) -> Machine {
     let tool = Tool {
         pocket: 1,
         offset: Position::ZERO,
@@ -79,7 +79,7 @@ pub fn machine(diameter: f64) -> Machine {
 }
 
 /// What a program does on a control. `axes` are those shown.
-pub fn shown_on(control: &str, axes: &'static str, machine: &Machine, text: &str) -> String {
+pub(crate) fn shown_on(control: &str, axes: &'static str, machine: &Machine, text: &str) -> String {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let loaded = Loaded::new(text, &dialect, |_, _, _| ());

@@ -11,14 +11,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use gcheck_controls::{Control, UserCode};
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_rules::{Job, Scene, Selection, check};
+use gcheck_rules::{Execution, Job, Scene, Selection, check};
 use gcheck_syntax::SourceText;
 
 use super::read;
 use crate::Problem;
-use crate::args::{CheckOptions, Global};
+use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
 use crate::control_choice::choose;
+use crate::execution::{Equipment, Start};
 use crate::programs::{ProgramFolders, Reachable};
 
 /// A file that is to be checked.
@@ -39,17 +40,21 @@ pub(super) struct Bench<'o> {
     pub(super) control: Option<&'o str>,
     pub(super) wishes: RuleWishes,
     suppressions: bool,
+    execution: Execution,
+    set: &'o [Assignment],
     folders: ProgramFolders,
     /// Controls with the codes that configurations add to them.
     controls: Mutex<HashMap<ControlKey, Arc<Control>>>,
 }
 
 impl<'o> Bench<'o> {
-    pub(super) fn new(global: &'o Global, options: &CheckOptions, wishes: RuleWishes) -> Self {
+    pub(super) fn new(global: &'o Global, options: &'o CheckOptions, wishes: RuleWishes) -> Self {
         Self {
             control: global.control.as_deref(),
             wishes,
             suppressions: !options.no_suppressions,
+            execution: Execution { fuel: options.fuel, block_skip: options.block_skip.map(|skip| skip == Switch::On) },
+            set: &options.set,
             folders: ProgramFolders::default(),
             controls: Mutex::default(),
         }
@@ -101,12 +106,13 @@ fn words(payload: &(dyn Any + Send)) -> String {
 }
 
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
-    let Prepared { source, settings, choice, selection } = prepare(bench, target)?;
+    let Prepared { source, mut settings, choice, selection } = prepare(bench, target)?;
     let control = bench.control_of(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
-    let own = target.path.parent().map(PathBuf::from).unwrap_or_default();
-    let programs =
-        Reachable { folders: &bench.folders, paths: std::iter::once(own).chain(settings.search).collect() };
+    let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
+    let mut equipment = Equipment::new(&settings, &control, Start::Any)?;
+    equipment.set(bench.set);
+    settings.machine.engine = equipment.machine;
     let scene = Scene {
         dialect: &dialect,
         machine: &settings.machine,
@@ -126,6 +132,6 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         lines: outcome.lines,
         suppressed: outcome.suppressed,
         baseline: 0,
-        out_of_fuel: false,
+        out_of_fuel: outcome.out_of_fuel,
     })
 }

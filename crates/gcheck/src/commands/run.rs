@@ -8,7 +8,7 @@ use gcheck_engine::{Ending, RunResult, Stopped};
 use gcheck_toolpath::{Canonical, Csv, JsonLines, Start, Step, Text};
 
 use crate::args::{Global, RunFormat, RunOptions};
-use crate::execution::{self, Session, Steps};
+use crate::execution::{self, Rests, Session, Steps};
 use crate::{Problem, output};
 
 /// Runs the command; the exit code is its result.
@@ -31,7 +31,7 @@ pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> 
         let Some(ran) = ran else { return Ok(0) };
         execution::end_of_run(session, &ran);
         if options.output_format == RunFormat::Text && !global.quiet {
-            execution::say(&execution::assumptions(session, &ran));
+            execution::say(&Rests::new(session, &ran).text());
         }
         Ok(execution::exit_code(&ran))
     })

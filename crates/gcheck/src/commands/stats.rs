@@ -1,11 +1,140 @@
-//! `gcheck stats`: the figures of a program.
+//! `gcheck stats`: cycle time, distances, extents, feeds and speeds of a program, by tool and in total.
 //!
-//! Knows: what belongs to the figures besides. Must not know: how they are computed.
+//! Knows: what is said beside the figures. Must not know: how they are computed or laid out.
 
-use crate::args::{Global, StatsOptions};
-use crate::Problem;
+use std::io::{self, Write};
+
+use gcheck_engine::{Ending, RunResult, Stopped};
+use gcheck_report::{ControlChoice, LineIndex};
+use gcheck_rules::Described;
+use gcheck_toolpath::{Names, Statistics, Step};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use super::json as to_text;
+use crate::args::{Global, ListFormat, StatsOptions};
+use crate::execution::{self, Rests, Session, Steps};
+use crate::{Problem, output};
+
+/// Version of the JSON's shape.
+const VERSION: u32 = 1;
 
 /// Runs the command; the exit code is its result.
-pub(crate) fn run(_: &Global, _: &StatsOptions) -> Result<u8, Problem> {
-    Ok(0)
+pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem> {
+    let prepared = execution::prepare(global, &options.execution)?;
+    prepared.session(|session| {
+        if !global.quiet && options.output_format == ListFormat::Text {
+            execution::say(&execution::control_line(session));
+        }
+        let timing = session.prepared.equipment.timing;
+        let statistics = Statistics::new(session.used_axes(), timing, session.work_at_start());
+        let (ran, statistics) = session
+            .run(statistics)
+            .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;
+        let text = match options.output_format {
+            ListFormat::Text => text(session, &ran, &statistics),
+            ListFormat::Json => to_text(&json(session, &ran, &statistics))?,
+        };
+        match &options.output_file {
+            Some(file) => output::to_file(file, |out| out.write_all(text.as_bytes()))?,
+            None => output::to_stdout(|out: &mut dyn Write| out.write_all(text.as_bytes()))?,
+        }
+        execution::end_of_run(session, &ran);
+        Ok(execution::exit_code(&ran))
+    })
+}
+
+fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
+    let tool = |tool| session.tool_name(tool);
+    let offset = |number| Some(gcheck_rules::work_offset_name(number, session.model));
+    with(&Names { tool: &tool, offset: &offset })
+}
+
+fn text(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> String {
+    let mut text = with_names(session, |names| statistics.to_text(names));
+    let rests = Rests::new(session, ran).text();
+    if !rests.is_empty() {
+        text.push('\n');
+        text.push_str(&rests);
+    }
+    text
+}
+
+/// What stands in the JSON beside the figures.
+#[derive(Debug, Serialize)]
+struct Head<'s> {
+    version: u32,
+    file: &'s str,
+    control: &'s ControlChoice,
+    ended: &'static str,
+    blocks: u64,
+    fault: Option<Fault>,
+}
+
+#[derive(Debug, Serialize)]
+struct Fault {
+    message: String,
+    note: Option<String>,
+    help: Option<String>,
+    file: String,
+    line: u32,
+    column: u32,
+}
+
+fn json(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Value {
+    let fault = execution::fault_of(session, ran).map(|fault| {
+        let place = LineIndex::new(&fault.text).position(&fault.text, fault.range.start as u32);
+        Fault {
+            message: fault.words.message,
+            note: fault.words.why,
+            help: fault.words.help,
+            file: fault.name,
+            line: place.line,
+            column: place.column,
+        }
+    });
+    let head = Head {
+        version: VERSION,
+        file: &session.prepared.shown,
+        control: &session.prepared.choice,
+        ended: ended(&ran.stopped),
+        blocks: ran.blocks,
+        fault,
+    };
+    let timing = statistics.assumptions().into_iter().map(|assumption| {
+        let pin = format!("[machine] {} = …", assumption.key);
+        Described { text: assumption.text, pin: Some(pin) }
+    });
+    let rests = Rests::new(session, ran).after(timing.collect());
+    let rests: Vec<Value> =
+        rests.described().iter().map(|described| json!({ "text": described.text, "pin": described.pin })).collect();
+    // Both are structs, so both are objects.
+    let mut whole = serde_json::to_value(head).unwrap_or_default();
+    if let (Value::Object(whole), Value::Object(figures)) =
+        (&mut whole, with_names(session, |names| statistics.to_json(names)))
+    {
+        whole.extend(figures);
+        whole.insert("assumptions".to_owned(), Value::Array(rests));
+    }
+    whole
+}
+
+/// How a run ended, for other programs.
+fn ended(stopped: &Stopped) -> &'static str {
+    match stopped {
+        Stopped::Ended(Ending::Program) => "program-end",
+        Stopped::Ended(Ending::Restart) => "restart",
+        Stopped::Ended(Ending::Tape) => "tape-end",
+        Stopped::Ended(Ending::Text) => "text-end",
+        Stopped::Ended(Ending::Alarm(_)) => "alarm",
+        Stopped::Faulted(_) => "fault",
+        Stopped::OutOfFuel => "out-of-fuel",
+    }
+}
+
+impl Steps for Statistics {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.add(step);
+        Ok(())
+    }
 }

@@ -6,8 +6,7 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
-use gcheck_engine::{
-    Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Truth,
+use gcheck_engine::{At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Truth,
 };
 use gcheck_report::LineIndex;
 use gcheck_toolpath::Step;
@@ -31,6 +30,8 @@ pub(super) struct Bridge<'s, S> {
     error: Option<io::Error>,
     /// Sequence number of the block being executed.
     executing: Option<u32>,
+    /// The block being executed. An event of it that has no number was written by the control itself.
+    executing_at: At,
     files: Vec<Option<Lines>>,
 }
 
@@ -65,7 +66,7 @@ pub(super) fn stopping_at_errors(run: impl FnOnce() -> RunResult) -> Option<RunR
 
 impl<'s, S: Steps> Bridge<'s, S> {
     pub(super) fn new(session: &'s Session<'s>, steps: S) -> Self {
-        Self { session, steps, error: None, executing: None, files: Vec::new() }
+        Self { session, steps, error: None, executing: None, executing_at: At { file: 0, block: 0 }, files: Vec::new() }
     }
 
     /// What the run left; the error is that of the output.
@@ -99,6 +100,7 @@ impl<'s, S: Steps> Bridge<'s, S> {
 impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     fn before(&mut self, origin: Origin, _: &State<Concrete>) {
         self.executing = origin.n;
+        self.executing_at = origin.at;
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
@@ -106,7 +108,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         let (file, line) = self.place(origin);
         let step = Step {
             event,
-            n: if S::NUMBERED_BY_EXECUTION { self.executing } else { origin.n },
+            n: if S::NUMBERED_BY_EXECUTION && (origin.n.is_some() || origin.at != self.executing_at) { self.executing } else { origin.n },
             line,
             units: state.units(model).unwrap_or(self.session.prepared.equipment.units),
             feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),

@@ -3,14 +3,16 @@
 //!
 //! Knows: where things are said. Must not know: their wording (see `fault_words` and `gcheck_rules::assumptions`).
 
+use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::Letter;
-use gcheck_engine::{Ending, Origin, RunResult, Stopped};
-use gcheck_program::Word;
+use gcheck_engine::{ConcreteValue, Ending, Origin, RunResult, Stopped, Units};
+use gcheck_program::{Op, Value, Word};
 use gcheck_report::{FileReport, Report};
+use gcheck_rules::Described;
 use gcheck_syntax::SourceText;
 
 use super::Session;
@@ -45,36 +47,52 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
 
 /// Says why a run did not come to the end of the program.
 pub(crate) fn end_of_run(session: &Session<'_>, result: &RunResult) {
+    if let Some(Fault { words, range, name, text }) = fault_of(session, result) {
+        let mut problem = Problem::at(&name, &text, &range, words.message);
+        if let Some(why) = words.why {
+            problem = problem.note(why);
+        }
+        if let Some(help) = words.help {
+            problem = problem.help(help);
+        }
+        crate::report(&problem);
+    }
+}
+
+/// Why a run ended before the program did, and where.
+pub(crate) struct Fault {
+    pub(crate) words: Words,
+    /// Bytes of `text`.
+    pub(crate) range: Range<usize>,
+    /// The file.
+    pub(crate) name: String,
+    pub(crate) text: String,
+}
+
+/// Why a run did not come to the end of the program; `None` if it did.
+pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Fault> {
     let units = result.state.units(session.model).unwrap_or(session.prepared.equipment.units);
     let (words, culprit) = match &result.stopped {
         Stopped::Ended(Ending::Alarm(number)) => {
             let comment = comment_of(session, result.origin);
             (fault_words::alarm(*number, comment.as_deref()), None)
         }
-        Stopped::Ended(_) => return,
+        Stopped::Ended(_) => return None,
+        Stopped::Faulted(gcheck_engine::Fault::Undecidable) => {
+            (fault_words::undecidable(&unknown_variables(session, result)), None)
+        }
         Stopped::Faulted(fault) => {
             (fault_words::words(fault, session.model, units), fault_words::culprit(fault))
         }
         Stopped::OutOfFuel => (fault_words::out_of_fuel(result.blocks), None),
     };
-    crate::report(&problem(session, result.origin, culprit, words));
-}
-
-fn problem(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>, words: Words) -> Problem {
-    let Words { message, why, help } = words;
-    let file = session.program.file(origin.at.file);
+    let file = session.program.file(result.origin.at.file);
     let (name, text) = match &file {
         Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text()),
         _ => (session.prepared.shown.as_str(), session.prepared.source.text()),
     };
-    let mut problem = Problem::at(name, text, &range(session, origin, culprit), message);
-    if let Some(why) = why {
-        problem = problem.note(why);
-    }
-    if let Some(help) = help {
-        problem = problem.help(help);
-    }
-    problem
+    let range = range(session, result.origin, culprit);
+    Some(Fault { words, range, name: name.to_owned(), text: text.to_owned() })
 }
 
 /// The word that a fault is about, else the block.
@@ -102,6 +120,35 @@ fn range(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>) -> Ran
     }
 }
 
+/// Variables of the last block that have no known value; those of the call at hand only where there are no others.
+fn unknown_variables(session: &Session<'_>, result: &RunResult) -> Vec<u32> {
+    let Some(file) = session.program.file(result.origin.at.file) else { return Vec::new() };
+    let Some(place) = file.loaded.place(result.origin.at.block, session.program.dialect()) else {
+        return Vec::new();
+    };
+    let table = &place.table;
+    let of_words = table.words(place.block()).iter().filter_map(|word| match word.value {
+        Value::Expr(expr) => Some(expr),
+        _ => None,
+    });
+    let of_statements = table.statements(place.ix).flat_map(|statement| statement.kind.expressions());
+    let mut read: Vec<u32> = of_words
+        .chain(of_statements)
+        .flat_map(|expr| table.ops(table.expr(expr)))
+        .filter_map(|op| match op {
+            Op::Variable(number) => Some(*number),
+            _ => None,
+        })
+        .collect();
+    read.sort_unstable();
+    read.dedup();
+    let [first, last] = session.model.semantics().locals;
+    let (own, mut others): (Vec<u32>, Vec<u32>) =
+        read.into_iter().filter(|number| *number > 0).partition(|number| (first..=last).contains(number));
+    others.retain(|number| result.state.variables().get(*number) == ConcreteValue::Unknown);
+    if others.is_empty() { own } else { others }
+}
+
 /// The first comment of a block.
 fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     let file = session.program.file(origin.at.file)?;
@@ -113,7 +160,51 @@ fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     (!comment.is_empty()).then(|| comment.to_owned())
 }
 
-/// What the run rests on that nobody told gcheck, with the lines of gcheck.toml that would.
-pub(crate) fn assumptions(_session: &Session<'_>, _result: &RunResult) -> String {
-    String::new()
+/// What a run rests on that nobody told gcheck.
+pub(crate) struct Rests(Vec<Described>);
+
+impl Rests {
+    pub(crate) fn new(session: &Session<'_>, result: &RunResult) -> Self {
+        let mut all = gcheck_rules::describe_all(&result.assumptions, session.model);
+        let equipment = &session.prepared.equipment;
+        if equipment.units_assumed && !session.axes.says_units {
+            let (units, key) = match equipment.units {
+                Units::Inch => ("inches", "inch"),
+                Units::Mm => ("millimetres", "mm"),
+            };
+            let text = format!("lengths are {units}: the program does not say");
+            all.insert(0, Described { text, pin: Some(format!("[machine] units = \"{key}\"")) });
+        }
+        Self(all)
+    }
+
+    /// Further ones, in front of these.
+    pub(crate) fn after(mut self, mut first: Vec<Described>) -> Self {
+        first.append(&mut self.0);
+        Self(first)
+    }
+
+    pub(crate) fn described(&self) -> &[Described] {
+        &self.0
+    }
+
+    /// As text for people: what, and the lines of gcheck.toml that would settle it. Empty where nothing is taken for granted.
+    pub(crate) fn text(&self) -> String {
+        if self.0.is_empty() {
+            return String::new();
+        }
+        let mut out = String::from("taken for granted\n");
+        for Described { text, .. } in &self.0 {
+            // Writing to a string cannot fail.
+            let _ = writeln!(out, "  {text}");
+        }
+        let pins = gcheck_rules::pins(&self.0);
+        if !pins.is_empty() {
+            out.push_str("gcheck.toml can say\n");
+            for line in pins {
+                let _ = writeln!(out, "  {line}");
+            }
+        }
+        out
+    }
 }

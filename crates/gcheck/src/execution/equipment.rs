@@ -31,15 +31,24 @@ pub(crate) struct Equipment {
     pub(crate) remarks: BTreeMap<u32, String>,
 }
 
+/// From where programs are executed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// Once, from a control that was just switched on, where that leaves everything at zero.
+    Fresh,
+    /// From whatever the last program left.
+    Any,
+}
+
 impl Equipment {
     /// Puts the layers of a configuration together.
-    pub(crate) fn new(settings: &FileSettings, control: &Control) -> Result<Self, Problem> {
+    pub(crate) fn new(settings: &FileSettings, control: &Control, start: Start) -> Result<Self, Problem> {
         let layers = &settings.execution;
         let configured = layers.iter().rev().find_map(|layer| layer.units).map(units);
         let default = units_at_power_on(control, &settings.machine.settings);
         let in_force = configured.or(default).unwrap_or(Units::Mm);
-        // Where variables that nobody set are zero, a run is one from a fresh start: everything at zero.
-        let fresh = control.semantics().unset == Unset::Zero;
+        // Where variables that nobody set are zero, so is everything else after a fresh start.
+        let fresh = start == Start::Fresh && control.semantics().unset == Unset::Zero;
         let table_units = layers.iter().rev().find_map(|layer| layer.machine.table_units).map(units);
         let mut equipment = Self {
             machine: Machine {
@@ -147,7 +156,7 @@ impl Equipment {
     }
 
     /// Variables of the command line.
-    pub(super) fn set(&mut self, assignments: &[Assignment]) {
+    pub(crate) fn set(&mut self, assignments: &[Assignment]) {
         for assignment in assignments {
             self.set_variable(assignment.variable.clone(), assignment.value);
         }
@@ -235,13 +244,15 @@ pub(super) fn axes_of(model: &Model<'_>) -> Vec<Axis> {
 pub(super) struct AxesSeen<'m> {
     model: &'m Model<'m>,
     letters: LetterSet,
+    /// A block says in which units it is written.
+    pub(super) says_units: bool,
     /// Something is called, which may stand in another file and move what it likes.
     pub(super) calls: bool,
 }
 
 impl<'m> AxesSeen<'m> {
     pub(super) fn new(model: &'m Model<'m>) -> Self {
-        Self { model, letters: LetterSet::EMPTY, calls: false }
+        Self { model, letters: LetterSet::EMPTY, says_units: false, calls: false }
     }
 
     pub(super) fn look(&mut self, table: &BlockTable) {
@@ -255,6 +266,7 @@ impl<'m> AxesSeen<'m> {
                     let is_macro = matches!(effect, Effect::MacroCall | Effect::MacroModal)
                         || self.model.control().code_at(word.code).is_some_and(|code| code.alias().is_some());
                     has_arguments |= is_macro;
+                    self.says_units |= matches!(effect, Effect::Inch | Effect::Millimetre);
                     self.calls |= is_macro || effect == Effect::CallProgram;
                 }
             }

@@ -21,7 +21,7 @@ use crate::cycles::{
     CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileSegment, Roughing, RoughingDirection,
     layered_finish, layered_roughing, pattern_repeat, roughing,
 };
-use crate::event::TravelKind;
+use crate::event::{TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::{Observer, Origin};
@@ -62,16 +62,8 @@ enum Corner {
     Chamfer(f64),
 }
 
-/// The words of a cycle block, kept while the profile is read. Millimetres, X as radii.
-#[derive(Debug, Clone, Copy)]
-struct CycleBlock {
-    depth: Option<f64>,
-    stock_x: f64,
-    stock_z: f64,
-    more_x: f64,
-    more_z: f64,
-    passes: Option<f64>,
-}
+/// A corner that is cut: where it begins, its piece, where it ends.
+type CutCorner = ((f64, f64), ProfileSegment, (f64, f64));
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G70` to `G73` of lathes.
@@ -134,83 +126,51 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn store_first_block(&mut self, effect: Effect, state: &mut State<D>) {
         let mut words: TurningWords = state.turning();
         let length = |letter: char| self.length(Letter::of(letter), state);
-        let (u, w, r) = (length('U'), length('W'), length('R'));
+        let (in_x, in_z, back) = (length('U'), length('W'), length('R'));
         if effect == Effect::RepeatPattern {
             let passes = self.raw('R', state);
             // `R4`, and `R0.004` on controls that want a point, are both four passes.
             let [x, z, count] = &mut words.pattern;
-            *x = u.or(*x);
-            *z = w.or(*z);
+            *x = in_x.or(*x);
+            *z = in_z.or(*z);
             *count = passes.or(*count);
         } else {
-            let depth = if effect == Effect::RoughAlongX { w } else { u };
+            let depth = if effect == Effect::RoughAlongX { in_z } else { in_x };
             let [kept, retract] = &mut words.roughing;
             *kept = depth.or(*kept);
-            *retract = r.or(*retract);
+            *retract = back.or(*retract);
         }
-        keep(words, state);
+        keep(&words, state);
     }
 
     /// `G71` to `G73` between sequence numbers.
     fn rough_profile(&mut self, effect: Effect, blocks: ProfileBlocks, state: &mut State<D>) -> Step {
-        let diameter = state.is_diameter(self.model) == Some(true);
-        let length = |letter: char| self.length(Letter::of(letter), state);
-        let half = if diameter { 2.0 } else { 1.0 };
-        let words = CycleBlock {
-            depth: length('D'),
-            stock_x: length('U').unwrap_or(0.0) / half,
-            stock_z: length('W').unwrap_or(0.0),
-            more_x: length('I').unwrap_or(0.0),
-            more_z: length('K').unwrap_or(0.0),
-            passes: self.raw('D', state),
-        };
-        let stored = state.turning();
-        let unit = self.unit(state);
         let checked = self.check_feed(state);
         let profile = self.read_profile(blocks, Plane::Zx, &mut state.clone())?;
-        let start = state.position;
+        let half = if state.is_diameter(self.model) == Some(true) { 2.0 } else { 1.0 };
+        let length = |letter: char| self.length(Letter::of(letter), state).unwrap_or(0.0);
+        let stock = (Mm(length('W')), Mm(length('U') / half));
+        let more = (Mm(length('K')), Mm(length('I')));
+        let from = state.position.xyz();
         let mut strokes = Vec::new();
         let mut out = |stroke| strokes.push(stroke);
-        let from = start.xyz();
-        let stock = (Mm(words.stock_z), Mm(words.stock_x));
         let result = if !profile.complete {
             Err(CycleError::Unknown)
         } else if effect == Effect::RepeatPattern {
-            let [x, z, count] = stored.pattern;
-            let one_block = words.passes.is_some();
-            let total = if one_block { (words.more_z, words.more_x) } else { (z.unwrap_or(0.0), x.unwrap_or(0.0)) };
-            match words.passes.or(count) {
-                Some(passes) if passes.is_finite() => {
-                    #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none, which is refused")]
-                    let passes = passes.round() as u32;
-                    let words = PatternRepeat { passes, total: (Mm(total.0), Mm(total.1)), stock };
-                    pattern_repeat(from, &profile.segments, &words, &mut out)
-                }
-                _ => Err(CycleError::Unknown),
+            match self.pattern(stock, more, state) {
+                Some(words) => pattern_repeat(from, &profile.segments, &words, &mut out),
+                None => Err(CycleError::Unknown),
             }
         } else {
-            let direction =
-                if effect == Effect::RoughAlongX { RoughingDirection::AlongX } else { RoughingDirection::AlongZ };
-            let [depth, retract] = stored.roughing;
-            let setting = |value: f64| Some(value * unit).filter(|value| *value > 0.0);
-            let depth = words.depth.or(depth).or_else(|| setting(self.number_setting("72")));
-            let retract = retract.or_else(|| setting(self.number_setting("73")));
-            let words_of = |stock: (Mm, Mm)| Roughing {
-                direction,
-                depth: Mm(depth.unwrap_or(f64::NAN)),
-                retract: Mm(retract.unwrap_or(0.0)),
-                stock,
-                pockets: true,
-            };
-            if words.more_x == 0.0 && words.more_z == 0.0 {
-                roughing(from, &profile.segments, &words_of(stock), &mut out)
+            let words = self.roughing_words(effect, stock, state);
+            if more == (Mm::ZERO, Mm::ZERO) {
+                roughing(from, &profile.segments, &words, &mut out)
             } else {
                 // More is left at first; one pass along the profile takes it down to the finishing stock.
-                let first = (stock.0 + Mm(words.more_z), stock.1 + Mm(words.more_x));
-                roughing(from, &profile.segments, &words_of(first), &mut out).and_then(|_| {
-                    let once = PatternRepeat { passes: 1, total: (Mm::ZERO, Mm::ZERO), stock };
-                    pattern_repeat(from, &profile.segments, &once, &mut out)
-                })
+                let first = Roughing { stock: (stock.0 + more.0, stock.1 + more.1), ..words };
+                let once = PatternRepeat { passes: 1, total: (Mm::ZERO, Mm::ZERO), stock };
+                roughing(from, &profile.segments, &first, &mut out)
+                    .and_then(|_| pattern_repeat(from, &profile.segments, &once, &mut out))
             }
         };
         if matches!(result, Err(CycleError::Unknown)) {
@@ -218,10 +178,41 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let unknown: Vec<CodeIx> = codes.filter(|ix| self.model.effect(*ix) == effect).collect();
             self.assumptions.extend(unknown.into_iter().map(Assumption::Code));
         }
+        let start = state.position;
         let held = self.hold_compensation(state)?;
-        self.carry_out(&strokes, result, Plane::Zx, start, state)?;
-        state.compensation = held;
+        let outcome = self.carry_out(&strokes, result, Plane::Zx, start, state);
+        Self::release_compensation(held, state);
+        outcome?;
         checked
+    }
+
+    /// How deep and how far back, from the block, the first block, or settings.
+    fn roughing_words(&mut self, effect: Effect, stock: (Mm, Mm), state: &State<D>) -> Roughing {
+        let along_x = effect == Effect::RoughAlongX;
+        let unit = self.unit(state);
+        let [depth, retract] = state.turning().roughing;
+        let set = |value: f64| Some(value * unit).filter(|value| *value > 0.0);
+        let depth = self.length(Letter::of('D'), state).or(depth).or_else(|| set(self.number_setting("72")));
+        let retract = retract.or_else(|| set(self.number_setting("73")));
+        Roughing {
+            direction: if along_x { RoughingDirection::AlongX } else { RoughingDirection::AlongZ },
+            depth: Mm(depth.unwrap_or(f64::NAN)),
+            retract: Mm(retract.unwrap_or(0.0)),
+            stock,
+            pockets: true,
+        }
+    }
+
+    /// How often and from how far: `D` with `K` and `I` in one block, else what the first block said.
+    fn pattern(&mut self, stock: (Mm, Mm), more: (Mm, Mm), state: &State<D>) -> Option<PatternRepeat> {
+        let [x, z, stored] = state.turning().pattern;
+        let (count, total) = match self.raw('D', state) {
+            Some(count) => (count, more),
+            None => (stored?, (Mm(z.unwrap_or(0.0)), Mm(x.unwrap_or(0.0)))),
+        };
+        #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none, which is refused")]
+        let passes = count.round() as u32;
+        count.is_finite().then_some(PatternRepeat { passes, total, stock })
     }
 
     /// The finishing pass: the profile's blocks as they stand, then back at rapid.
@@ -283,11 +274,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Cycle(CycleFault::Compensated));
         }
         let unit = self.unit(state);
+        let units = state.units(self.model).unwrap_or(Units::Mm);
         let target = self.target(state)?;
         let length = |letter: char, unset: f64| self.length(Letter::of(letter), state).unwrap_or(unset);
-        let (depth, increment, retract, last) =
+        let (depth, increment, retract, nearest) =
             (length('D', 0.0), length('I', unit), length('R', 0.5 * unit), length('E', 0.0));
-        let passes = self.words.number(Letter::of('P')).map_or(1.0, |p| p.trunc());
+        let passes = self.words.number(Letter::of('P')).map_or(1.0, f64::trunc);
         self.travel(TravelKind::Rapid, target, true, state)?;
         let at = self.origin.at;
         let Some(sub) = self.program.find_subroutine(&OLabel::Number(label), at.file) else {
@@ -323,8 +315,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Unknown)
         } else if effect == Effect::FinishProfile {
             #[expect(clippy::cast_sign_loss, reason = "a negative count becomes none")]
-            let words = LayeredFinish { first: Mm(depth), last: Mm(last), passes: passes as u32 };
-            if words.passes == 0 { Ok(from) } else { layered_finish(from, &profile.segments, &words, &mut out) }
+            let words = LayeredFinish { first: Mm(depth), last: Mm(nearest), passes: passes as u32, units };
+            if words.passes == 0 {
+                // Nothing moves, and yet the interpreter goes on from the end of the subprogram.
+                state.position = scratch.position;
+                state.actual = self.axes_of(&scratch.position, state);
+                Ok(from)
+            } else {
+                layered_finish(from, &profile.segments, &words, &mut out)
+            }
         } else {
             let variant = self.model.control().code_at(ix).map_or(0, |code| code.number().tenths() % 10);
             let words = LayeredRoughing {
@@ -336,6 +335,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 increment: Mm(increment),
                 retract: Mm(retract),
                 stock: Mm(depth),
+                units,
                 pockets: match variant {
                     1 => Pockets::PassedOver,
                     2 => Pockets::Only,
@@ -348,12 +348,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let origin = self.origin;
         self.origin.n = self.sequence_number(At { file: sub.file, block: end });
         // The cycles end on the contour: where, nobody knows when the contour is not known.
-        let mut lost = state.position;
+        let mut unknown = state.position;
         for axis in [Axis::X, Axis::Z] {
-            lost.set(axis, f64::NAN);
+            unknown.set(axis, f64::NAN);
         }
-        let outcome = self.carry_out(&strokes, result, Plane::Zx, lost, state);
+        let outcome = self.carry_out(&strokes, result, Plane::Zx, unknown, state);
         self.origin = origin;
+        // The cycle has read the block's axis words; none are left for a motion.
+        self.words.clear();
         outcome
     }
 
@@ -382,7 +384,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.left_compensation = None;
         let [first, second, _] = plane.to_local(state.position.xyz());
         let mut drawing = Drawing { plane, segments: Vec::new(), corners: Vec::new(), complete: true };
-        self.read_blocks(blocks, state, &mut drawing)?;
+        drawing.complete &= self.read_blocks(blocks, state, &mut drawing)?;
         self.origin = origin;
         self.words = words;
         self.pending = pending;
@@ -391,12 +393,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(ReadProfile { segments, complete: drawing.complete })
     }
 
-    fn read_blocks(&mut self, blocks: ProfileBlocks, state: &mut State<D>, drawing: &mut Drawing) -> Step {
+    /// Is everything read?
+    fn read_blocks(&mut self, blocks: ProfileBlocks, state: &mut State<D>, drawing: &mut Drawing) -> Step<bool> {
         let mut block = blocks.first;
         let mut left = MOST_BLOCKS;
         while (blocks.first..=blocks.last).contains(&block) {
             let at = At { file: blocks.file, block };
-            let Some(place) = self.place(at).filter(|_| left > 0) else { return drawing.give_up() };
+            let Some(place) = self.place(at).filter(|_| left > 0) else { return Ok(false) };
             left -= 1;
             block += 1;
             let table = Rc::clone(&place.table);
@@ -405,7 +408,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 continue;
             }
             if read.flags.contains(BlockFlags::TAPE_MARK) {
-                return Ok(());
+                return Ok(true);
             }
             self.origin = Origin {
                 at,
@@ -427,24 +430,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                         block = to.block;
                         continue;
                     }
-                    Statements::Done(_) => return drawing.give_up(),
+                    Statements::Done(_) => return Ok(false),
                 }
             }
             let words = table.words(read);
             if !words.is_empty() {
                 self.read_words(&place, &table, words, state)?;
                 if self.draw(state, drawing)? == Drawn::End {
-                    return Ok(());
+                    return Ok(true);
                 }
             }
             for (target, value) in std::mem::take(&mut self.pending) {
                 if self.assign(target, value, state)?.is_some() {
-                    return drawing.give_up();
+                    return Ok(false);
                 }
             }
             self.observer.after(self.origin, state);
         }
-        Ok(())
+        Ok(true)
     }
 
     /// One block of a drawing.
@@ -576,14 +579,6 @@ struct Drawing {
     complete: bool,
 }
 
-impl Drawing {
-    /// What follows is not known.
-    fn give_up(&mut self) -> Step {
-        self.complete = false;
-        Ok(())
-    }
-}
-
 /// Does the drawing go on behind a block?
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Drawn {
@@ -631,7 +626,7 @@ fn cut_corner(
     corner: (f64, f64),
     to: (f64, f64),
     shape: Corner,
-) -> Option<((f64, f64), ProfileSegment, (f64, f64))> {
+) -> Option<CutCorner> {
     let (before, behind) = ((corner.0 - from.0, corner.1 - from.1), (to.0 - corner.0, to.1 - corner.1));
     let (length, other) = (before.0.hypot(before.1), behind.0.hypot(behind.1));
     let (d, e) = ((before.0 / length, before.1 / length), (behind.0 / other, behind.1 / other));

@@ -1,9 +1,12 @@
 //! A cut before any feed was given.
 
-use gcheck_engine::{Fact, Fault, FeedMode};
+use std::collections::BTreeSet;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Ending, Fact, Fault, FeedMode, Role};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A block cuts while no feed is in effect: no `F` was given on the way here, or a change of the feed mode took it away.
@@ -36,15 +39,28 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(FeedMissing) },
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::ENDS),
+            make: || Box::new(FeedMissing::default()),
+        },
     }
 }
 
-struct FeedMissing;
+#[derive(Default)]
+struct FeedMissing {
+    /// What left the blocks reported without feed: one finding for each.
+    causes: BTreeSet<Option<At>>,
+    pending: Pending,
+}
 
 impl PathRule for FeedMissing {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::NoFeed || cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
+        let inverse_time = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
+        if *fault != Fault::NoFeed || inverse_time || probes(cx) || zero_was_given(cx).is_some() {
+            return;
+        }
+        let cause = cx.trace().set_by(Fact::Feed);
+        if !self.causes.insert(cause) {
             return;
         }
         let mut finding = cx
@@ -52,17 +68,62 @@ impl PathRule for FeedMissing {
             .label("no feed is in effect here")
             .note("a cutting move needs a feed; every control of this family stops with an alarm without one")
             .help("give `F` in this block or before it");
-        if let Some(at) = cx.trace().set_by(Fact::Feed)
-            && let Some(range) = cx.range_of(at)
-        {
+        if let Some(range) = cause.and_then(|at| cx.range_of(at)) {
             // LinuxCNC forgets the feed when its meaning changes.
-            finding = finding.also(range, "the feed was last set here, and taken away or zero since");
+            finding = finding.also(range, "this took the feed away: what `F` means changes here");
         }
-        if cx.trace().set_by(Fact::Feed).is_none() && cx.scene.control_is_guessed {
+        if cause.is_none() && cx.scene.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
-        report.add(finding);
+        self.pending.add(finding, cause.is_none(), report);
     }
+
+    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        self.pending.ended(ending, report);
+    }
+}
+
+/// Findings that rest on the start of the program, kept until it is seen to end as a main program does: a file that
+/// ends with `M99` alone is called by others, and nothing is known of what they did before.
+#[derive(Default)]
+pub(crate) struct Pending {
+    findings: Vec<Finding>,
+    ended: bool,
+}
+
+impl Pending {
+    /// Reports a finding, at once unless it rests on the start.
+    pub(crate) fn add(&mut self, finding: Finding, rests_on_start: bool, report: &mut Report<'_>) {
+        if rests_on_start && !self.ended {
+            self.findings.push(finding);
+        } else {
+            report.add(finding);
+        }
+    }
+
+    /// The program ends.
+    pub(crate) fn ended(&mut self, ending: Ending, report: &mut Report<'_>) {
+        if ending != Ending::Restart {
+            self.ended = true;
+            self.findings.drain(..).for_each(|finding| report.add(finding));
+        }
+    }
+}
+
+/// The block whose `F` word gave a feed of zero, if that is why there is none.
+pub(crate) fn zero_was_given(cx: &PathCx<'_>) -> Option<At> {
+    let at = cx.trace().set_by(Fact::Feed)?;
+    let place = cx.place_of(at)?;
+    place.block().letters.contains(gcheck_controls::Letter::of('F')).then_some(at)
+}
+
+/// Is probing the kind of motion?
+pub(crate) fn probes(cx: &PathCx<'_>) -> bool {
+    let effect = cx.state().effect(Role::Motion, cx.model);
+    matches!(
+        effect,
+        Some(Effect::ProbeToward | Effect::ProbeTowardOptional | Effect::ProbeAway | Effect::ProbeAwayOptional)
+    )
 }
 
 #[cfg(test)]
@@ -88,6 +149,26 @@ mod tests {
     #[test]
     fn a_feed_in_a_subprogram_counts() {
         check_rule(&RULE, "haas-mill", "M97 P10\nG1 X2.\nM30\nN10 F10.\nM99\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn one_finding_for_each_loss_of_the_feed() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G1 X1\nX2\nF100 X3\nG95 G1 X4 F0.1\nG94\nX5\nX6\nM2\n",
+            &expect![[r#"
+                1 | G1 X1
+                  | ^^^^^ error[feed-missing] cut without a feed (`F`)
+                6 | X5
+                  | ^^ error[feed-missing] cut without a feed (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_subprogram_alone_takes_the_feed_of_its_caller() {
+        check_rule(&RULE, "haas-mill", "O100\nG1 X1.\nM99\n", &expect![[""]]);
     }
 
     #[test]

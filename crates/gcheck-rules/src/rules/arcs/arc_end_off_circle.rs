@@ -1,0 +1,136 @@
+//! An arc whose end does not lie on its circle.
+
+use gcheck_engine::{ArcFault, Fact, Fault, Role, Units};
+
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+
+declare_rule! {
+    /// The start and the end of an arc are not equally far from its centre, by more than the control lets pass.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, or cuts a spiral. The usual causes are a sign of `I` or `J`, a centre counted from
+    /// the origin instead of the start, and a start point that is not where it was thought to be.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 Y0 I4 J0 F100
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 Y0 I5 J0 F100
+    /// M2
+    /// ```
+    /// Where the tool comes from is not known.
+    /// ```nc,quiet,haas-mill
+    /// G2 X10. Y0 I4. J0 F10.
+    /// M30
+    /// ```
+    rule "arc-end-off-circle" in "arcs" {
+        summary: "arc whose end is not on its circle",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcEndOffCircle) },
+    }
+}
+
+struct ArcEndOffCircle;
+
+impl PathRule for ArcEndOffCircle {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::Arc(ArcFault::OffCircle { start, end }) = *fault else { return };
+        let (from, to) = (length(cx, start), length(cx, end));
+        let difference = length(cx, (end - start).abs());
+        let is_centre = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K');
+        let finding = cx
+            .finding(&META, cx.word_range(is_centre), format!("arc ends {difference} off its circle"))
+            .label(format!("the centre is {from} from the start and {to} from the end"))
+            .help("check the signs of the centre words, the end point, and where the block before ends");
+        report.add(judged(cx, finding));
+    }
+}
+
+/// A length as the program counts, rounded to what controls resolve.
+pub(crate) fn length(cx: &PathCx<'_>, mm: f64) -> String {
+    let (value, digits, unit) = match cx.state().units(cx.model) {
+        Some(Units::Inch) => (mm / 25.4, 4, "in"),
+        _ => (mm, 3, "mm"),
+    };
+    let text = format!("{value:.digits$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    format!("{text} {unit}")
+}
+
+/// The finding no more severe than what an arc's geometry rests on: the control's tolerance, and modes that nobody set.
+pub(crate) fn judged(cx: &PathCx<'_>, finding: Finding) -> Finding {
+    let finding = finding.at_most(limit(cx.model.semantics().arcs.confidence));
+    [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(finding, |finding, (role, what)| {
+        if cx.trace().set_by(Fact::Mode(role)).is_some() {
+            return finding;
+        }
+        let code = cx.code_name(role).map_or_else(String::new, |code| format!(" (`{code}`)"));
+        finding.at_most(Severity::Warning).assuming(format!("{what}{code} is as the control has it at the start"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_centre_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G21 G90 G0 X0 Y0\nG2 X10 Y0 I5 F100\nG3 X20 Y5 I5 J0\nM2\n",
+            &expect![[r#"
+                3 | G3 X20 Y5 I5 J0
+                  |           ^^ error[arc-end-off-circle] arc ends 2.071 mm off its circle
+            "#]],
+        );
+    }
+
+    #[test]
+    fn controls_differ_in_what_they_let_pass() {
+        let program = "G17 G21 G90 G0 X0. Y0.\nG2 X10.02 Y0. I5. F100.\nM30\n";
+        check_rule(&RULE, "linuxcnc", program, &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program.replace("10.02", "10.05"), &expect![[r#"
+            2 | G2 X10.05 Y0. I5. F100.
+              |               ^^^ warning[arc-end-off-circle] arc ends 0.05 mm off its circle
+        "#]]);
+    }
+
+    #[test]
+    fn arcs_go_on_from_the_programmed_end() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G21 G90 G0 X0 Y0\nG2 X10 Y0 I4 F100\nG2 X20 Y0 I5\nM2\n",
+            &expect![[r#"
+                2 | G2 X10 Y0 I4 F100
+                  |           ^^ error[arc-end-off-circle] arc ends 2 mm off its circle
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_give_both_radii_in_the_units_of_the_program() {
+        let program = "G20 G0 X0 Y0\nG2 X1. Y0 I.4 F10.\nM30\n";
+        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        expect![[r#"
+            arc ends 0.2 in off its circle
+              here: the centre is 0.4 in from the start and 0.6 in from the end
+              assuming: the plane (`G17`) is as the control has it at the start
+              assuming: absolute or incremental (`G90`) is as the control has it at the start
+              help: check the signs of the centre words, the end point, and where the block before ends
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}

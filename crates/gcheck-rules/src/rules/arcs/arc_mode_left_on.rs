@@ -1,0 +1,97 @@
+//! A block that looks like a straight move while an arc mode is active.
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{ArcFault, Fact, Fault, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A block gives an end point only, while an arc (`G2`, `G3`) of an earlier block is still the kind of motion.
+    ///
+    /// ## Why it matters
+    /// A `G1` or `G0` is missing behind the arc. The control stops with an alarm, or moves in a way that nobody meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10. Y0 I5. F100.
+    /// X20.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10. Y0 I5. F100.
+    /// X20. I5.
+    /// G1 X30.
+    /// M30
+    /// ```
+    rule "arc-mode-left-on" in "arcs" {
+        summary: "end point alone while an arc mode is active",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcModeLeftOn) },
+    }
+}
+
+struct ArcModeLeftOn;
+
+impl PathRule for ArcModeLeftOn {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::Arc(ArcFault::NoCentre) || cx.origin().letters.intersects(LetterSet::of("IJKR")) {
+            return;
+        }
+        // A block that names the arc itself is another matter: a word is missing there.
+        if cx.has_effect(|effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise)) {
+            return;
+        }
+        let Some(code) = cx.code_name(Role::Motion) else { return };
+        let finding = cx
+            .finding(&META, cx.range(), format!("end point alone while an arc is the kind of motion (`{code}`)"))
+            .label("neither centre nor radius")
+            .help("write `G1` or `G0` if the move is straight, else give the centre or the radius")
+            // Some controls go straight instead of stopping.
+            .at_most(if cx.model.semantics().compensation.freezes_modes { Severity::Error } else { Severity::Warning });
+        report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), &format!("`{code}`")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_block_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G21 G90 G0 X0 Y0\nG2 X10 I5 F100\nX20\nY5\nG1 X0\nM2\n",
+            &expect![[r#"
+                3 | X20
+                  | ^^^ error[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
+                4 | Y5
+                  | ^^ error[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_arc_that_is_named_is_judged_by_another_rule() {
+        check_rule(&RULE, "haas-mill", "G17 G90 G0 X0 Y0\nG2 X10. F10.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn codes_that_take_the_axes_for_themselves_move_no_arc() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G17 G90 G0 X0 Y0\nG2 X1. I.5 F10.\nG53 Z0\nG92 X0\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! A centre word of an arc that does not belong to the plane.
+
+use gcheck_engine::{ArcFault, Event, Fact, Fault, Role};
+use gcheck_geometry::Plane;
+use gcheck_program::{Value, Word};
+
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// An arc has a centre word of the axis that stands on its plane: `K` in the XY plane (`G17`).
+    ///
+    /// ## Why it matters
+    /// The plane or the word is not the one that was meant. Some controls stop with an alarm; others do not read the word and
+    /// cut an arc in the wrong plane.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10 Y0 I5 K2 F100
+    /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G17 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10. Y0 I5. K2. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G18 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10. Z0 I5. K0 F100.
+    /// M30
+    /// ```
+    /// A zero does no harm where the control does not refuse it.
+    /// ```nc,quiet,haas-mill
+    /// G17 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10. Y0 I5. J0 K0 F100.
+    /// M30
+    /// ```
+    rule "arc-wrong-plane-word" in "arcs" {
+        summary: "centre word of an arc that is not of its plane",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::MOVES), make: || Box::new(ArcWrongPlaneWord) },
+    }
+}
+
+struct ArcWrongPlaneWord;
+
+impl PathRule for ArcWrongPlaneWord {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::Arc(ArcFault::WrongPlane(letter)) = *fault else { return };
+        if let Some(plane) = cx.state().plane(cx.model) {
+            report.add(finding(cx, char::from(letter.ascii()), plane));
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Arc(arc) = event else { return };
+        let foreign = centre_word_across(arc.plane);
+        if arc.expanded || !cx.origin().letters.contains(gcheck_controls::Letter::of(foreign)) {
+            return;
+        }
+        // Under compensation an arc comes when the next move is known: the plane must be this block's.
+        if cx.state().plane(cx.model) != Some(arc.plane) || !is_nonzero(cx, foreign) {
+            return;
+        }
+        report.add(
+            finding(cx, foreign, arc.plane)
+                .note("the control does not read this word in the active plane")
+                .at_most(Severity::Warning),
+        );
+    }
+}
+
+/// The centre word of the axis that stands on a plane.
+fn centre_word_across(plane: Plane) -> char {
+    match plane {
+        Plane::Xy => 'K',
+        Plane::Zx => 'J',
+        Plane::Yz => 'I',
+    }
+}
+
+/// Is the word written as a number other than zero?
+fn is_nonzero(cx: &PathCx<'_>, letter: char) -> bool {
+    let Some(place) = cx.place() else { return false };
+    let is_it = |word: &&Word| word.letter == gcheck_controls::Letter::of(letter);
+    let word = place.table.words(place.block()).iter().find(is_it);
+    word.is_some_and(|word| matches!(word.value, Value::Number(value) if value.abs() > 0.0))
+}
+
+fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
+    let name = match plane {
+        Plane::Xy => "XY",
+        Plane::Zx => "ZX",
+        Plane::Yz => "YZ",
+    };
+    let code = cx.code_name(Role::Plane).unwrap_or_default();
+    let finding = cx
+        .finding(&META, cx.letter_range(letter), format!("`{letter}` does not belong to an arc in the {name} plane"))
+        .label(format!("the active plane is `{code}`"))
+        .help("choose the plane of the arc, or take the word out");
+    cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("the plane (`{code}`)"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_word_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G18 G21 G90 G0 X0 Y0 Z0\nG2 X10 Z0 I5 J1 F100\nG17 G2 X0 Y0 K1\nM2\n",
+            &expect![[r#"
+                2 | G2 X10 Z0 I5 J1 F100
+                  |              ^^ error[arc-wrong-plane-word] `J` does not belong to an arc in the ZX plane
+                3 | G17 G2 X0 Y0 K1
+                  |              ^^ error[arc-wrong-plane-word] `K` does not belong to an arc in the XY plane
+            "#]],
+        );
+    }
+
+    #[test]
+    fn where_the_word_is_not_read_it_is_a_warning() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G17 G21 G90 G0 X0 Y0 Z0\nG2 X10. I5. K1. F100.\nG3 X0. I-5. K#1\nM30\n",
+            &expect![[r#"
+                2 | G2 X10. I5. K1. F100.
+                  |             ^^^ warning[arc-wrong-plane-word] `K` does not belong to an arc in the XY plane
+            "#]],
+        );
+    }
+}

@@ -1,0 +1,78 @@
+//! An arc without size.
+
+use gcheck_engine::{ArcFault, Fault};
+
+use super::arc_end_off_circle::judged;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The centre of an arc lies on its start or end, or its radius is zero.
+    ///
+    /// ## Why it matters
+    /// There is no such arc: the control stops with an alarm, or goes straight to the end point through the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 Y0 I0 J0 F100
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 Y0 I5 J0 F100
+    /// M2
+    /// ```
+    rule "zero-radius-arc" in "arcs" {
+        summary: "arc with a radius of zero",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ZeroRadiusArc) },
+    }
+}
+
+struct ZeroRadiusArc;
+
+impl PathRule for ZeroRadiusArc {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::Arc(ArcFault::ZeroRadius) {
+            return;
+        }
+        let is_size = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K' | b'R');
+        let finding = cx
+            .finding(&META, cx.word_range(is_size), "arc with a radius of zero")
+            .label("the centre lies on the start or the end of the arc")
+            .help("give the distance from the start to the centre, or write a straight move (`G1`)");
+        report.add(judged(cx, finding));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_words_of_the_centre_or_the_radius_are_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G21 G90 G0 X0 Y0\nG2 X10 Y0 I0 J0 F100\nG3 X20 Y0 R0\nM2\n",
+            &expect![[r#"
+                2 | G2 X10 Y0 I0 J0 F100
+                  |           ^^ error[zero-radius-arc] arc with a radius of zero
+                3 | G3 X20 Y0 R0
+                  |           ^^ error[zero-radius-arc] arc with a radius of zero
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_centre_that_is_not_known_is_not_judged() {
+        check_rule(&RULE, "haas-mill", "G17 G90 G0 X1. Y0\nG2 X2. Y0 I#100 F10.\nM30\n", &expect![[""]]);
+    }
+}

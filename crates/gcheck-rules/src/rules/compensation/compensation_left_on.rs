@@ -1,0 +1,178 @@
+//! Cutter compensation that nobody switched off.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Ending, Fact, Role};
+
+use crate::boundary::{Boundary, LeftOn};
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
+
+declare_rule! {
+    /// Cutter compensation is still on where the tool is changed or the program ends.
+    ///
+    /// ## Why it matters
+    /// The way to the tool change is made beside the programmed path, and the next tool begins with the offset of the last
+    /// one. Some controls stop with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G41 D1 G1 X1. F10.
+    /// Y2.
+    /// G0 Z5.
+    /// T2 M6
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// G42 D1 G1 X10. F100.
+    /// Y20.
+    /// G0 Z50.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G41 D1 G1 X1. F10.
+    /// Y2.
+    /// G40 X0.
+    /// G0 Z5.
+    /// T2 M6
+    /// M30
+    /// ```
+    rule "compensation-left-on" in "compensation" {
+        summary: "cutter compensation left on",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(CompensationLeftOn { told: None }) },
+    }
+}
+
+struct CompensationLeftOn {
+    /// The block that switched on what was reported last.
+    told: Option<At>,
+}
+
+impl PathRule for CompensationLeftOn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if let Some(place) = cx.boundary() {
+            self.judge(cx, place, report);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            self.judge(cx, Boundary::ProgramEnd, report);
+        }
+    }
+}
+
+impl CompensationLeftOn {
+    fn judge(&mut self, cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
+        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Compensation, is_on) else { return };
+        let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
+        if set_by.is_some() && set_by == self.told {
+            return;
+        }
+        self.told = set_by;
+        let name = cx.name_of(code);
+        let message = format!("cutter compensation is still on {} (`{name}`)", place.words());
+        let finding = finding(cx, &META, place, message);
+        let is_refused = place == Boundary::ToolChange && cx.model.semantics().compensation.freezes_modes;
+        let finding = if is_refused {
+            finding
+                .note("this control refuses a tool change under cutter compensation")
+                .at_most(limit(cx.model.semantics().confidence))
+        } else if place == Boundary::ProgramEnd && cx.end_resets(Role::Compensation) {
+            finding
+                .note("the end of the program switches it off on this control; the way out was made beside the path")
+                .at_most(Severity::Info)
+        } else {
+            finding.at_most(Severity::Warning)
+        };
+        report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
+    }
+}
+
+/// Is the path offset by the size of the cutter?
+pub(super) fn is_on(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::CompensationLeft
+            | Effect::CompensationRight
+            | Effect::CompensationLeftByDiameter
+            | Effect::CompensationRightByDiameter
+            | Effect::CompensationVector
+    )
+}
+
+/// What both rules say of it.
+pub(super) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, place: Boundary, message: String) -> Finding {
+    let cancel = cx.cancel_of(Effect::CompensationOff).unwrap_or_default();
+    cx.finding(rule, cx.boundary_range(place), message)
+        .label(match place {
+            Boundary::ToolChange => "the next tool begins with it",
+            Boundary::ProgramEnd => "the program ends with it",
+        })
+        .help(format!("leave the contour on a straight move with `{cancel}` before the tool goes away"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_control_that_refuses_it_makes_it_an_error() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G41 D1 G1 X10 F100\nY20\nT2 M6\nM2\n",
+            &expect![[r#"
+            3 | T2 M6
+              |    ^^ error[compensation-left-on] cutter compensation is still on at the tool change (`G41`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn an_end_that_resets_it_is_worth_knowing() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G41 D1 G1 X1. F10.\nY2.\nM30\n",
+            &expect![[r#"
+            3 | M30
+              | ^^^ info[compensation-left-on] cutter compensation is still on at the end of the program (`G41`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn switched_off_in_the_same_block_is_off() {
+        check_rule(&RULE, "fanuc-mill", "G41 D1 G1 X10. F100.\nY20.\nG40 M30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_turret_is_indexed_by_t() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T0101\nG42 G1 X10. F.2\nZ-20.\nT0111\nG0 X50.\nT0202\nG40 G0 X60.\nM30\n",
+            &expect![[r#"
+                6 | T0202
+                  | ^^^^^ warning[compensation-left-on] cutter compensation is still on at the tool change (`G42`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn on_some_path_only_is_left_to_the_sibling() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G41 D1 G1 X10. F100.\nIF [#500 EQ 1] GOTO 5\nG40 X0.\nN5 G0 Z50.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

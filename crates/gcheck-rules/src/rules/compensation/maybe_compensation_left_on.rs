@@ -1,0 +1,99 @@
+//! Cutter compensation that some path leaves on.
+
+use gcheck_engine::{Ending, Role};
+
+use super::compensation_left_on::{finding, is_on};
+use crate::boundary::{Boundary, LeftOn};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// On some path of the program cutter compensation is still on where the tool is changed or the program ends; on others it
+    /// is off.
+    ///
+    /// ## Why it matters
+    /// The program runs well until the day the other path is taken. Then the next tool begins with the offset of the last one.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G41 D1 G1 X10. F100.
+    /// Y20.
+    /// IF [#500 EQ 1] GOTO 5
+    /// G40 X0.
+    /// N5 G0 Z50.
+    /// T2 M6
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G41 D1 G1 X10. F100.
+    /// IF [#500 EQ 1] GOTO 5
+    /// Y20.
+    /// N5 G40 X0.
+    /// T2 M6
+    /// M30
+    /// ```
+    rule "maybe-compensation-left-on" in "compensation" {
+        summary: "cutter compensation may be left on",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(MaybeCompensationLeftOn) },
+    }
+}
+
+struct MaybeCompensationLeftOn;
+
+impl PathRule for MaybeCompensationLeftOn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if let Some(place) = cx.boundary() {
+            judge(cx, place, report);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            judge(cx, Boundary::ProgramEnd, report);
+        }
+    }
+}
+
+fn judge(cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
+    let Some(LeftOn::Maybe(code)) = cx.left_on(Role::Compensation, is_on) else { return };
+    if place == Boundary::ProgramEnd && cx.end_resets(Role::Compensation) {
+        return;
+    }
+    let message = format!("cutter compensation may still be on {} (`{}`)", place.words(), cx.name_of(code));
+    let finding = cx.with_path(finding(cx, &META, place, message));
+    report.add(if cx.model.semantics().compensation.freezes_modes {
+        finding
+    } else {
+        finding.at_most(Severity::Info)
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_program_that_is_not_at_hand_says_nothing() {
+        check_rule(&RULE, "fanuc-mill", "G41 D1 G1 X10. F100.\nM98 P9000\nT2 M6\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn both_paths_are_weighed_at_the_end() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "IF [#500 EQ 1] GOTO 5\nG41 D1 G1 X10. F100.\nN5 G0 Z50.\nM30\n",
+            &expect![[r#"
+                4 | M30
+                  | ^^^ info[maybe-compensation-left-on] cutter compensation may still be on at the end of the program (`G41`)
+            "#]],
+        );
+    }
+}

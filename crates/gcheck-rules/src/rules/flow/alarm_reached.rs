@@ -1,0 +1,130 @@
+//! A program that always ends with an alarm of its own.
+
+use gcheck_engine::{Ending, FrameKind};
+
+use crate::meta::declare_rule;
+use crate::usage::{is_called_from_elsewhere, reads_start_state};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// Every path of the program comes to an assignment that raises an alarm (`#3000`).
+    ///
+    /// ## Why it matters
+    /// The program never runs to its end. The test in front of the alarm is turned around, or a call does not pass what the
+    /// macro asks for.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// G65 P9100 X10.
+    /// M30
+    /// O9100
+    /// IF [#26 EQ #0] THEN #3000=1 (Z MISSING)
+    /// G0 X#24 Z#26
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// G65 P9100 X10. Z5.
+    /// IF [#500 EQ 0] THEN #3000=2 (TOOL WORN)
+    /// M30
+    /// O9100
+    /// IF [#26 EQ #0] THEN #3000=1 (Z MISSING)
+    /// G0 X#24 Z#26
+    /// M99
+    /// ```
+    /// A program that is called gets its variables from its caller.
+    /// ```nc,quiet,fanuc-mill
+    /// O9100
+    /// IF [#26 EQ #0] THEN #3000=1 (Z MISSING)
+    /// M99
+    /// ```
+    rule "alarm-reached" in "flow" {
+        summary: "program always ends with an alarm of its own",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::ENDS, make: || Box::new(AlarmReached::default()) },
+    }
+}
+
+#[derive(Default)]
+struct AlarmReached {
+    /// A path came to another end.
+    may_end_otherwise: bool,
+}
+
+impl PathRule for AlarmReached {
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        let Ending::Alarm(number) = ending else {
+            self.may_end_otherwise = true;
+            return;
+        };
+        if !cx.is_on_every_path() || self.may_end_otherwise {
+            return;
+        }
+        let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
+        if is_called_from_elsewhere(cx.survey) && !in_macro {
+            return;
+        }
+        let message = "the program always ends with its own alarm (`#3000`)";
+        let mut finding = cx
+            .finding(&META, cx.range(), message)
+            .label(match text_of(cx) {
+                Some(text) => format!("raises alarm {number}: {text}"),
+                None => format!("raises alarm {number}"),
+            })
+            .note("every path comes here, with what the program itself sets")
+            .help("give the macro what it asks for, or correct the condition of the alarm");
+        if reads_start_state(cx.program, cx.model, cx.scene) {
+            finding = finding.at_most(Severity::Warning).assuming("modes are as the control has them at the start");
+        }
+        report.add(finding);
+    }
+}
+
+/// The comment of the block: what the control shows with the alarm.
+fn text_of(cx: &PathCx<'_>) -> Option<String> {
+    let file = cx.program.file(cx.origin().at.file)?;
+    let range = cx.range();
+    let block = file.loaded.text().get(range.start as usize..range.end as usize)?;
+    let (_, behind) = block.split_once('(')?;
+    let (text, _) = behind.split_once(')')?;
+    let text = text.trim();
+    (!text.is_empty()).then(|| text.to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_missing_argument_is_shown_at_the_alarm() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nG65 P9100 X1.\nM30\nO9100\nIF [#26 EQ #0] THEN #3000= 1 (Z MISSING)\nM99\n",
+            &expect![[r#"
+                5 | IF [#26 EQ #0] THEN #3000= 1 (Z MISSING)
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ error[alarm-reached] the program always ends with its own alarm (`#3000`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_alarm_on_some_path_is_what_alarms_are_for() {
+        check_rule(&RULE, "haas-mill", "O1\nIF [#500 EQ 1] GOTO 9\nM30\nN9 #3000= 1 (NO)\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn what_rests_on_the_modes_at_the_start_is_a_warning() {
+        check_rule(&RULE, "fanuc-mill", "O1\nIF [#4003 EQ 90] THEN #3000=1 (G91 FIRST)\nM30\n", &expect![[r#"
+            2 | IF [#4003 EQ 90] THEN #3000=1 (G91 FIRST)
+              | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[alarm-reached] the program always ends with its own alarm (`#3000`)
+        "#]]);
+    }
+}

@@ -1,0 +1,155 @@
+//! A loop that never ends.
+
+use gcheck_controls::Effect;
+use gcheck_engine::At;
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// Execution comes back to a block with everything as it was before: positions, modes, variables. It will do the same
+    /// again for ever.
+    ///
+    /// ## Why it matters
+    /// The machine cuts the same pass until somebody presses reset. Often the counter of the loop is never raised.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// #1=0
+    /// WHILE [#1 LT 5] DO1
+    /// G0 X10.
+    /// G0 X0.
+    /// END1
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// N10 G0 X1.
+    /// G0 X0.
+    /// GOTO 10
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// `M99` that starts the program again, a loop in which the program stops for the operator, and a loop whose turns differ.
+    /// ```nc,quiet,haas-mill
+    /// N10 G0 X1.
+    /// M0
+    /// GOTO 10
+    /// ```
+    /// ```nc,quiet,fanuc-mill
+    /// #1=0
+    /// WHILE [#1 LT 5] DO1
+    /// #1=#1+1
+    /// END1
+    /// M30
+    /// ```
+    rule "endless-loop" in "flow" {
+        summary: "loop that never ends",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::ENDLESS, make: || Box::new(EndlessLoop) },
+    }
+}
+
+struct EndlessLoop;
+
+impl PathRule for EndlessLoop {
+    fn endless(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let head = cx.origin().at;
+        let Some(turn) = turn_block(cx) else { return };
+        if waits_for_somebody(cx, head, turn) {
+            return;
+        }
+        let Some(range) = cx.range_of(head) else { return };
+        let mut finding = cx
+            .finding(&META, range, "loop never ends")
+            .label("every turn begins as the one before")
+            .help("change what the loop's condition asks for inside the loop, or give the loop a way out");
+        if turn != head
+            && let Some(range) = cx.range_of(turn)
+        {
+            finding = finding.also(range, "goes back here");
+        }
+        report.add(finding);
+    }
+}
+
+/// The block that leads back: bytes of the block that was executed last, the number of the one gone back to.
+fn turn_block(cx: &PathCx<'_>) -> Option<At> {
+    let head = cx.origin().at;
+    let file = cx.program.file(head.file)?;
+    let outline = file.loaded.outline();
+    let start = cx.origin().start;
+    let mut turn = None;
+    for block in outline.part_of(head.block) {
+        let at = At { file: head.file, block };
+        if cx.place_of(at)?.range().start == start {
+            turn = Some(at);
+            break;
+        }
+    }
+    turn
+}
+
+/// Stops for the operator inside the loop, or a return that starts the program again.
+fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
+    let waits = |block: u32| {
+        let Some(place) = cx.place_of(At { file: head.file, block }) else { return false };
+        place.table.words(place.block()).iter().any(|word| {
+            matches!(
+                cx.model.effect(word.code),
+                Effect::Stop | Effect::OptionalStop | Effect::PalletStop | Effect::BarFeed | Effect::WaitForInput
+            )
+        })
+    };
+    let returns = |at: At| {
+        cx.place_of(at).is_some_and(|place| {
+            place.table.words(place.block()).iter().any(|word| cx.model.effect(word.code) == Effect::Return)
+        })
+    };
+    returns(turn) || (head.block..=turn.block).take(20_000).any(waits)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_head_is_marked() {
+        check_rule(&RULE, "fanuc-mill", "O1\n#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[r#"
+            3 | WHILE [#1 LT 5] DO1
+              | ^^^^^^^^^^^^^^^^^^^ warning[endless-loop] loop never ends
+        "#]]);
+        check_rule(&RULE, "linuxcnc", "#1=0\no1 while [#1 LT 5]\nG0 X1\no1 endwhile\nM2\n", &expect![[r#"
+            2 | o1 while [#1 LT 5]
+              | ^^^^^^^^^^^^^^^^^^ warning[endless-loop] loop never ends
+        "#]]);
+        check_rule(&RULE, "linuxcnc", "o1 do\nG0 X1\no1 while [1]\nM2\n", &expect![[r#"
+            2 | G0 X1
+              | ^^^^^ warning[endless-loop] loop never ends
+        "#]]);
+    }
+
+    #[test]
+    fn a_return_that_starts_the_program_again_is_no_loop() {
+        check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM99 P10\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn two_states_that_take_turns_are_found() {
+        check_rule(&RULE, "fanuc-mill", "O1\n#1=1\nN10 #1=0-#1\nG0 X#1\nGOTO 10\nM30\n", &expect![[r#"
+            3 | N10 #1=0-#1
+              | ^^^^^^^^^^^ warning[endless-loop] loop never ends
+        "#]]);
+    }
+
+    #[test]
+    fn what_the_program_does_not_set_may_end_the_loop() {
+        check_rule(&RULE, "fanuc-mill", "O1\nWHILE [#500 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[""]]);
+    }
+}

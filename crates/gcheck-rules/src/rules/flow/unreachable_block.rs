@@ -1,0 +1,336 @@
+//! Blocks that no path reaches.
+
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Assumption, At, Fault, Reach};
+use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
+
+use crate::meta::declare_rule;
+use crate::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
+use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// No path of the program comes to these blocks: they stand behind an end, a return or a jump, and no jump, call or
+    /// loop leads to them; or the condition in front of them never holds.
+    ///
+    /// ## Why it matters
+    /// What was meant to run does not: a forgotten `GOTO` from a restart in the middle, a hole pattern behind `M30`.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// G0 X0. Y0.
+    /// GOTO 20
+    /// G81 Z-5. R2. F100.
+    /// X10.
+    /// N20 G80
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G0 X1.
+    /// M30
+    /// N100 G1 X2. F10.
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// What a jump or call reaches, and other programs of the file.
+    /// ```nc,quiet,haas-mill
+    /// M97 P100
+    /// M30
+    /// N100 G1 X2. F10.
+    /// M99
+    /// ```
+    /// Where a variable decides that the program does not set, both ways are taken.
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// IF [#500 EQ 1] GOTO 20
+    /// G0 X10.
+    /// N20 M30
+    /// ```
+    rule "unreachable-block" in "flow" {
+        summary: "blocks that no path reaches",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::FINISH), make: || Box::new(UnreachableBlock::default()) },
+    }
+}
+
+#[derive(Default)]
+struct UnreachableBlock {
+    /// A fault ended a path: what stands behind it was not looked at.
+    cut_short: bool,
+}
+
+impl PathRule for UnreachableBlock {
+    fn fault(&mut self, _: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
+        self.cut_short |= matches!(
+            fault,
+            Fault::NoProgramEnd
+                | Fault::LoopMismatch
+                | Fault::TooDeep
+                | Fault::NoSuchLabel(_)
+                | Fault::StrayReturn
+                | Fault::Undecidable
+                | Fault::Alarm(_)
+        );
+    }
+
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        if self.cut_short || cx.result.out_of_fuel || cx.others.iter().any(|other| other.out_of_fuel) {
+            return;
+        }
+        // With one position of the switch only, the other ways are not known.
+        let one_position = cx.others.is_empty() && cx.result.assumptions.iter().any(|a| matches!(a, Assumption::BlockSkip(_)));
+        if one_position || goes_anywhere(cx) {
+            return;
+        }
+        let groups = groups(cx);
+        if groups.is_empty() {
+            return;
+        }
+        // What a condition decides may rest on arguments and modes that a caller or the operator gives.
+        let decided_elsewhere = has_conditions(cx.program, cx.scene)
+            && (is_called_from_elsewhere(cx.survey) || reads_start_state(cx.program, cx.model, cx.scene));
+        if decided_elsewhere {
+            return;
+        }
+        for group in groups {
+            report.add(finding(group));
+        }
+    }
+}
+
+/// Jumps or calls whose target is computed may lead to any block.
+fn goes_anywhere(cx: &FinishCx<'_>) -> bool {
+    cx.survey.jumps.iter().any(|jump| jump.target.is_none())
+        || cx.survey.calls.iter().any(|call| call.target == CallKind::Unknown)
+}
+
+struct Group {
+    range: Range<u32>,
+    blocks: usize,
+    /// The last reached block in front, when it leads elsewhere.
+    behind: Option<Range<u32>>,
+}
+
+fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
+    let Some(file) = cx.program.file(0) else { return Vec::new() };
+    let outline = file.loaded.outline();
+    let profiles = profiles(cx);
+    let mut groups = Vec::new();
+    for part in outline.programs() {
+        let is_reached = |block: u32| cx.result.reach(At { file: 0, block }) != Reach::Never
+            || !cx.is_never_reached(At { file: 0, block });
+        // A program of its own that nothing here calls is not for this rule to judge.
+        if !part.blocks.clone().any(is_reached) {
+            continue;
+        }
+        let mut open: Option<Group> = None;
+        let mut last_reached = None;
+        for block in part.blocks.clone() {
+            if is_reached(block) || profiles.iter().any(|profile| profile.contains(&block)) {
+                groups.extend(open.take());
+                last_reached = Some(block);
+                continue;
+            }
+            let Some(place) = file.loaded.place(block, cx.scene.dialect) else { continue };
+            // The body of a subroutine runs when it is called; an uncalled one is whole.
+            let uncalled = outline.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
+            if uncalled || !does_something(&place) {
+                continue;
+            }
+            match &mut open {
+                Some(group) => {
+                    group.range.end = place.range().end;
+                    group.blocks += 1;
+                }
+                None => {
+                    let behind = last_reached
+                        .and_then(|block| file.loaded.place(block, cx.scene.dialect))
+                        .filter(|place| leads_away(place, cx.model))
+                        .map(|place| place.range());
+                    open = Some(Group { range: place.range(), blocks: 1, behind });
+                }
+            }
+        }
+        groups.extend(open);
+    }
+    groups
+}
+
+/// Blocks that a code reads as a profile or calls by their sequence numbers (`G70 P10 Q20`), wherever they stand.
+fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
+    let Some(file) = cx.program.file(0) else { return Vec::new() };
+    let outline = file.loaded.outline();
+    let is_flow = |code| {
+        matches!(
+            cx.model.effect(code),
+            Effect::CallLocal | Effect::Return | Effect::JumpUnlessInput | Effect::CallProgram | Effect::MacroCall
+        )
+    };
+    let named: Vec<_> =
+        cx.survey.jumps.iter().filter(|jump| jump.code.is_some() && !is_flow(jump.code)).collect();
+    let blocks = |number: Option<u32>| number.into_iter().flat_map(|number| outline.labels(number));
+    let mut profiles = Vec::new();
+    for (ix, jump) in named.iter().enumerate() {
+        for from in blocks(jump.target) {
+            let end = outline.part_of(from).end;
+            let next = named.get(ix + 1).filter(|next| next.code == jump.code);
+            let to = blocks(next.and_then(|next| next.target)).find(|to| (from..end).contains(to));
+            let returns = |block: u32| {
+                file.loaded.place(block, cx.scene.dialect).is_some_and(|place| leads_away(&place, cx.model))
+            };
+            let to = to.or_else(|| (from..end).find(|block| returns(*block)));
+            profiles.push(from..to.map_or(end, |to| to + 1));
+        }
+    }
+    profiles
+}
+
+/// More than a comment, a label, an end, or the frame of a loop or branch.
+fn does_something(place: &Place) -> bool {
+    let block = place.block();
+    // Notes for people behind the end of a program.
+    if block.flags.intersects(BlockFlags::ERROR | BlockFlags::TAPE_MARK) {
+        return false;
+    }
+    let frame = |kind: &StatementKind| {
+        matches!(kind, StatementKind::End { .. } | StatementKind::Goto { .. })
+            || matches!(
+                kind,
+                StatementKind::OWord {
+                    keyword: OKeyword::Else
+                        | OKeyword::EndIf
+                        | OKeyword::EndWhile
+                        | OKeyword::EndRepeat
+                        | OKeyword::EndSub
+                        | OKeyword::Return
+                        | OKeyword::Sub,
+                    ..
+                }
+            )
+    };
+    if place.table.statements(place.ix).any(|statement| !frame(&statement.kind)) {
+        return true;
+    }
+    place.table.words(block).iter().any(|word| match word.letter.ascii() {
+        b'N' | b'O' => false,
+        // `M30`, `M99` and `M1` are put behind anything for safety.
+        b'M' => !matches!(word.integer(), Some(0 | 1 | 2 | 30 | 99)),
+        b'P' => !block.letters.intersects(gcheck_controls::LetterSet::of("M")),
+        _ => true,
+    })
+}
+
+fn finding(group: Group) -> Finding {
+    let (message, help) = if group.blocks == 1 {
+        ("no path reaches this block".to_owned(), "remove the block, or let a jump or call lead to it")
+    } else {
+        (format!("no path reaches these {} blocks", group.blocks), "remove the blocks, or let a jump or call lead to them")
+    };
+    let finding = Finding::new(&META, group.range, message).label("never executed").help(help);
+    match group.behind {
+        Some(range) => finding.also(range, "execution goes elsewhere here"),
+        None => finding,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn blocks_behind_the_end_are_one_finding() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG0 X1.\nM30\nG0 X2.\n(NOTE)\nX3.\nM30\n",
+            &expect![[r#"
+                4 | G0 X2.
+                  | ^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_end_behind_a_jump_is_nothing() {
+        check_rule(&RULE, "fanuc-mill", "O1\nN1 G0 X1.\nGOTO 1\nM30\n%\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_condition_that_never_holds_hides_its_branch() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\n#1=3\nIF [#1 LT 5] GOTO 10\nG0 X1.\nN10 M30\n",
+            &expect![[r#"
+                4 | G0 X1.
+                  | ^^^^^^ warning[unreachable-block] no path reaches this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn arguments_of_a_subprogram_decide_in_its_caller() {
+        check_rule(&RULE, "fanuc-mill", "O9000\nIF [#1 EQ #0] GOTO 10\nG0 X#1\nN10 M99\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn modes_at_the_start_decide_on_the_machine() {
+        check_rule(&RULE, "fanuc-mill", "O1\nIF [#4006 EQ 21] GOTO 10\nG0 X1.\nN10 M30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn both_positions_of_the_block_delete_switch_count() {
+        check_rule(&RULE, "fanuc-mill", "O1\n/GOTO 10\nG0 X1.\nN10 M30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "O1\nGOTO 10\n/G0 X1.\nN10 M30\n", &expect![[r#"
+            3 | /G0 X1.
+              | ^^^^^^^ warning[unreachable-block] no path reaches this block
+        "#]]);
+    }
+
+    #[test]
+    fn the_profile_of_a_turning_cycle_is_reached() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG54 T0101\nG0 X2. Z.1\nG71 P10 Q20 D.05 U.02 W.005 F.01\nN10 G0 X1.\nG1 Z-1. F.005\nN20 X2.\nG70 P10 Q20\nM30\n",
+            &expect![[""]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "O1\nT0101\nG0 X50. Z2.\nG71 U1. R.5\nG71 P10 Q20 U.2 W.1 F.2\nG70 P10 Q20\nM30\nN10 G0 X20.\nG1 Z-10. F.1\nN20 X50.\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn an_uncalled_subroutine_is_not_judged_here() {
+        check_rule(&RULE, "linuxcnc", "o1 sub\nG0 X1\no1 endsub\nG0 X2\nM2\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\nG0 X1\no1 return\nG0 X3\no1 endsub\no1 call\nM2\n",
+            &expect![[r#"
+                4 | G0 X3
+                  | ^^^^^ warning[unreachable-block] no path reaches this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn other_programs_of_the_file_are_not_judged_here() {
+        check_rule(&RULE, "haas-mill", "O1\nG0 X1.\nM30\nO2\nG0 X2.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_jump_to_nowhere_hides_nothing() {
+        check_rule(&RULE, "fanuc-mill", "O1\nGOTO 10\nG0 X1.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,143 @@
+//! Axis words while no kind of motion is active.
+
+use std::collections::BTreeSet;
+
+use gcheck_controls::{CodeIx, Effect};
+use gcheck_engine::{At, Ending, Fact, Fault, Role};
+
+use super::feed_missing::Pending;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block has axis words, and no code says how to move: the kind of motion was ended, or never chosen.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm. Behind a canned cycle it is the `G80` that ended the motion mode with the cycle.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z5
+    /// G81 X10 Y10 Z-5 R2 F100
+    /// G80
+    /// X20
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z5
+    /// G81 X10 Y10 Z-5 R2 F100
+    /// G80
+    /// G0 X20
+    /// M2
+    /// ```
+    rule "axis-words-without-motion-mode" in "motion" {
+        summary: "axis words while no kind of motion is active",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::ENDS),
+            make: || Box::new(AxisWordsWithoutMotionMode::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct AxisWordsWithoutMotionMode {
+    /// What ended the motion mode: the first block behind each speaks for the others.
+    told: BTreeSet<Option<At>>,
+    pending: Pending,
+}
+
+impl PathRule for AxisWordsWithoutMotionMode {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::NoMotionMode || cx.has_effect(|effect| effect == Effect::NurbsClose) {
+            return;
+        }
+        let is_axis = |word: &gcheck_program::Word| cx.scene.control().axes().contains(word.letter);
+        let mode = cx.state().mode(Role::Motion).only();
+        if mode != Some(CodeIx::NONE) || cx.has_effect(|effect| effect == Effect::MachineCoordinates) {
+            let machine = cx.effect_range(|effect| effect == Effect::MachineCoordinates);
+            let code = cx.code_name(Role::Motion).map_or_else(String::new, |code| format!(" (`{code}` is active)"));
+            let finding = cx
+                .finding(&META, machine, format!("move in machine coordinates that is neither rapid nor straight{code}"))
+                .label("needs `G0` or `G1`")
+                .help("write `G0` or `G1` in this block");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the kind of motion"));
+            return;
+        }
+        let set = |role| cx.trace().set_by(Fact::Mode(role));
+        let cause = set(Role::Cycle).max(set(Role::Motion));
+        if !self.told.insert(cause) {
+            return;
+        }
+        let mut finding = cx
+            .finding(&META, cx.word_range(is_axis), "axis words while no kind of motion is active")
+            .label("how to move is not said")
+            .help("write `G0` or `G1` in this block");
+        match cause.and_then(|at| cx.range_of(at)) {
+            Some(range) => finding = finding.also(range, "the kind of motion was ended here"),
+            None if cause.is_none() => {
+                finding = finding
+                    .at_most(crate::Severity::Warning)
+                    .assuming("no kind of motion is active at the start of the program");
+            }
+            None => {}
+        }
+        self.pending.add(finding, cause.is_none(), report);
+    }
+
+    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        self.pending.ended(ending, report);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_axis_word_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 G0 X0 Y0 Z5\nG80\nN5 X20 Y5\nX30\nG1 X5 F100\nG80 Z2\nM2\n",
+            &expect![[r#"
+                3 | N5 X20 Y5
+                  |    ^^^ error[axis-words-without-motion-mode] axis words while no kind of motion is active
+                6 | G80 Z2
+                  |     ^^ error[axis-words-without-motion-mode] axis words while no kind of motion is active
+            "#]],
+        );
+    }
+
+    #[test]
+    fn at_the_start_it_is_an_assumption() {
+        check_rule(&RULE, "linuxcnc", "G21 G90\nX10 Y10\nM2\n", &expect![[r#"
+            2 | X10 Y10
+              | ^^^ warning[axis-words-without-motion-mode] axis words while no kind of motion is active
+        "#]]);
+    }
+
+    #[test]
+    fn where_the_motion_mode_goes_on_behind_a_cycle_nothing_is_wrong() {
+        check_rule(&RULE, "haas-mill", "G0 X0 Y0\nG81 Z-1. R.1 F10.\nG80\nX2.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn machine_coordinates_need_a_rapid_or_straight_move() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G90 G0 X0 Y0\nG2 X10 I5 F100\nG53 Z0\nG53 G0 Z0\nM2\n",
+            &expect![[r#"
+                3 | G53 Z0
+                  | ^^^ error[axis-words-without-motion-mode] move in machine coordinates that is neither rapid nor straight (`G2` is active)
+            "#]],
+        );
+    }
+}

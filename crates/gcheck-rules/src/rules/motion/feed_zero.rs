@@ -1,0 +1,92 @@
+//! A cut at a feed of zero.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{At, Fault};
+
+use super::feed_missing::zero_was_given;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block cuts, and the feed that was given last is zero.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, or the tool stands in the part with the spindle turning.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G54 S1000 M3
+    /// G1 X10. F0
+    /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// #1 = 0
+    /// G1 X1. F[#1 * 2]
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// Nobody knows the value.
+    /// ```nc,quiet,haas-mill
+    /// G1 X1. F#100
+    /// M30
+    /// ```
+    rule "feed-zero" in "motion" {
+        summary: "cut at a feed of zero",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(FeedZero::default()) },
+    }
+}
+
+#[derive(Default)]
+struct FeedZero {
+    /// Blocks that gave the feed of zero: one finding for each.
+    told: BTreeSet<At>,
+}
+
+impl PathRule for FeedZero {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::NoFeed {
+            return;
+        }
+        let Some(at) = zero_was_given(cx) else { return };
+        if !self.told.insert(at) {
+            return;
+        }
+        let here = at == cx.origin().at;
+        let range = if here { cx.letter_range('F') } else { cx.range() };
+        let mut finding = cx
+            .finding(&META, range, "cut at a feed of zero (`F`)")
+            .label("the tool does not move at this feed")
+            .help("give a feed above zero");
+        if !here && let Some(range) = cx.range_of(at) {
+            finding = finding.also(range, "the feed was set here");
+        }
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_word_or_the_first_cut_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G1 X1. F0.\nX2.\nG1 X3. F5.\nF0\nG0 X4.\nG1 X5.\nX6.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_feed_that_nobody_gave_is_judged_by_another_rule() {
+        check_rule(&RULE, "linuxcnc", "G1 X1\nG95 G1 X2\nM2\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,111 @@
+//! A cut that some path reaches before any feed was given.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{AbstractValue, At, Event, Fact, FeedMode};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block cuts, and on some path that comes here no feed is in effect.
+    ///
+    /// ## Why it matters
+    /// The program runs well until the day the other path is taken; then the control stops with an alarm, the tool at the
+    /// part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// IF [#100 EQ 1] GOTO10
+    /// G1 X1. F10.
+    /// N10 G1 X2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// F10.
+    /// IF [#100 EQ 1] GOTO10
+    /// G1 X1. F20.
+    /// N10 G1 X2.
+    /// M30
+    /// ```
+    rule "maybe-feed-missing" in "motion" {
+        summary: "cut that some path reaches without a feed",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(MaybeFeedMissing::default()) },
+    }
+}
+
+#[derive(Default)]
+struct MaybeFeedMissing {
+    /// Blocks that gave the feed on the other path: one finding for each.
+    told: BTreeSet<At>,
+}
+
+impl PathRule for MaybeFeedMissing {
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let AbstractValue::Set(feeds) = cx.state().feed() else { return };
+        let may_be_none = feeds.numbers().iter().any(|feed| feed.abs() <= 0.0);
+        if !may_be_none || cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
+            return;
+        }
+        let Some(at) = cx.trace().set_by(Fact::Feed).filter(|at| *at != cx.origin().at) else { return };
+        // A feed that is computed may be zero for reasons of its own.
+        if !is_plain(cx, at) || !self.told.insert(at) {
+            return;
+        }
+        let mut finding = cx
+            .finding(&META, cx.range(), "cut that may be without a feed (`F`)")
+            .label("on some path no feed is in effect here")
+            .help("give `F` where the paths have met again, or before they part");
+        if let Some(range) = cx.range_of(at) {
+            finding = finding.also(range, "the other path has its feed from here");
+        }
+        report.add(cx.with_path(finding));
+    }
+}
+
+/// Is the block's `F` written as a number?
+fn is_plain(cx: &PathCx<'_>, at: At) -> bool {
+    let Some(place) = cx.place_of(at) else { return false };
+    let f = gcheck_controls::Letter::of('F');
+    place.table.words(place.block()).iter().any(|word| word.letter == f && word.number().is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_first_cut_behind_the_meeting_of_the_paths_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "IF [#500 EQ 1] THEN #1=5\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nX2.\nG1 Y2. F50.\nX3.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn words_show_the_path() {
+        let program = "IF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nM30\n";
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn a_computed_feed_is_not_judged() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "#1=0\nIF [#500 EQ 2] THEN #1=50.\nG1 X1. F#1\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

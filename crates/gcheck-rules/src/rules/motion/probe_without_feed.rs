@@ -1,0 +1,135 @@
+//! A probing move without a feed.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{At, Domain, Abstract, Ending, Event, Fact, Fault, FeedMode, Role, TravelKind};
+
+use super::feed_missing::{Pending, probes};
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A probing move begins while no feed is in effect, or while feeds are inverse times.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm before the probe moves, or the probe is driven at whatever feed is left from before,
+    /// which can break it.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G38.2 Z-10
+    /// M2
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G90 G0 X0 Y0 Z1.
+    /// G31 Z-1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G38.2 Z-10 F50
+    /// M2
+    /// ```
+    rule "probe-without-feed" in "motion" {
+        summary: "probing move without a feed",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::CUTS).union(Watch::ENDS),
+            make: || Box::new(ProbeWithoutFeed::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct ProbeWithoutFeed {
+    /// What left the probing moves reported without feed: one finding for each.
+    told: BTreeSet<Option<At>>,
+    pending: Pending,
+}
+
+impl PathRule for ProbeWithoutFeed {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::NoFeed || !probes(cx) || super::feed_missing::zero_was_given(cx).is_some() {
+            return;
+        }
+        if cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
+            let finding = self::finding(cx, "probing move under inverse-time feed", "needs a feed per minute")
+                .help("go back to feed per minute (`G94`) before probing");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), "inverse time"));
+            return;
+        }
+        let finding = self::finding(cx, "probing move without a feed (`F`)", "no feed is in effect here");
+        self.tell(cx, finding, report);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        let skips = matches!(travel.kind, TravelKind::Probe { skip: true, .. });
+        let none = Abstract::known(cx.state().feed()).is_some_and(|feed| feed.abs() <= 0.0);
+        if skips && none && super::feed_missing::zero_was_given(cx).is_none() {
+            let finding = self::finding(cx, "probing move without a feed (`F`)", "no feed is in effect here")
+                .at_most(Severity::Warning);
+            self.tell(cx, finding, report);
+        }
+    }
+
+    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        self.pending.ended(ending, report);
+    }
+}
+
+impl ProbeWithoutFeed {
+    fn tell(&mut self, cx: &PathCx<'_>, finding: Finding, report: &mut Report<'_>) {
+        let cause = cx.trace().set_by(Fact::Feed);
+        if self.told.insert(cause) {
+            self.pending.add(finding.help("give `F` in this block or before it"), cause.is_none(), report);
+        }
+    }
+}
+
+fn finding(cx: &PathCx<'_>, message: &str, label: &str) -> Finding {
+    cx.finding(&META, cx.range(), message).label(label)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_probing_move_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z10\nG38.2 Z-10\nG38.4 Z10\nG94 F10\nG38.2 Z-10\nM2\n",
+            &expect![[r#"
+                2 | G38.2 Z-10
+                  | ^^^^^^^^^^ error[probe-without-feed] probing move without a feed (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn inverse_time_gives_no_speed_to_probe_at() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z10\nG93\nG38.2 Z-10 F5\nM2\n",
+            &expect![[r#"
+                3 | G38.2 Z-10 F5
+                  | ^^^^^^^^^^^^^ error[probe-without-feed] probing move under inverse-time feed
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_macro_that_is_called_has_its_callers_feed() {
+        check_rule(&RULE, "fanuc-mill", "O9010\nG31 Z-10.\nM99\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,167 @@
+//! A reference return that passes through the part.
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{At, Axis, Event, Fact, Role, Travel};
+
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A return to the reference position (`G28`, `G30`) has axis words in absolute mode (`G90`), and the point they give is
+    /// lower than where the tool stands, or is crossed at depth.
+    ///
+    /// ## Why it matters
+    /// The axis words of a reference return name a point that is passed on the way. `G90 G28 Z0` does not retract: it drives
+    /// to Z0 of the work at rapid first, into the part or the vice. Retracting is `G91 G28 Z0`.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G90 G54 G0 X0 Y0
+    /// G43 H1 Z1.
+    /// G28 Z0
+    /// M30
+    /// ```
+    /// Where the tool stands is not known, but it goes to Z0 of the part.
+    /// ```nc,reported,fanuc-mill
+    /// G90 G28 Z0
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G90 G54 G0 X0 Y0
+    /// G43 H1 Z1.
+    /// G91 G28 Z0
+    /// G90
+    /// M30
+    /// ```
+    /// The point lies above.
+    /// ```nc,quiet,haas-mill
+    /// G90 G54 G0 X0 Y0
+    /// G43 H1 Z1.
+    /// G28 Z4.
+    /// M30
+    /// ```
+    rule "reference-return-through-point" in "motion" {
+        summary: "reference return that passes through the part",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::RAPIDS,
+            make: || Box::new(ReferenceReturnThroughPoint::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct ReferenceReturnThroughPoint {
+    /// The block whose first move was seen: the second one leads on from the point.
+    seen: Option<At>,
+}
+
+/// Heights in millimetres that differ by less are one.
+const SAME: f64 = 0.001;
+
+impl PathRule for ReferenceReturnThroughPoint {
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else { return };
+        if !travel.expanded || !cx.origin().flags.contains(gcheck_program::BlockFlags::CODE) {
+            return;
+        }
+        let at = cx.origin().at;
+        if !cx.has_effect(returns) || self.seen.replace(at) == Some(at) {
+            return;
+        }
+        if cx.state().is_incremental(cx.model) != Some(false) {
+            return;
+        }
+        let found = if cx.origin().letters.contains(Axis::Z.letter()) {
+            down(cx, travel)
+        } else {
+            across(cx, travel)
+        };
+        if let Some(finding) = found {
+            let finding = cx.resting_on(finding, Fact::Mode(Role::Distance), "absolute mode");
+            report.add(finding.help("write the return as increments (`G91 G28 Z0`), or name a point clear of the part"));
+        }
+    }
+}
+
+fn returns(effect: Effect) -> bool {
+    matches!(effect, Effect::ReturnReference(_))
+}
+
+/// Z goes down to the point.
+fn down(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
+    let to = travel.programmed.get(Axis::Z)?;
+    let (message, label) = match travel.from.get(Axis::Z) {
+        Some(from) if to < from - SAME => {
+            ("reference return goes down to a point of the part first", "the tool is driven down to this height at rapid")
+        }
+        Some(_) => return None,
+        None if to <= SAME => {
+            ("reference return goes to a point of the part first", "the tool is driven to this height of the part at rapid")
+        }
+        None => return None,
+    };
+    Some(cx.finding(&META, cx.letter_range('Z'), message).label(label).note(PASSES))
+}
+
+/// X and Y go to the point while Z stays below the zero of the part.
+fn across(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
+    let depth = travel.from.get(Axis::Z).filter(|z| *z < -SAME)?;
+    if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+        return None;
+    }
+    let stays = |axis: Axis| (travel.programmed.raw(axis) - travel.from.raw(axis)).abs() < SAME;
+    if !cx.origin().letters.intersects(LetterSet::of("XY")) || stays(Axis::X) && stays(Axis::Y) {
+        return None;
+    }
+    let depth = super::super::arcs::arc_end_off_circle::length(cx, -depth);
+    Some(
+        cx.finding(&META, cx.effect_range(returns), "reference return crosses the part at depth")
+            .label(format!("the tool is {depth} below the zero of the part, and goes to this point at rapid"))
+            .note(PASSES),
+    )
+}
+
+const PASSES: &str = "axis words of a reference return name a point that is passed on the way";
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_height_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G54 G0 X0 Y0\nG43 H1 Z1.\nG28 X0 Y0 Z.5\nG43 H1 Z1.\nG28 Z1.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn increments_and_returns_without_words_pass_no_point() {
+        check_rule(&RULE, "haas-mill", "G90 G0 X0 Y0 Z1.\nG28\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", "G0 X10. Z1.\nG28 U0 W0\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn crossing_at_depth_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G54 G0 X50. Y0\nG43 H1 Z-5.\nG1 X60. F100.\nG28 X0 Y0\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn high_above_the_part_crossing_does_no_harm() {
+        check_rule(&RULE, "fanuc-mill", "G90 G54 G0 X50. Y0 Z50.\nG28 X0 Y0\nM30\n", &expect![[""]]);
+    }
+}

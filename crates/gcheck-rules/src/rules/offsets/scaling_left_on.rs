@@ -1,0 +1,89 @@
+//! Scaling that the program leaves on.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Ending, Role};
+
+use crate::boundary::Boundary;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// Scaling is still on where the program ends.
+    ///
+    /// ## Why it matters
+    /// The next program, or the next part, is cut in another size.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G51 X0. Y0. P2000
+    /// G1 X10. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G51 X0. Y0. P2000
+    /// G1 X10. F100.
+    /// G50
+    /// M30
+    /// ```
+    rule "scaling-left-on" in "offsets" {
+        summary: "scaling left on",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(ScalingLeftOn) },
+    }
+}
+
+struct ScalingLeftOn;
+
+impl PathRule for ScalingLeftOn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.boundary() == Some(Boundary::ProgramEnd) {
+            judge(cx, report);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            judge(cx, report);
+        }
+    }
+}
+
+fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let is_on = |effect| effect == Effect::ScalingOn;
+    let Some(finding) = cx.left_at_end(&META, Role::Scaling, is_on, "scaling") else { return };
+    let cancel = cx.cancel_of(Effect::ScalingOff).unwrap_or_default();
+    report.add(
+        finding
+            .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
+            .help(format!("switch scaling off with `{cancel}` before the program ends")),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_end_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G51 X0. Y0. P2000\nG1 X10. F100.\nM30\n",
+            &expect![[r#"
+            3 | M30
+              | ^^^ warning[scaling-left-on] scaling is still on at the end of the program (`G51`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn an_end_that_resets_it_is_silent() {
+        check_rule(&RULE, "haas-mill", "G51 X0. Y0. P2.\nG1 X1. F10.\nM30\n", &expect![[""]]);
+    }
+}

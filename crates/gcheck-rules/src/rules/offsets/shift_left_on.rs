@@ -1,0 +1,169 @@
+//! A local shift that the program leaves on.
+
+use gcheck_controls::{CodeIx, Effect};
+use gcheck_engine::{At, Axis, Ending, Event};
+
+use crate::boundary::Boundary;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// The shift of the work coordinates (`G52`, `G92`) is still on where the program ends.
+    ///
+    /// ## Why it matters
+    /// Whether the end of the program clears it is up to a parameter or setting. Where it stays, every work offset is shifted
+    /// in the next program.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G54 G52 X10.
+    /// G1 X0. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G54 G52 X10.
+    /// G1 X0. F100.
+    /// G52 X0.
+    /// M30
+    /// ```
+    /// A program that uses `G92` instead of work offsets sets it anew each time.
+    /// ```nc,quiet,fanuc-mill
+    /// G92 X0. Y0. Z100.
+    /// G1 X10. F100.
+    /// M30
+    /// ```
+    rule "shift-left-on" in "offsets" {
+        summary: "shift of the work coordinates left on",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::ENDS),
+            make: || Box::new(ShiftLeftOn { set: None }),
+        },
+    }
+}
+
+struct ShiftLeftOn {
+    /// The block that shifted last, and its code. Choosing a work offset tells of the shift too.
+    set: Option<(At, CodeIx)>,
+}
+
+impl PathRule for ShiftLeftOn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.boundary() == Some(Boundary::ProgramEnd) {
+            self.judge(cx, report);
+        }
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if let Event::Shift(_) = event
+            && let Some(code) = cx.codes().into_iter().find(|code| is_shift(cx.model.effect(*code)))
+        {
+            self.set = Some((cx.origin().at, code));
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            self.judge(cx, report);
+        }
+    }
+}
+
+impl ShiftLeftOn {
+    fn judge(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Some((at, code)) = self.set else { return };
+        let shift = cx.state().shift();
+        let axes: Vec<char> = Axis::ALL
+            .into_iter()
+            .filter(|axis| shift.get(*axis).is_some_and(|v| v != 0.0))
+            .map(Axis::name)
+            .collect();
+        let is_set_position = cx.model.effect(code) == Effect::SetPosition;
+        // Where the axes stood is seldom known, so neither is the shift that makes them read as the block says.
+        let is_left = if is_set_position {
+            Axis::ALL.into_iter().any(|axis| shift.get(axis) != Some(0.0))
+        } else {
+            !axes.is_empty()
+        };
+        let uses_work_offsets =
+            cx.file_uses(|effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_)));
+        if !is_left || is_set_position && !uses_work_offsets {
+            return;
+        }
+        let name = cx.name_of(code);
+        let of = if axes.is_empty() || is_set_position {
+            String::new()
+        } else {
+            format!(" of {}", axes.iter().map(|axis| format!("`{axis}`")).collect::<Vec<_>>().join(", "))
+        };
+        let help = if is_set_position {
+            match cx.cancel_of(Effect::ClearShift) {
+                Some(clear) => format!("clear it with `{clear}` before the program ends"),
+                None => format!("set it back with `{name}` before the program ends"),
+            }
+        } else {
+            format!("end the program with `{name} X0. Y0. Z0.`")
+        };
+        let finding = cx
+            .finding(
+                &META,
+                cx.boundary_range(Boundary::ProgramEnd),
+                format!("the shift{of} is still on at the end of the program (`{name}`)"),
+            )
+            .label("what runs next may begin with it")
+            .assuming("the end of the program keeps the shift, as a parameter or setting decides")
+            .help(help)
+            .at_most(if is_set_position { Severity::Info } else { Severity::Warning });
+        let set_here = cx.find_word(at, |word| word.code == code);
+        report.add(match set_here {
+            Some(range) => finding.also(range, format!("`{name}` set here")),
+            None => finding,
+        });
+    }
+}
+
+/// Does the code shift the work coordinates?
+fn is_shift(effect: Effect) -> bool {
+    matches!(effect, Effect::LocalShift | Effect::SetPosition | Effect::SpeedLimitOrSetPosition)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_axes_are_named() {
+        check_rule(&RULE, "haas-mill", "G20 G54\nG52 X1. Y2.\nG1 X0. F10.\nG52 X0.\nM30\n", &expect![[r#"
+            5 | M30
+              | ^^^ warning[shift-left-on] the shift of `Y` is still on at the end of the program (`G52`)
+        "#]]);
+    }
+
+    #[test]
+    fn a_position_that_was_set_stays_set() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nM2\n",
+            &expect![[r#"
+            4 | M2
+              | ^^ info[shift-left-on] the shift is still on at the end of the program (`G92`)
+        "#]],
+        );
+        check_rule(&RULE, "linuxcnc", "G21 G54 G0 X0\nG92 X5\nG1 X0 F100\nG92.1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn work_offsets_chosen_later_do_not_hide_it() {
+        check_rule(&RULE, "fanuc-mill", "G21 G52 Z5.\nG55 G1 X0. F100.\nM30\n", &expect![[r#"
+            3 | M30
+              | ^^^ warning[shift-left-on] the shift of `Z` is still on at the end of the program (`G52`)
+        "#]]);
+    }
+}

@@ -1,0 +1,365 @@
+//! `gcheck run`: formats, what is given on the command line and in `gcheck.toml`, how it ends.
+
+use expect_test::{Expect, expect};
+
+use crate::shop::{Run, Shop};
+
+/// A square corner and an arc, for a control that starts at zero.
+const PART: &str = "\
+(PART)
+N10 G21 G90 F200
+N20 G0 X10 Y5
+N30 G1 Z-1.5
+N40 G3 X20 Y15 J10
+N50 M30
+";
+
+fn run(program: &str, arguments: &str) -> Run {
+    let shop = Shop::with(&[("part.ngc", program)]);
+    shop.gcheck(&format!("run part.ngc --isolated --control linuxcnc --quiet {arguments}"))
+}
+
+fn check(program: &str, arguments: &str, expected: Expect) {
+    expected.assert_eq(&run(program, arguments).to_string());
+}
+
+#[test]
+fn text_is_for_people() {
+    check(
+        PART,
+        "",
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn canonical_functions_are_numbered_by_their_blocks() {
+    check(
+        PART,
+        "--output-format canonical",
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn json_lines_have_every_axis() {
+    check(
+        PART,
+        r#"--output-format jsonl --config machine.axes=["X","Y","Z"]"#,
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn csv_has_a_heading() {
+    check(
+        PART,
+        r#"--output-format csv --config machine.axes=["X","Z"]"#,
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn the_control_and_what_is_taken_for_granted_are_said_beside_the_moves() {
+    let shop = Shop::with(&[("part.nc", "%\nO1\nG21\nT1 M6\nG0 G54 X1.\nM1\n/X2.\nM30\n%\n")]);
+    let run = shop.gcheck("run part.nc --control haas-mill");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+    let run = shop.gcheck("run part.nc --control haas-mill --output-format jsonl");
+    assert_eq!(run.stderr, "part.nc: control haas-mill, set by `--control`\n");
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet");
+    assert_eq!(run.stderr, "");
+}
+
+#[test]
+fn variables_are_set_before_the_program_starts() {
+    let program = "G0 X#100 Y#<_edge>\nM2\n";
+    let to = |arguments: &str| {
+        let run = run(program, &format!("--output-format jsonl {arguments}"));
+        let line: serde_json::Value = serde_json::from_str(run.stdout.lines().next().unwrap()).unwrap();
+        (line["to"]["X"].as_f64().unwrap(), line["to"]["Y"].as_f64().unwrap())
+    };
+    assert_eq!(to("--set #100=2.5 --set #<_edge>=-1"), (2.5, -1.0));
+    assert_eq!(to("--set 100=2.5 --set #<_Edge>=0"), (2.5, 0.0));
+    assert_eq!(to("--set #<_edge>=1"), (0.0, 1.0));
+    assert_eq!(to("--config variables.\"#100\"=7 --config variables.\"#<_edge>\"=8"), (7.0, 8.0));
+    // What the command line says of this run wins over the configuration.
+    assert_eq!(to("--set #100=1 --config variables.\"#100\"=7 --set #<_edge>=0"), (1.0, 0.0));
+}
+
+#[test]
+fn a_setting_that_is_none_is_refused() {
+    for (set, message) in [
+        ("#100", "write `#100=2.5` or `#<name>=1`"),
+        ("#x=1", "`#x` is no variable; write `#100` or `#<name>`"),
+        ("#100=much", "`much` is no number"),
+        ("#100=inf", "`inf` is no number that a control can hold"),
+    ] {
+        let run = run(PART, &format!("--set {set}"));
+        assert_eq!(run.code, 2, "{run}");
+        assert!(run.stderr.contains(message), "{run}");
+    }
+}
+
+#[test]
+fn blocks_are_skipped_by_level() {
+    let program = "G0 X1\n/X2\n/3 X3\nM2\n";
+    let reached = |arguments: &str| {
+        let shop = Shop::with(&[("part.nc", program)]);
+        let run = shop.gcheck(&format!("run part.nc --control haas-mill --output-format csv {arguments}"));
+        run.stdout.lines().filter(|line| line.contains(",rapid,")).count()
+    };
+    assert_eq!(reached(""), 3);
+    assert_eq!(reached("--block-skip off"), 3);
+    assert_eq!(reached("--block-skip on"), 1);
+    assert_eq!(reached("--block-skip 1"), 2);
+    assert_eq!(reached("--block-skip 1,3"), 1);
+    assert_eq!(reached("--block-skip 2"), 3);
+    let refused = run(program, "--block-skip 10");
+    assert_eq!(refused.code, 2, "{refused}");
+    assert!(refused.stderr.contains("write `on`, `off`, or levels from 1 to 9 such as `1,3`"), "{refused}");
+}
+
+#[test]
+fn the_optional_stop_is_a_switch() {
+    let stops = |arguments: &str| run("M1\nM2\n", &format!("--output-format jsonl {arguments}")).stdout.matches("\"stop\"").count();
+    assert_eq!(stops("--optional-stop on"), 1);
+    assert!(stops("--optional-stop off") <= 1);
+}
+
+#[test]
+fn an_endless_loop_runs_out_of_fuel() {
+    check(
+        "o1 while [1]\n  G4 P0\no1 endwhile\nM2\n",
+        "--fuel 1000 --output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn a_fault_is_said_with_its_place_and_reason_behind_the_moves_before_it() {
+    check(
+        "G0 X1\nG1 X2\nM2\n",
+        "--output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+    check(
+        "F100\nG2 X10 I1\nM2\n",
+        "--output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+    check(
+        "G20 F4\nG2 X10 I1\nM2\n",
+        "--output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+    check(
+        "#1=[1/0]\nM2\n",
+        "--output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+    check(
+        "G0 X1\n",
+        "--output-format csv -o moves.csv",
+        expect![[r#"
+        "#]],
+    );
+}
+
+#[test]
+fn moves_before_a_fault_are_printed() {
+    let shop = Shop::with(&[("part.ngc", "G0 X1\nG0 X2\nG1 Y1 R\nM2\n")]);
+    let run = shop.gcheck("run part.ngc --control linuxcnc --output-format jsonl -o moves.jsonl");
+    assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{run}");
+    assert_eq!(shop.read("moves.jsonl").lines().count(), 2);
+    assert_eq!(shop.names(), ["moves.jsonl", "part.ngc"]);
+}
+
+#[test]
+fn a_condition_on_something_unknown_names_it() {
+    let shop = Shop::with(&[("part.nc", "%\nO1\nIF[#500GT#1]GOTO9\nN9M30\n%\n")]);
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet --output-format jsonl");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet --set #500=1 --output-format jsonl -o moves");
+    assert_eq!(run.code, 0, "{run}");
+}
+
+#[test]
+fn an_alarm_of_the_program_itself_is_no_end() {
+    let shop = Shop::with(&[("part.nc", "%\nO1\n#3000=12(NO PROBE)\nM30\n%\n")]);
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn a_main_program_that_starts_over_is_run_once() {
+    let shop = Shop::with(&[("part.nc", "%\nO1\nG0 X1.\nM99\n%\n")]);
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet --output-format csv -o moves");
+    assert_eq!(run.to_string(), "exit 0\n");
+}
+
+#[test]
+fn standard_input_has_the_name_that_it_is_given() {
+    let shop = Shop::new();
+    let program = b"G0 X1\nG1 X2\nM2\n";
+    let run = shop.gcheck_reading("run - --control linuxcnc --quiet --output-format jsonl -o moves", program);
+    assert!(run.stderr.starts_with("error: stdin:2:1: "), "{run}");
+    let run = shop.gcheck_reading(
+        "run - --stdin-filename a/part.ngc --control linuxcnc --quiet --output-format jsonl",
+        program,
+    );
+    assert!(run.stderr.starts_with("error: a/part.ngc:2:1: "), "{run}");
+    assert!(run.stdout.starts_with(r#"{"n":1,"file":"a/part.ngc","line":1,"#), "{run}");
+}
+
+#[test]
+fn what_cannot_be_read_is_a_problem_of_its_own() {
+    let shop = Shop::with(&[("programs/part.nc", PART)]);
+    for (arguments, message) in [
+        ("run missing.nc", "error: missing.nc: cannot read: no such file or directory\n"),
+        ("run programs", "error: programs: is a folder; name one program\n"),
+        ("run programs/part.nc --control hass-mill", "error: no control is called `hass-mill`; did you mean `haas-mill`?\n"),
+        ("stats missing.nc", "error: missing.nc: cannot read: no such file or directory\n"),
+    ] {
+        let run = shop.gcheck(arguments);
+        assert_eq!((run.code, run.stderr.as_str()), (2, message), "{arguments}");
+    }
+    assert_eq!(shop.gcheck("run").code, 2);
+    assert_eq!(shop.gcheck("run programs/part.nc programs/part.nc").code, 2);
+    assert_eq!(shop.gcheck("run programs/part.nc --output-format xml").code, 2);
+}
+
+#[test]
+fn the_machine_file_gives_offsets_tools_and_units() {
+    let shop = Shop::with(&[
+        (
+            "gcheck.toml",
+            "control = \"haas-mill\"\n\
+             [machine]\nunits = \"mm\"\naxes = [\"X\", \"Y\", \"Z\"]\n\
+             [offsets]\nG54 = { X = -400.0, Y = -200.0, Z = 0.0 }\n\"G154 P2\" = { X = -1.0, Y = -2.0, Z = -3.0 }\n\
+             [tools]\n1 = { length = 120.0, diameter = 12.0 }\n",
+        ),
+        ("part.nc", "%\nO1\nT1 M6\nG54 G0 X10. Y20.\nG43 H1 Z5.\nG154 P2 X0. Y0.\nZ0.\nM30\n%\n"),
+    ]);
+    let run = shop.gcheck("run part.nc --output-format jsonl --quiet");
+    assert_eq!(run.code, 0, "{run}");
+    let machine: Vec<String> = run
+        .stdout
+        .lines()
+        .map(|line| serde_json::from_str::<serde_json::Value>(line).unwrap())
+        .filter(|line| line["kind"] == "rapid")
+        .map(|line| line["machine"].to_string())
+        .collect();
+    expect![[r#"
+    "#]]
+    .assert_eq(&machine.join("\n"));
+}
+
+#[test]
+fn a_tool_table_is_read_in_its_own_units() {
+    let program = "T2 M6\nG43\nG0 Z0\nM2\n";
+    let shop = Shop::with(&[
+        ("part.ngc", program),
+        ("tool.tbl", "; tools of the machine\nT1 P3 Z1 D0.5 ;mill\nt2 p7 z2.5 d+.25 I10 J20 Q3 ; drill\n"),
+        ("tools.csv", "Tool;Pocket;Length;Diameter;Comment\n1;3;1;0,5;mill\nT2;7;2,5;0,25;\"a; drill\"\n"),
+    ]);
+    let z = |arguments: &str| {
+        let run = shop.gcheck(&format!("run part.ngc --control linuxcnc --quiet --output-format jsonl {arguments}"));
+        let line = run.stdout.lines().find(|line| line.contains("rapid")).unwrap_or_else(|| panic!("{run}")).to_owned();
+        serde_json::from_str::<serde_json::Value>(&line).unwrap()["machine"]["Z"].as_f64().unwrap()
+    };
+    assert_eq!(z("--config tools.table=tool.tbl"), 2.5);
+    assert_eq!(z("--config tools.table=tool.tbl --config machine.table_units=inch"), 63.5);
+    assert_eq!(z("--config tools.table=tools.csv --config machine.units=inch"), 2.5);
+    assert_eq!(z("--config tools.table=tool.tbl --config tools.2.length=4"), 4.0);
+    assert_eq!(z("--config tools.2.length=4 --config tools.2.offset={Z=8}"), 8.0);
+}
+
+#[test]
+fn a_tool_table_with_a_mistake_is_refused_at_its_place() {
+    let check = |name: &str, table: &str, expected: &str| {
+        let shop = Shop::with(&[("part.ngc", PART), (name, table)]);
+        let run = shop.gcheck(&format!("run part.ngc --control linuxcnc --config tools.table={name}"));
+        assert_eq!(run.code, 2, "{run}");
+        assert_eq!(run.stderr.lines().next().unwrap_or_default(), format!("error: {name}:{expected}"), "{run}");
+    };
+    check("t.tbl", "T1 Z1\nP2 Z2\n", "2:1: a tool's line has its number: `T1`");
+    check("t.tbl", "T1 Zx\n", "1:4: `Zx` is no letter with a number");
+    check("t.tbl", "T1 Z\n", "1:4: `Z` is no letter with a number");
+    check("t.tbl", "T1 K2\n", "1:4: `K` says nothing of a tool; known are T, P, X, Y, Z, A, B, C, U, V, W, D, I, J and Q");
+    check("t.tbl", "T1.5\n", "1:1: `T1.5` must be a whole number");
+    check("t.tbl", "T1 Zinf\n", "1:4: `Zinf` is no letter with a number");
+    check("t.csv", "length\n1\n", "1:1: the first line has no column called `tool`, `number` or `T`");
+    check("t.csv", "tool,length\n1,long\n", "2:3: `long` is no number");
+    check("t.csv", "tool,length\n,5\n", "2:1: this line has no tool number");
+    let run = Shop::with(&[("part.ngc", PART)]).gcheck("run part.ngc --config tools.table=t.tbl");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn called_programs_are_found_beside_the_program_and_on_the_search_path() {
+    let shop = Shop::with(&[
+        ("part.nc", "%\nO1\nG0 X0. Y0. Z0.\nM98 P200\nM98 P300\nG65 P9010 X5.\nM30\n%\n"),
+        ("sub.nc", "%\nO200\nG0 X2.\nM99\n%\n"),
+        ("O0300", "G0 X3.\nM99\n"),
+        ("macros/any.nc", "%\nO9009\nM99\nO9010\nG0 X#24\nM99\n%\n"),
+    ]);
+    let run = shop.gcheck("run part.nc --control haas-mill --quiet --config search.paths=[\"macros\"]");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+    let run = shop.gcheck("run part.nc --control haas-mill --output-format csv -o moves");
+    assert!(run.stderr.ends_with("set by `--control`\n") || run.code == 1, "{run}");
+}
+
+#[test]
+fn subroutines_are_found_by_the_name_of_their_file() {
+    let shop = Shop::with(&[
+        ("part.ngc", "o<edge> call [4]\nM2\n"),
+        ("subs/edge.ngc", "o<edge> sub\nG0 X#1\no<edge> endsub\nM2\n"),
+    ]);
+    let run = shop.gcheck("run part.ngc --control linuxcnc --quiet --config search.paths=[\"subs\"]");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn a_fault_in_a_called_program_is_said_at_its_place_there() {
+    let shop = Shop::with(&[
+        ("part.ngc", "o<edge> call\nM2\n"),
+        ("edge.ngc", "o<edge> sub\nG1 X1\no<edge> endsub\nM2\n"),
+    ]);
+    let run = shop.gcheck("run part.ngc --control linuxcnc --quiet --output-format csv -o moves");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn only_axes_that_move_are_shown_to_people() {
+    let heading = |program: &str| {
+        let run = run(program, "");
+        run.stdout.lines().nth(1).unwrap_or_default().to_owned()
+    };
+    assert!(!heading("G0 X1\nM2\n").contains('A'));
+    assert!(heading("G0 A1\nM2\n").contains('A'));
+    // Arguments of a call are no axes, and what a called program moves counts.
+    assert!(heading("o1 sub\nG0 B#1\no1 endsub\no1 call [2]\nM2\n").contains('B'));
+}

@@ -1,0 +1,123 @@
+//! `gcheck stats`: the figures of a program for people and for other programs.
+
+use expect_test::expect;
+
+use crate::shop::Shop;
+
+const PART: &str = "\
+%
+O0100 (PLATE)
+(T1 D=10. FLAT END MILL)
+G21 G90 G17 G40 G80
+(FACE)
+T1 M6
+G54 G0 X0. Y0. S3000 M3
+G43 H1 Z25.
+G1 Z-1. F200.
+X50.
+G0 Z25.
+T2 M6 (DRILL 5MM)
+G55 G0 X10. Y10. S1000 M3
+G43 H2 Z25.
+G81 G98 Z-10. R2. F100.
+X20.
+G80
+M30
+%
+";
+
+const MACHINE: &str = "\
+control = \"haas-mill\"
+[machine]
+units = \"mm\"
+axes = [\"X\", \"Y\", \"Z\"]
+rapid = 30000.0
+tool_change_seconds = 4.0
+[offsets]
+G54 = { X = -400.0, Y = -200.0, Z = 0.0 }
+G55 = { X = -100.0, Y = -200.0, Z = 0.0 }
+[tools]
+1 = { length = 120.0, diameter = 10.0 }
+2 = { length = 80.0 }
+";
+
+#[test]
+fn figures_close_with_what_they_rest_on() {
+    let run = Shop::with(&[("part.nc", PART)]).gcheck("stats part.nc --control haas-mill");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn a_machine_file_leaves_little_to_assume() {
+    let run = Shop::with(&[("part.nc", PART), ("gcheck.toml", MACHINE)]).gcheck("stats part.nc");
+    expect![[r#"
+    "#]]
+    .assert_eq(&run.to_string());
+}
+
+#[test]
+fn json_is_for_other_programs() {
+    let shop = Shop::with(&[("part.nc", PART), ("gcheck.toml", MACHINE)]);
+    let run = shop.gcheck("stats part.nc --output-format json");
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{run}");
+    let json = run.json();
+    assert_eq!(json["version"], 1);
+    assert_eq!(json["file"], "part.nc");
+    assert_eq!(json["control"]["name"], "haas-mill");
+    assert_eq!(json["control"]["source"], "configuration");
+    assert_eq!(json["ended"], "program-end");
+    assert_eq!(json["fault"], serde_json::Value::Null);
+    assert_eq!(json["units"], "mm");
+    assert_eq!(json["total"]["tool_changes"], 2);
+    assert_eq!(json["tools"][0]["tool"], 1);
+    assert_eq!(json["tools"][0]["name"], "D=10. FLAT END MILL");
+    assert_eq!(json["tools"][1]["name"], "DRILL 5MM");
+    assert_eq!(json["tools"][1]["holes"], 2);
+    let assumptions = json["assumptions"].as_array().unwrap();
+    assert!(assumptions.iter().all(|one| one["text"].is_string()), "{assumptions:?}");
+    let without = Shop::with(&[("part.nc", PART)]).gcheck("stats part.nc --control haas-mill --output-format json").json();
+    let pins: Vec<String> = without["assumptions"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter_map(|one| one["pin"].as_str().map(str::to_owned))
+        .collect();
+    expect![[r#"
+    "#]]
+    .assert_eq(&pins.join("\n"));
+}
+
+#[test]
+fn a_program_that_faults_has_figures_up_to_there() {
+    let shop = Shop::with(&[("part.ngc", "F100\nG1 X10\nG1 X20 R\nM2\n")]);
+    let run = shop.gcheck("stats part.ngc --control linuxcnc --output-format json");
+    assert_eq!(run.code, 1, "{run}");
+    let json = run.json();
+    assert_eq!(json["ended"], "fault");
+    assert_eq!(json["fault"]["line"], 3);
+    assert_eq!(json["total"]["distance"]["cutting"], 10.0);
+    let run = shop.gcheck("stats part.ngc --control linuxcnc -o figures.txt");
+    assert_eq!((run.code, run.stdout.as_str()), (1, ""), "{run}");
+    assert!(shop.read("figures.txt").starts_with("cycle time "), "{}", shop.read("figures.txt"));
+}
+
+#[test]
+fn a_program_that_does_not_say_its_units_has_them_assumed() {
+    let shop = Shop::with(&[("part.nc", "%\nO1\nG0 X1.\nM30\n%\n")]);
+    let assumed = |arguments: &str| shop.gcheck(&format!("stats part.nc {arguments}")).stdout.contains("the program does not say");
+    assert!(assumed("--control haas-mill"));
+    assert!(!assumed("--control haas-mill --config machine.units=inch"));
+}
+
+#[test]
+fn names_of_tools_come_from_the_program_or_the_table() {
+    let shop = Shop::with(&[
+        ("part.ngc", "T1 M6\nG0 X1\nT2 M6 (mine)\nG0 X2\nM2\n"),
+        ("tool.tbl", "T1 P1 Z1 ;from the table\nT2 P2 Z1 ;from the table\n"),
+    ]);
+    let json = shop.gcheck("stats part.ngc --control linuxcnc --output-format json --config tools.table=tool.tbl").json();
+    let names: Vec<&str> = json["tools"].as_array().unwrap().iter().filter_map(|tool| tool["name"].as_str()).collect();
+    assert_eq!(names, ["from the table", "mine"]);
+}
