@@ -31,6 +31,8 @@ pub enum Event {
     FeedReference,
     /// The active plane.
     Plane(Plane),
+    /// A plane of U, V and W is active.
+    SecondaryPlane,
     /// The units of the program.
     Units(Units),
     /// Exact path, exact stop or blending; tolerances in millimetres.

@@ -68,6 +68,7 @@ pub(crate) fn start_state<D: Domain>(
         h: D::number(0.0),
         d: D::number(0.0),
         feed: D::number(0.0),
+        feed_word: D::number(0.0),
         speed: D::number(0.0),
         speed_limit: f64::INFINITY,
         spindle: Some(Spindle::Stopped),
@@ -148,6 +149,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.h = D::unknown();
     state.d = D::unknown();
     state.feed = D::unknown();
+    state.feed_word = D::unknown();
     state.speed = D::unknown();
     state.speed_limit = f64::NAN;
     state.spindle = None;

@@ -259,6 +259,8 @@ pub struct State<D: Domain> {
     pub(crate) d: D::Value,
     /// In millimetres a minute or turn, or moves a minute; 0 none given.
     pub(crate) feed: D::Value,
+    /// The feed as the program wrote it.
+    pub(crate) feed_word: D::Value,
     /// Turns a minute or metres a minute; 0 none given.
     pub(crate) speed: D::Value,
     /// Limit of constant surface speed, turns a minute; NaN unknown, infinite none.
@@ -603,6 +605,7 @@ impl<D: Domain> State<D> {
         joined.h = value(&self.h, &other.h);
         joined.d = value(&self.d, &other.d);
         joined.feed = value(&self.feed, &other.feed);
+        joined.feed_word = value(&self.feed_word, &other.feed_word);
         joined.speed = value(&self.speed, &other.speed);
         joined.speed_limit = number(self.speed_limit, other.speed_limit);
         joined.spindle = if self.spindle == other.spindle { self.spindle } else { None };
@@ -698,6 +701,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.h == other.h
             && self.d == other.d
             && self.feed == other.feed
+            && self.feed_word == other.feed_word
             && self.speed == other.speed
             && self.speed_limit.to_bits() == other.speed_limit.to_bits()
             && self.spindle == other.spindle

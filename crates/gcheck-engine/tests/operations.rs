@@ -87,12 +87,12 @@ fn a_pocket_goes_down_its_levels_and_back() {
     check(&format!("G150 G41 D1 P1001 X0. Y0. Z-4. Q2. R1. J4. K0.2 F100.\nG40 X1.\nM30{OUTLINE}"), &expect![[r#"
         rapid x0 y0 z0
         rapid x0 y0 z5
-        rapid x? y? z?
-        rapid x? y? z?
-        feed x? y? z?
-        feed x? y? z?
-        feed x? y? z?
-        rapid x? y? z?
+        rapid x0 y0 z5
+        rapid x0 y0 z1
+        feed x0 y0 z-1
+        feed x0 y0 z-3
+        feed x0 y0 z-4
+        rapid x0 y0 z1
         rapid x1 y0 z1
         at x1 y0 z1"#]]);
 }

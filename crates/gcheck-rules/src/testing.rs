@@ -6,10 +6,12 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use expect_test::Expect;
+use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
+use gcheck_geometry::{Mm, MmPerMin, Rpm};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
-use crate::{Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Scene, Selection, check};
+use crate::{Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene, Selection, check};
 
 /// What a test says about the world around the program.
 pub(crate) struct World<'w> {
@@ -27,6 +29,34 @@ impl Default for World<'_> {
             control_is_guessed: false,
             suppressions: true,
         }
+    }
+}
+
+impl World<'_> {
+    /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
+    /// 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
+    pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
+        let mut world = Self::default();
+        if rule.group == "machine" {
+            let tool = |number: u32| Tool {
+                pocket: number,
+                offset: Position::ZERO,
+                diameter: Mm(10.0),
+                corner_radius: Mm(0.0),
+                angles: [0.0; 2],
+                orientation: 0,
+            };
+            world.machine.engine = Machine {
+                max_rpm: Some(Rpm(8000.0)),
+                max_feed: Some(MmPerMin(10_000.0)),
+                travel: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, (-500.0, 500.0))).collect(),
+                offsets: [(1, WorkOffset::ZERO)].into_iter().collect(),
+                tools: (1..=3).map(|number| (number, tool(number))).collect(),
+                tool_table_is_complete: true,
+                ..Machine::default()
+            };
+        }
+        world
     }
 }
 

@@ -164,6 +164,7 @@ impl<W: Write> Canonical<W> {
             | Event::FeedMode(_)
             | Event::FeedReference
             | Event::Plane(_)
+            | Event::SecondaryPlane
             | Event::Units(_)
             | Event::PathMode(_)
             | Event::Override { .. } => self.mode(step),
@@ -201,6 +202,7 @@ impl<W: Write> Canonical<W> {
                 },
             ),
             Event::FeedReference => self.word(n, "SET_FEED_REFERENCE(CANON_XYZ)"),
+            Event::SecondaryPlane => self.word(n, "SELECT_PLANE(CANON_PLANE_UNKNOWN)"),
             Event::Plane(plane) => self.word(
                 n,
                 match plane {

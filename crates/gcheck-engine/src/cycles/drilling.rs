@@ -282,16 +282,28 @@ impl Tool<'_, '_> {
         if self.rules.rise_to_r { Ok(()) } else { self.dwell() }
     }
 
+    /// Where the control that taps with a turning spindle really feeds to: outside of XY it takes the axes of the one
+    /// other plane for those of the active one. A mistake of its interpreter, but what the machine does.
+    fn tapped(&self, level: Mm) -> [Mm; 3] {
+        let (first, second) = self.hole.at;
+        let plane = match self.hole.plane {
+            Plane::Xy => Plane::Xy,
+            Plane::Zx => Plane::Yz,
+            Plane::Yz => Plane::Zx,
+        };
+        plane.to_xyz([first, second, level])
+    }
+
     fn tap(&mut self, clockwise: bool) -> Result<(), CycleError> {
         let Overrides { feed, speed } = self.hole.overrides;
         if self.rules.tap_needs_spindle {
             self.sink.put(Stroke::FeedOverride(false))?;
             self.sink.put(Stroke::SpeedOverride(false))?;
-            self.feed_to(self.bottom())?;
+            self.sink.feed(self.tapped(self.bottom()))?;
             self.sink.put(Stroke::SpindleStop)?;
             self.sink.put(Stroke::SpindleReverse)?;
             self.sink.put(Stroke::Dwell(self.hole.dwell.unwrap_or(Seconds::ZERO)))?;
-            self.feed_to(self.clear())?;
+            self.sink.feed(self.tapped(self.clear()))?;
             self.sink.put(Stroke::SpindleStop)?;
             self.sink.put(Stroke::SpindleRestart)?;
             if feed {
@@ -300,6 +312,8 @@ impl Tool<'_, '_> {
             if speed {
                 self.sink.put(Stroke::SpeedOverride(true))?;
             }
+            // It believes all the same to stand over the hole.
+            self.sink.at = self.point(self.clear());
             return Ok(());
         }
         self.sink.put(Stroke::SpindleTurn { clockwise })?;
@@ -848,6 +862,20 @@ mod tests {
             rapid 1 1 5
         "#]],
         );
+    }
+
+    // `G18`, `G98 G84 X10 Y-20 Z30 R2` from X1 Y5 Z3.
+    #[test]
+    fn tapping_outside_of_xy_feeds_where_the_interpreter_feeds() {
+        let words = Hole { plane: Plane::Zx, ..at(30.0, 10.0, [5.0, 2.0, -20.0]) };
+        let mut ends = Vec::new();
+        let end = hole(Effect::CycleTap, &words, [1.0, 5.0, 3.0].map(Mm), &exact(), &mut |stroke| {
+            if let Stroke::Feed(to) = stroke {
+                ends.push(to.map(Mm::get));
+            }
+        });
+        assert_eq!(ends, [[-20.0, 30.0, 10.0], [5.0, 30.0, 10.0]]);
+        assert_eq!(end, Ok([10.0, 5.0, 30.0].map(Mm)));
     }
 
     #[test]

@@ -26,7 +26,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let plane = if rules.all_planes { plane } else { Plane::Xy };
         let ([first, second, depth], _) = plane_axes(plane);
         let has_point = self.words.has(first.letter()) || self.words.has(second.letter());
-        let has_words = has_point || self.words.has(depth.letter());
+        let has_words =
+            has_point || self.words.has(depth.letter()) || self.words.present().intersects(super::POLAR);
         if effect == Effect::CycleAlongTool || effect == Effect::CycleRadial {
             return self.lose_cycle(state);
         }
@@ -94,9 +95,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 *slot = value * scale;
             }
         };
-        put('R', &mut words.r, unit);
         put('Q', &mut words.q, unit);
-        put(depth.name(), &mut words.z, unit);
         let repeat = rules.repeat;
         let [i, j, k] = &mut words.ijk;
         for (letter, slot) in [('I', i), ('J', j), ('K', k)] {
@@ -117,6 +116,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if starts {
             words.initial = state.position.raw(depth);
         }
+        // Levels are kept as levels: in `G91` an increment counts in the block that gives it, and stays where it led.
+        let relative = match state.is_incremental(self.model) {
+            Some(incremental) => incremental && rules.incremental_r,
+            None => return self.unknown_levels(words, state),
+        };
+        let base = if rules.rise_to_r { state.position.raw(depth) } else { words.initial };
+        let level = |letter: Letter| self.words.number(letter).map(|value| value * unit);
+        if let Some(r) = level(Letter::of('R')) {
+            words.r = if relative { base + r } else { r };
+        }
+        if let Some(z) = level(depth.letter()) {
+            words.z = if relative { words.r + z } else { z };
+        }
         state.cycle = words;
         if self.words.number(Letter::of('R')).is_some_and(f64::is_nan) {
             return Ok(());
@@ -127,6 +139,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if words.z.is_nan() && !self.words.has(depth.letter()) && effect != Effect::CycleCancel {
             return Err(Fault::Cycle(CycleFault::Missing(depth.letter())));
         }
+        Ok(())
+    }
+
+    /// Absolute or incremental is not known, and so are the levels.
+    fn unknown_levels(&mut self, mut words: crate::state::CycleWords, state: &mut State<D>) -> Step {
+        (words.r, words.z) = (f64::NAN, f64::NAN);
+        state.cycle = words;
         Ok(())
     }
 
@@ -176,20 +195,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         points: impl ExactSizeIterator<Item = (f64, f64)>,
         state: &mut State<D>,
     ) -> Step {
-        let ([_, _, depth], _) = plane_axes(plane);
         let incremental = state.is_incremental(self.model);
         let rules = self.model.semantics().cycles.clone();
         let words = state.cycle;
-        let level = state.position.raw(depth);
-        let relative = incremental != Some(false) && rules.incremental_r;
-        let (r, bottom) = if relative {
-            // R counts from the level before the series, or from where the tool stands.
-            let base = if rules.rise_to_r { level } else { words.initial };
-            (base + words.r, base + words.r + words.z)
-        } else {
-            (words.r, words.z)
-        };
-        let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (r, bottom) };
+        let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
         let number = |value: f64| if value.is_nan() { None } else { Some(value) };
         let units = state.units(self.model).unwrap_or(Units::Mm);
@@ -299,7 +308,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     let way = if clockwise { Spindle::Clockwise } else { Spindle::CounterClockwise };
                     self.spindle(way, state)?;
                 }
-                Stroke::Orient => self.emit(state, Event::OrientSpindle { angle: 0.0, way: 3 }),
+                Stroke::Orient => {
+                    let way = if spindle == Some(Spindle::CounterClockwise) { 3 } else { 2 };
+                    self.emit(state, Event::OrientSpindle { angle: 0.0, way });
+                }
                 Stroke::ExactPath => {
                     if !self.passes_exactly && self.current_path_mode(state) != PathMode::ExactPath {
                         self.passes_exactly = true;

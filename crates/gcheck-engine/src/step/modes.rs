@@ -116,6 +116,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::PlaneXy => self.emit(state, Event::Plane(Plane::Xy)),
             E::PlaneZx => self.emit(state, Event::Plane(Plane::Zx)),
             E::PlaneYz => self.emit(state, Event::Plane(Plane::Yz)),
+            E::PlaneSecondary => self.emit(state, Event::SecondaryPlane),
             E::Inch => self.emit(state, Event::Units(Units::Inch)),
             E::Millimetre => self.emit(state, Event::Units(Units::Mm)),
             E::FeedInverseTime => self.feed_mode(FeedMode::InverseTime, state),
@@ -276,6 +277,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::FeedMode(mode));
         if self.model.semantics().feed_mode_clears_feed {
             state.feed = D::number(0.0);
+            state.feed_word = D::number(0.0);
             if mode != FeedMode::InverseTime {
                 self.emit(state, Event::FeedRate(0.0));
             }

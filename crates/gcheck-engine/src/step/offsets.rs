@@ -447,7 +447,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let radius = self.length(Letter::of('R'), state);
         let angles = [self.words.number(Letter::of('I')), self.words.number(Letter::of('J'))];
         let orientation = self.count(Letter::of('Q'))?;
-        let machine = state.machine() - state.length;
+        let machine = state.machine();
         let work = state.work_offset();
         let shift = state.shift();
         let fixture = state.tables.offset(9);

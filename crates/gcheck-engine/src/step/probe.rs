@@ -60,11 +60,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::Probe(false));
         self.assumptions.insert(Assumption::ProbeTouch);
         if self.machine.fresh {
-            if let TravelKind::Probe { toward: false, .. } = kind {
-                // Away from a workpiece that is not there, the simulation stops a hundredth of an inch short.
-                self.stop_short(from, 0.254, state);
-            }
+            // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
+            // before it: what a simulation of the reference interpreter does.
             state.probed = state.actual;
+            self.stop_short(from, 0.254, state);
             state.probe_result = Truth::False;
             return Ok(());
         }

@@ -21,6 +21,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if D::known(&value).is_some_and(|f| f < 0.0) {
             return Err(Fault::WordRange(Letter::of('F')));
         }
+        state.feed_word = value.clone();
         let mode = state.feed_mode(self.model);
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,

@@ -82,14 +82,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             V::ModalCode => self.modal_code(variable, state),
             V::LastWord => match variable.of.as_deref() {
-                Some("F") => self.feed_in_units(state),
+                Some("F") => state.feed_word.clone(),
                 Some("S") => state.speed.clone(),
                 Some("T") => state.selected.clone(),
                 Some("H") => state.h.clone(),
                 Some("D") => state.d.clone(),
                 _ => D::unknown(),
             },
-            V::Feed => self.feed_in_units(state),
+            V::Feed => state.feed_word.clone(),
             V::Speed => state.speed.clone(),
             V::IsMetric => flag(state.units(self.model).map(|u| u == Units::Mm)),
             V::IsInch => flag(state.units(self.model).map(|u| u == Units::Inch)),
@@ -149,17 +149,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match self.machine.table_units {
             Some(units) => value / units.in_mm(),
             None => value / self.unit(state),
-        }
-    }
-
-    fn feed_in_units(&self, state: &State<D>) -> D::Value {
-        match (state.feed_mode(self.model), D::known(&state.feed)) {
-            (Some(FeedMode::InverseTime), _) => state.feed.clone(),
-            (_, Some(feed)) => {
-                let value = feed / self.unit(state);
-                if value.is_nan() { D::unknown() } else { D::number(value) }
-            }
-            (_, None) => D::unknown(),
         }
     }
 

@@ -90,3 +90,14 @@ pub(crate) fn shown_on(control: &str, axes: &'static str, machine: &Machine, tex
     write!(recorder.text, "at{}", recorder.point(result.state.position())).unwrap();
     recorder.text
 }
+
+pub(crate) fn shown_fuel(control: &str, text: &str, fuel: u64) -> String {
+    let control = gcheck_controls::load(control).unwrap();
+    let dialect = Dialect::new(&control);
+    let loaded = Loaded::new(text, &dialect, |_, _, _| ());
+    let program = Program::new(loaded, &dialect, &NoLibrary);
+    let model = Model::new(&control);
+    let mut recorder = Recorder { text: String::new(), plane_axes: "X" };
+    let _ = run(&program, &model, &machine(10.0), Options::NONE, fuel, &mut recorder);
+    recorder.text
+}

@@ -19,11 +19,21 @@ pub(crate) mod cycles {
 
 pub(crate) mod flow {
     pub(crate) mod alarm_reached;
+    pub(crate) mod calls_nested_too_deep;
     pub(crate) mod endless_loop;
+    pub(crate) mod fall_into_subprogram;
+    pub(crate) mod jump_into_loop;
+    pub(crate) mod jump_to_missing_block;
+    pub(crate) mod loop_condition_unchanged;
+    pub(crate) mod subprogram_without_return;
     pub(crate) mod unreachable_block;
 }
 
 pub(crate) mod machine {
+    pub(crate) mod feed_above_machine_limit;
+    pub(crate) mod move_outside_travel;
+    pub(crate) mod speed_above_machine_limit;
+    pub(crate) mod tool_not_in_table;
 }
 
 pub(crate) mod macros {
@@ -61,6 +71,8 @@ pub(crate) mod motion {
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
+    pub(crate) mod rapid_in_material;
+    pub(crate) mod rapid_plunge;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
 }
@@ -80,6 +92,7 @@ pub(crate) mod program {
     pub(crate) mod jump_target_missing;
     pub(crate) mod o_word_subroutine_missing;
     pub(crate) mod program_end_missing;
+    pub(crate) mod program_never_called;
     pub(crate) mod program_number_duplicate;
     pub(crate) mod program_number_missing;
     pub(crate) mod stray_tape_mark;
@@ -89,6 +102,10 @@ pub(crate) mod program {
 }
 
 pub(crate) mod spindle {
+    pub(crate) mod maybe_spindle_stopped_while_cutting;
+    pub(crate) mod speed_missing;
+    pub(crate) mod spindle_stopped_while_cutting;
+    pub(crate) mod surface_speed_without_limit;
 }
 
 pub(crate) mod suppressions {
@@ -130,6 +147,7 @@ pub(crate) mod syntax {
 }
 
 pub(crate) mod tool {
+    pub(crate) mod tool_change_without_t;
 }
 
 pub(crate) mod words {
@@ -162,8 +180,18 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &compensation::compensation_left_on::RULE,
     &compensation::maybe_compensation_left_on::RULE,
     &flow::alarm_reached::RULE,
+    &flow::calls_nested_too_deep::RULE,
     &flow::endless_loop::RULE,
+    &flow::fall_into_subprogram::RULE,
+    &flow::jump_into_loop::RULE,
+    &flow::jump_to_missing_block::RULE,
+    &flow::loop_condition_unchanged::RULE,
+    &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
+    &machine::feed_above_machine_limit::RULE,
+    &machine::move_outside_travel::RULE,
+    &machine::speed_above_machine_limit::RULE,
+    &machine::tool_not_in_table::RULE,
     &macros::assignment_to_read_only_variable::RULE,
     &macros::crossed_loops::RULE,
     &macros::do_number_in_use::RULE,
@@ -192,6 +220,8 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::maybe_feed_missing::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
+    &motion::rapid_in_material::RULE,
+    &motion::rapid_plunge::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &offsets::mirror_left_on::RULE,
@@ -205,12 +235,17 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &program::jump_target_missing::RULE,
     &program::o_word_subroutine_missing::RULE,
     &program::program_end_missing::RULE,
+    &program::program_never_called::RULE,
     &program::program_number_duplicate::RULE,
     &program::program_number_missing::RULE,
     &program::stray_tape_mark::RULE,
     &program::subprogram_missing::RULE,
     &program::tape_mark_missing::RULE,
     &program::wrong_control_suspicion::RULE,
+    &spindle::maybe_spindle_stopped_while_cutting::RULE,
+    &spindle::speed_missing::RULE,
+    &spindle::spindle_stopped_while_cutting::RULE,
+    &spindle::surface_speed_without_limit::RULE,
     &suppressions::malformed_suppression::RULE,
     &suppressions::suppression_without_reason::RULE,
     &suppressions::unused_suppression::RULE,
@@ -243,6 +278,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::value_without_address::RULE,
     &syntax::while_without_do::RULE,
     &syntax::zero_for_letter_o::RULE,
+    &tool::tool_change_without_t::RULE,
     &words::arc_without_centre::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::lasting_word_never_given::RULE,

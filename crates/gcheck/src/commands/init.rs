@@ -67,10 +67,19 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 # name = "VF-2"
 # axes = ["X", "Y", "Z"]
 # units = "inch"
+# rapid = 1000.0
+# tool_change_seconds = 4.0
 
 # Settings of the control that change what a program means, as its page words them.
 [settings]
 # 162 = true        # X1 is X1.
+
+# What is measured at the machine; `gcheck run` and `gcheck stats` say what they lack.
+[offsets]
+# G54 = { X = -15.0, Y = -8.0, Z = 0.0 }
+
+[tools]
+# 1 = { length = 4.5, diameter = 0.5 }
 
 # M codes of the shop and aliases of macros, so that they are known.
 [codes]

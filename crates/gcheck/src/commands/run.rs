@@ -79,7 +79,7 @@ fn start(session: &Session<'_>) -> Start {
 }
 
 impl<W: Write> Steps for Canonical<W> {
-    const NUMBERED_BY_EXECUTION: bool = true;
+    const AS_INTERPRETED: bool = true;
 
     fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
         self.step(step)

@@ -26,11 +26,11 @@ pub struct ConfigFile {
     pub machine: MachineTable,
     /// The control's own numbered settings, values as its page words them: `162 = false`, `34 = 6.0`, `40 = "diameter"`.
     pub settings: BTreeMap<Placed<String>, Placed<Scalar>>,
-    /// Macro variables known before a program starts: `"#3100" = 2.5`.
+    /// Macro variables and named parameters set before a program starts: `"#3100" = 2.5`, `"#<name>" = 1`.
     pub variables: BTreeMap<Placed<String>, f64>,
-    /// Work offsets: `G54 = { X = -400.0, Y = -200.0 }`.
+    /// Work offsets in machine coordinates: `G54 = { X = -400.0, Y = -200.0 }`. An axis that is left out is zero.
     pub offsets: BTreeMap<Placed<String>, BTreeMap<Placed<String>, f64>>,
-    /// Tools by number, or `table = "tool.tbl"`.
+    /// Tools by number, or `table = "tool.tbl"`: then there are no others.
     pub tools: ToolsTable,
     /// Codes of the shop: M codes of the builder, aliases of macros.
     pub codes: BTreeMap<Placed<String>, CodeTable>,

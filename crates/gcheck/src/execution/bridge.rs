@@ -6,7 +6,7 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
-use gcheck_engine::{At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Truth,
+use gcheck_engine::{At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Stop, Truth,
 };
 use gcheck_report::LineIndex;
 use gcheck_toolpath::Step;
@@ -15,9 +15,9 @@ use super::Session;
 
 /// Takes the steps of a run.
 pub(crate) trait Steps {
-    /// The sequence number is that of the block being executed, which under cutter compensation may be later than the
-    /// block that a move belongs to.
-    const NUMBERED_BY_EXECUTION: bool = false;
+    /// As the reference interpreter has it: sequence numbers are those of the block being executed, which under cutter
+    /// compensation may be later than the block that a move belongs to, and an optional stop is one whatever the switch says.
+    const AS_INTERPRETED: bool = false;
 
     /// One event.
     fn step(&mut self, step: &Step<'_>) -> io::Result<()>;
@@ -104,11 +104,14 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
+        if !S::AS_INTERPRETED && matches!(event, Event::Stop(Stop::Optional)) && !self.session.prepared.options.optional_stop {
+            return;
+        }
         let model = self.session.model;
         let (file, line) = self.place(origin);
         let step = Step {
             event,
-            n: if S::NUMBERED_BY_EXECUTION && (origin.n.is_some() || origin.at != self.executing_at) { self.executing } else { origin.n },
+            n: if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) { self.executing } else { origin.n },
             line,
             units: state.units(model).unwrap_or(self.session.prepared.equipment.units),
             feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),

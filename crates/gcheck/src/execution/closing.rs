@@ -77,6 +77,9 @@ pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Faul
             let comment = comment_of(session, result.origin);
             (fault_words::alarm(*number, comment.as_deref()), None)
         }
+        Stopped::Ended(Ending::Text) => {
+            (fault_words::words(&gcheck_engine::Fault::NoProgramEnd, session.model, units), None)
+        }
         Stopped::Ended(_) => return None,
         Stopped::Faulted(gcheck_engine::Fault::Undecidable) => {
             (fault_words::undecidable(&unknown_variables(session, result)), None)

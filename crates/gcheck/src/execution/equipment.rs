@@ -121,8 +121,8 @@ impl Equipment {
     }
 
     fn put_offset(&mut self, number: u16, axes: &[(String, f64)], mm: f64) {
-        let unnamed = if self.machine.fresh { WorkOffset::ZERO } else { WorkOffset::UNKNOWN };
-        let offset = self.machine.offsets.entry(number).or_insert(unnamed);
+        // An axis that is left out has no offset.
+        let offset = self.machine.offsets.entry(number).or_insert(WorkOffset::ZERO);
         for (name, value) in axes {
             if let Some(axis) = axis_of(name) {
                 offset.origin.set(axis, in_mm(axis, *value, mm));

@@ -26,7 +26,7 @@ pub(super) struct ToolTableFile {
 /// Reads a table; its lengths are in `units`.
 pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> {
     let name = paths::shown_from_here(path);
-    let source = reading::file(path).map_err(|problem| problem.help("`tools.table` names this file"))?;
+    let source = reading::file(Path::new(&name)).map_err(|problem| problem.help("`tools.table` names this file"))?;
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
     let read = if is_csv { columns } else { words };
     read(source.text(), units.in_mm())
@@ -258,4 +258,52 @@ fn cells(line: &str, separator: char) -> impl Iterator<Item = (Range<usize>, Str
         };
         Some((start..start + cell.len(), plain.trim().to_owned()))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use gcheck_engine::Axis;
+
+    use super::{Mistake, ToolTableFile, columns, words};
+
+    /// Number, pocket, length, diameter and remark of each tool.
+    fn told(read: Result<ToolTableFile, Mistake>) -> Vec<String> {
+        let table = read.unwrap();
+        let one = |(number, tool): &(u32, gcheck_engine::Tool)| {
+            let remark = table.remarks.get(number).map_or("", String::as_str);
+            format!("T{number} P{} Z{} D{} {remark}", tool.pocket, tool.offset.raw(Axis::Z), tool.diameter.0)
+        };
+        table.tools.iter().map(one).collect()
+    }
+
+    #[test]
+    fn words_stand_in_any_order_and_case() {
+        assert_eq!(told(words("T1 P2 Z0.5 D1 ;mill\r\n;nothing\n\n  d+.5 z-1e0 t2\n", 25.4)), [
+            "T1 P2 Z12.7 D25.4 mill",
+            "T2 P2 Z-25.4 D12.7 ",
+        ]);
+        let table = words("T3 X1 A90 I5 J10 Q9\n", 25.4).unwrap();
+        let tool = table.tools[0].1;
+        // Angles are degrees in any unit.
+        assert_eq!((tool.offset.raw(Axis::X), tool.offset.raw(Axis::A)), (25.4, 90.0));
+        assert_eq!((tool.angles, tool.orientation), ([5.0, 10.0], 9));
+    }
+
+    #[test]
+    fn columns_are_found_by_their_headings() {
+        assert_eq!(told(columns("Tool,Length,Radius,Comment\n1,2,3,\"a, b\"\"c\"\"\"\n", 1.0)), ["T1 P1 Z2 D6 a, b\"c\""]);
+        assert_eq!(told(columns("\u{FEFF}T;Z;D\nT5;1,5;0,25\n", 1.0)), ["T5 P5 Z1.5 D0.25 "]);
+        assert_eq!(told(columns("number\tpocket\tcolour\n7\t3\tred\n", 1.0)), ["T7 P3 ZNaN DNaN "]);
+        assert_eq!(told(columns("", 1.0)), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_mistake_knows_its_place() {
+        let place = |read: Result<ToolTableFile, Mistake>| read.unwrap_err().range;
+        assert_eq!(place(words("T1 Z1\nT2 Zµ\n", 1.0)), 9..12);
+        assert_eq!(place(words("T1 Q10\n", 1.0)), 3..6);
+        assert_eq!(place(columns("tool;length\n1;\n2;x\n", 1.0)), 17..18);
+        assert_eq!(place(columns("tool\n-1\n", 1.0)), 5..7);
+        assert_eq!(place(columns("tool\n4294967296\n", 1.0)), 5..15);
+    }
 }

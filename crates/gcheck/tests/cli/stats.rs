@@ -45,6 +45,44 @@ G55 = { X = -100.0, Y = -200.0, Z = 0.0 }
 fn figures_close_with_what_they_rest_on() {
     let run = Shop::with(&[("part.nc", PART)]).gcheck("stats part.nc --control haas-mill");
     expect![[r#"
+        cycle time 0:47.6 min: cutting 0:37.2 (78 %), rapid 0:00.4 (1 %); 2 tool changes 0:10.0
+
+        tool                          time  cutting   rapid  change  cut mm  rapid mm  feed         speed          holes
+        T1     D=10. FLAT END MILL  0:27.9   0:22.8  0:00.1  0:05.0      76        26  200/min      3000 rpm
+        T2     DRILL 5MM            0:19.7   0:14.4  0:00.3  0:05.0      24       126  100/min      1000 rpm           2
+        total                       0:47.6   0:37.2  0:00.4  0:10.0     100       152  100-200/min  1000-3000 rpm      2
+
+        extents, mm    X from      to  Y from      to   Z from      to
+        T1 cutting      0.000  50.000   0.000   0.000   -1.000  25.000
+        T2 cutting     10.000  20.000  10.000  10.000  -10.000   2.000
+        G54 all moves   0.000  50.000   0.000   0.000   -1.000  25.000
+        G55 all moves  10.000  20.000  10.000  10.000  -10.000  25.000
+
+        missing in these figures
+          4 moves from or to an unknown point: not in distance or time
+          machine coordinates: the start, work offsets or tool lengths are not known
+
+        assumed
+          rapid moves at 25400 mm/min on every axis (set machine.rapid)
+          5 s for a tool change (set machine.tool_change_seconds)
+          axes and spindle reach their speed at once: real times are longer
+
+        taken for granted
+          where the axes stand at the start is not known
+          the work offset G54 is not known
+          the work offset G55 is not known
+          the length of tool 1 is not known
+          the length of tool 2 is not known
+          in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
+        gcheck.toml can say
+          [offsets]
+          G54 = { X = …, Y = …, Z = … }
+          G55 = { X = …, Y = …, Z = … }
+          [tools]
+          1.length = …
+          2.length = …
+        ! part.nc: control haas-mill, set by `--control`
+        exit 0
     "#]]
     .assert_eq(&run.to_string());
 }
@@ -53,6 +91,38 @@ fn figures_close_with_what_they_rest_on() {
 fn a_machine_file_leaves_little_to_assume() {
     let run = Shop::with(&[("part.nc", PART), ("gcheck.toml", MACHINE)]).gcheck("stats part.nc");
     expect![[r#"
+        cycle time 0:46.1 min: cutting 0:37.2 (81 %), rapid 0:00.9 (2 %); 2 tool changes 0:08.0
+
+        tool                          time  cutting   rapid  change  cut mm  rapid mm  feed         speed          holes
+        T1     D=10. FLAT END MILL  0:26.9   0:22.8  0:00.1  0:04.0      76        26  200/min      3000 rpm
+        T2     DRILL 5MM            0:19.3   0:14.4  0:00.9  0:04.0      24       426  100/min      1000 rpm           2
+        total                       0:46.1   0:37.2  0:00.9  0:08.0     100       452  100-200/min  1000-3000 rpm      2
+
+        extents, mm           X from       to    Y from        to   Z from       to
+        T1 cutting             0.000   50.000     0.000     0.000   -1.000   25.000
+        T2 cutting            10.000   20.000    10.000    10.000  -10.000    2.000
+        G54 all moves          0.000   50.000     0.000     0.000   -1.000   25.000
+        G55 all moves       -250.000   20.000     0.000    10.000  -10.000   65.000
+        machine, all moves  -400.000  -80.000  -200.000  -190.000   70.000  145.000
+
+        missing in these figures
+          2 moves from or to an unknown point: not in distance or time
+          machine coordinates of 1 move
+
+        assumed
+          axes and spindle reach their speed at once: real times are longer
+
+        taken for granted
+          where the axes stand at the start is not known
+          the work offset G54 is not known
+          the work offset G55 is not known
+          in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
+        gcheck.toml can say
+          [offsets]
+          G54 = { X = …, Y = …, Z = … }
+          G55 = { X = …, Y = …, Z = … }
+        ! part.nc: control haas-mill, set in gcheck.toml
+        exit 0
     "#]]
     .assert_eq(&run.to_string());
 }
@@ -85,7 +155,12 @@ fn json_is_for_other_programs() {
         .filter_map(|one| one["pin"].as_str().map(str::to_owned))
         .collect();
     expect![[r#"
-    "#]]
+        [machine] rapid = …
+        [machine] tool_change_seconds = …
+        [offsets] G54 = { X = …, Y = …, Z = … }
+        [offsets] G55 = { X = …, Y = …, Z = … }
+        [tools] 1.length = …
+        [tools] 2.length = …"#]]
     .assert_eq(&pins.join("\n"));
 }
 

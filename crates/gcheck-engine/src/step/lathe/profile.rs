@@ -425,8 +425,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if read.flags.contains(BlockFlags::STATEMENT) {
                 match self.statements(&place, &table, read, state)? {
                     Statements::Words => {}
-                    Statements::Done(Outcome::Next) => continue,
+                    Statements::Done(Outcome::Next) => {
+                        self.observer.after(self.origin, state);
+                        continue;
+                    }
                     Statements::Done(Outcome::Jump(to)) if to.file == blocks.file => {
+                        self.observer.after(self.origin, state);
                         block = to.block;
                         continue;
                     }

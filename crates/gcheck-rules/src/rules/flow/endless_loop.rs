@@ -94,21 +94,30 @@ fn turn_block(cx: &PathCx<'_>) -> Option<At> {
 
 /// Stops for the operator inside the loop, or a return that starts the program again.
 fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
-    let waits = |block: u32| {
+    let has = |block: u32, is: &dyn Fn(Effect) -> bool| {
         let Some(place) = cx.place_of(At { file: head.file, block }) else { return false };
-        place.table.words(place.block()).iter().any(|word| {
-            matches!(
-                cx.model.effect(word.code),
-                Effect::Stop | Effect::OptionalStop | Effect::PalletStop | Effect::BarFeed | Effect::WaitForInput
-            )
-        })
+        place.table.words(place.block()).iter().any(|word| is(cx.model.effect(word.code)))
     };
-    let returns = |at: At| {
-        cx.place_of(at).is_some_and(|place| {
-            place.table.words(place.block()).iter().any(|word| cx.model.effect(word.code) == Effect::Return)
-        })
+    let waits = |effect: Effect| {
+        matches!(
+            effect,
+            Effect::Stop | Effect::OptionalStop | Effect::PalletStop | Effect::BarFeed | Effect::WaitForInput
+        )
     };
-    returns(turn) || (head.block..=turn.block).take(20_000).any(waits)
+    let calls = |effect: Effect| {
+        matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall | Effect::MacroModal)
+    };
+    let mut blocks = head.block..turn.block.saturating_add(1);
+    if has(turn.block, &|effect| effect == Effect::Return) {
+        // `M99 P10` in the main program; a return to the block behind a call is a part of some larger loop.
+        if !has(head.block.saturating_sub(1), &calls) {
+            return true;
+        }
+        if let Some(file) = cx.program.file(head.file) {
+            blocks = file.loaded.outline().part_of(head.block);
+        }
+    }
+    blocks.take(20_000).any(|block| has(block, &waits))
 }
 
 #[cfg(test)]
@@ -138,6 +147,14 @@ mod tests {
     fn a_return_that_starts_the_program_again_is_no_loop() {
         check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM99\n", &expect![[""]]);
         check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM99 P10\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_loop_around_a_call_is_told_where_the_call_comes_back() {
+        check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM97 P100\nG0 X2.\nGOTO 10\nM30\nN100 G0 X0.\nM99\n", &expect![[r#"
+            3 | G0 X2.
+              | ^^^^^^ warning[endless-loop] loop never ends
+        "#]]);
     }
 
     #[test]

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use gcheck_controls::{CodeIx, Effect};
-use gcheck_engine::{At, Ending, Fact, Fault, Role};
+use gcheck_engine::{At, Fact, Fault, Role};
 
-use super::feed_missing::Pending;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -36,10 +35,7 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path {
-            watch: Watch::FAULTS.union(Watch::ENDS),
-            make: || Box::new(AxisWordsWithoutMotionMode::default()),
-        },
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(AxisWordsWithoutMotionMode::default()) },
     }
 }
 
@@ -47,7 +43,6 @@ declare_rule! {
 struct AxisWordsWithoutMotionMode {
     /// What ended the motion mode: the first block behind each speaks for the others.
     told: BTreeSet<Option<At>>,
-    pending: Pending,
 }
 
 impl PathRule for AxisWordsWithoutMotionMode {
@@ -61,7 +56,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
             let machine = cx.effect_range(|effect| effect == Effect::MachineCoordinates);
             let code = cx.code_name(Role::Motion).map_or_else(String::new, |code| format!(" (`{code}` is active)"));
             let finding = cx
-                .finding(&META, machine, format!("move in machine coordinates that is neither rapid nor straight{code}"))
+                .finding(&META, machine, format!("machine coordinates in a move that is neither `G0` nor `G1`{code}"))
                 .label("needs `G0` or `G1`")
                 .help("write `G0` or `G1` in this block");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the kind of motion"));
@@ -69,7 +64,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
         }
         let set = |role| cx.trace().set_by(Fact::Mode(role));
         let cause = set(Role::Cycle).max(set(Role::Motion));
-        if !self.told.insert(cause) {
+        if cause.is_none() && cx.is_called_only() || !self.told.insert(cause) {
             return;
         }
         let mut finding = cx
@@ -85,11 +80,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
             }
             None => {}
         }
-        self.pending.add(finding, cause.is_none(), report);
-    }
-
-    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        self.pending.ended(ending, report);
+        report.add(finding);
     }
 }
 

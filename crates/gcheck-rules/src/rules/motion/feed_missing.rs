@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Ending, Fact, Fault, FeedMode, Role};
+use gcheck_engine::{At, Fact, Fault, FeedMode, Role};
 
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A block cuts while no feed is in effect: no `F` was given on the way here, or a change of the feed mode took it away.
@@ -39,10 +39,7 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path {
-            watch: Watch::FAULTS.union(Watch::ENDS),
-            make: || Box::new(FeedMissing::default()),
-        },
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(FeedMissing::default()) },
     }
 }
 
@@ -50,7 +47,6 @@ declare_rule! {
 struct FeedMissing {
     /// What left the blocks reported without feed: one finding for each.
     causes: BTreeSet<Option<At>>,
-    pending: Pending,
 }
 
 impl PathRule for FeedMissing {
@@ -60,7 +56,8 @@ impl PathRule for FeedMissing {
             return;
         }
         let cause = cx.trace().set_by(Fact::Feed);
-        if !self.causes.insert(cause) {
+        // What others call has the feed of its caller.
+        if cause.is_none() && cx.is_called_only() || !self.causes.insert(cause) {
             return;
         }
         let mut finding = cx
@@ -75,38 +72,7 @@ impl PathRule for FeedMissing {
         if cause.is_none() && cx.scene.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
-        self.pending.add(finding, cause.is_none(), report);
-    }
-
-    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        self.pending.ended(ending, report);
-    }
-}
-
-/// Findings that rest on the start of the program, kept until it is seen to end as a main program does: a file that
-/// ends with `M99` alone is called by others, and nothing is known of what they did before.
-#[derive(Default)]
-pub(crate) struct Pending {
-    findings: Vec<Finding>,
-    ended: bool,
-}
-
-impl Pending {
-    /// Reports a finding, at once unless it rests on the start.
-    pub(crate) fn add(&mut self, finding: Finding, rests_on_start: bool, report: &mut Report<'_>) {
-        if rests_on_start && !self.ended {
-            self.findings.push(finding);
-        } else {
-            report.add(finding);
-        }
-    }
-
-    /// The program ends.
-    pub(crate) fn ended(&mut self, ending: Ending, report: &mut Report<'_>) {
-        if ending != Ending::Restart {
-            self.ended = true;
-            self.findings.drain(..).for_each(|finding| report.add(finding));
-        }
+        report.add(finding);
     }
 }
 

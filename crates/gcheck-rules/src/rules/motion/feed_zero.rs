@@ -21,6 +21,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ```nc,reported,haas-mill
+    /// G20
     /// #1 = 0
     /// G1 X1. F[#1 * 2]
     /// M30
@@ -80,7 +81,7 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G1 X1. F0.\nX2.\nG1 X3. F5.\nF0\nG0 X4.\nG1 X5.\nX6.\nM30\n",
+            "G20\nG1 X1. F0.\nX2.\nG1 X3. F5.\nF0\nG0 X4.\nG1 X5.\nX6.\nM30\n",
             &expect![[""]],
         );
     }

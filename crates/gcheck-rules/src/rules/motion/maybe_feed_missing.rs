@@ -16,6 +16,7 @@ declare_rule! {
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
+    /// G20
     /// IF [#100 EQ 1] GOTO10
     /// G1 X1. F10.
     /// N10 G1 X2.
@@ -23,7 +24,7 @@ declare_rule! {
     /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
-    /// F10.
+    /// G20 F10.
     /// IF [#100 EQ 1] GOTO10
     /// G1 X1. F20.
     /// N10 G1 X2.
@@ -87,14 +88,14 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "IF [#500 EQ 1] THEN #1=5\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nX2.\nG1 Y2. F50.\nX3.\nM30\n",
+            "G21\nIF [#500 EQ 1] THEN #1=5\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nX2.\nG1 Y2. F50.\nX3.\nM30\n",
             &expect![[""]],
         );
     }
 
     #[test]
     fn words_show_the_path() {
-        let program = "IF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nM30\n";
+        let program = "G21\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nM30\n";
         let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
         expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
     }
@@ -104,7 +105,7 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "#1=0\nIF [#500 EQ 2] THEN #1=50.\nG1 X1. F#1\nM30\n",
+            "G21\n#1=0\nIF [#500 EQ 2] THEN #1=50.\nG1 X1. F#1\nM30\n",
             &expect![[""]],
         );
     }

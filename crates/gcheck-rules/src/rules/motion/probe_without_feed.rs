@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Domain, Abstract, Ending, Event, Fact, Fault, FeedMode, Role, TravelKind};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, TravelKind};
 
-use super::feed_missing::{Pending, probes};
+use super::feed_missing::{probes, zero_was_given};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -38,7 +38,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::FAULTS.union(Watch::CUTS).union(Watch::ENDS),
+            watch: Watch::FAULTS.union(Watch::CUTS),
             make: || Box::new(ProbeWithoutFeed::default()),
         },
     }
@@ -48,12 +48,11 @@ declare_rule! {
 struct ProbeWithoutFeed {
     /// What left the probing moves reported without feed: one finding for each.
     told: BTreeSet<Option<At>>,
-    pending: Pending,
 }
 
 impl PathRule for ProbeWithoutFeed {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::NoFeed || !probes(cx) || super::feed_missing::zero_was_given(cx).is_some() {
+        if *fault != Fault::NoFeed || !probes(cx) || zero_was_given(cx).is_some() {
             return;
         }
         if cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
@@ -70,23 +69,20 @@ impl PathRule for ProbeWithoutFeed {
         let Event::Travel(travel) = event else { return };
         let skips = matches!(travel.kind, TravelKind::Probe { skip: true, .. });
         let none = Abstract::known(cx.state().feed()).is_some_and(|feed| feed.abs() <= 0.0);
-        if skips && none && super::feed_missing::zero_was_given(cx).is_none() {
+        if skips && none && zero_was_given(cx).is_none() {
             let finding = self::finding(cx, "probing move without a feed (`F`)", "no feed is in effect here")
                 .at_most(Severity::Warning);
             self.tell(cx, finding, report);
         }
-    }
-
-    fn ended(&mut self, _: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        self.pending.ended(ending, report);
     }
 }
 
 impl ProbeWithoutFeed {
     fn tell(&mut self, cx: &PathCx<'_>, finding: Finding, report: &mut Report<'_>) {
         let cause = cx.trace().set_by(Fact::Feed);
-        if self.told.insert(cause) {
-            self.pending.add(finding.help("give `F` in this block or before it"), cause.is_none(), report);
+        // What others call has the feed of its caller.
+        if !(cause.is_none() && cx.is_called_only()) && self.told.insert(cause) {
+            report.add(finding.help("give `F` in this block or before it"));
         }
     }
 }

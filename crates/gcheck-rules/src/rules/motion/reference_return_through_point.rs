@@ -36,7 +36,7 @@ declare_rule! {
     /// ```
     /// The point lies above.
     /// ```nc,quiet,haas-mill
-    /// G90 G54 G0 X0 Y0
+    /// G20 G90 G54 G0 X0 Y0
     /// G43 H1 Z1.
     /// G28 Z4.
     /// M30
@@ -93,18 +93,27 @@ fn returns(effect: Effect) -> bool {
 
 /// Z goes down to the point.
 fn down(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
-    let to = travel.programmed.get(Axis::Z)?;
-    let (message, label) = match travel.from.get(Axis::Z) {
-        Some(from) if to < from - SAME => {
+    // Zero and below is where the part is, whatever the units.
+    let is_at_part = travel.programmed.get(Axis::Z).map_or_else(|| zero_or_less(cx), |z| z <= SAME);
+    let (message, label) = match (travel.from.get(Axis::Z), travel.programmed.get(Axis::Z)) {
+        (Some(from), Some(to)) if to < from - SAME => {
             ("reference return goes down to a point of the part first", "the tool is driven down to this height at rapid")
         }
-        Some(_) => return None,
-        None if to <= SAME => {
+        (Some(_), Some(_)) => return None,
+        _ if is_at_part => {
             ("reference return goes to a point of the part first", "the tool is driven to this height of the part at rapid")
         }
-        None => return None,
+        _ => return None,
     };
     Some(cx.finding(&META, cx.letter_range('Z'), message).label(label).note(PASSES))
+}
+
+/// Is the height written as zero or less?
+fn zero_or_less(cx: &PathCx<'_>) -> bool {
+    let Some(place) = cx.place() else { return false };
+    let words = place.table.words(place.block());
+    let z = words.iter().find(|word| word.letter == Axis::Z.letter());
+    z.and_then(gcheck_program::Word::number).is_some_and(|z| z <= 0.0)
 }
 
 /// X and Y go to the point while Z stays below the zero of the part.
@@ -139,7 +148,7 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G90 G54 G0 X0 Y0\nG43 H1 Z1.\nG28 X0 Y0 Z.5\nG43 H1 Z1.\nG28 Z1.\nM30\n",
+            "G20 G90 G54 G0 X0 Y0\nG43 H1 Z1.\nG28 X0 Y0 Z.5\nG43 H1 Z1.\nG28 Z1.\nM30\n",
             &expect![[""]],
         );
     }
@@ -155,13 +164,13 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "G90 G54 G0 X50. Y0\nG43 H1 Z-5.\nG1 X60. F100.\nG28 X0 Y0\nM30\n",
+            "G21 G90 G54 G0 X50. Y0\nG43 H1 Z-5.\nG1 X60. F100.\nG28 X0 Y0\nM30\n",
             &expect![[""]],
         );
     }
 
     #[test]
     fn high_above_the_part_crossing_does_no_harm() {
-        check_rule(&RULE, "fanuc-mill", "G90 G54 G0 X50. Y0 Z50.\nG28 X0 Y0\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "G21 G90 G54 G0 X50. Y0 Z50.\nG28 X0 Y0\nM30\n", &expect![[""]]);
     }
 }

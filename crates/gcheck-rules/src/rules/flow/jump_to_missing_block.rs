@@ -1,0 +1,101 @@
+//! A computed jump to a block that does not exist.
+
+use gcheck_engine::Fault;
+
+use crate::meta::declare_rule;
+use crate::usage::is_called_from_elsewhere;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A jump whose target is computed, or a return to a block of the caller (`M99 P…`), comes to a sequence number that
+    /// the program does not have.
+    ///
+    /// ## Why it matters
+    /// The control searches the program for the number and stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// #1=2
+    /// GOTO [#1*10]
+    /// N10 G0 X1.
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// M98 P2
+    /// M30
+    /// O0002
+    /// M99 P50
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// #1=1
+    /// GOTO [#1*10]
+    /// N10 GOTO #500
+    /// M30
+    /// ```
+    rule "jump-to-missing-block" in "flow" {
+        summary: "computed jump to a block that does not exist",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(JumpToMissingBlock) },
+    }
+}
+
+struct JumpToMissingBlock;
+
+impl PathRule for JumpToMissingBlock {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::NoSuchLabel(number) = fault else { return };
+        let block = cx.range();
+        // What a number of the block names in this program is told without executing it.
+        let literal = cx.survey.jumps.iter().any(|jump| {
+            jump.target == Some(*number)
+                && block.contains(&jump.range.start)
+                && !cx.scene.control().code_at(jump.code).is_some_and(|code| {
+                    code.entry().words.iter().any(|word| word.elsewhere)
+                })
+        });
+        // `M99 P…` of a program that is called from another file names a block there.
+        let is_elsewhere = is_called_from_elsewhere(cx.survey) && cx.state().frames().len() <= 1;
+        if literal || is_elsewhere {
+            return;
+        }
+        let message = format!("jump to `N{number}`, which does not exist");
+        let finding = cx
+            .finding(&META, block, message)
+            .label(format!("looks for `N{number}` here"))
+            .note("the control looks for the number when the block runs, and alarms if it is not found")
+            .help(format!("add `N{number}` at the block to go to, or correct what the number is computed from"));
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_that_jumps_is_marked() {
+        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nGOTO #1\nN1 M30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nM97 P#1\nN1 M30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nM99 P50\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_literal_target_is_told_by_another_rule() {
+        check_rule(&RULE, "fanuc-mill", "O1\nGOTO 20\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "O1\nM97 P20\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_block_of_a_caller_in_another_file_is_not_known() {
+        check_rule(&RULE, "fanuc-mill", "O2\nG0 X1.\nM99 P50\n", &expect![[""]]);
+    }
+}

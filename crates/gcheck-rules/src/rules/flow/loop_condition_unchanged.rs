@@ -1,0 +1,272 @@
+//! A loop whose condition nothing inside it changes.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::At;
+use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, Place, StatementKind, Target};
+
+use crate::meta::declare_rule;
+use crate::usage::blocks_with;
+use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The condition of a loop asks for variables that the loop does not set, and nothing else leads out of it.
+    ///
+    /// ## Why it matters
+    /// Once entered, the loop never ends: the counter is not raised, or another variable is raised in its place.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// WHILE [#500 LT 5] DO1
+    /// G0 X#501
+    /// #501=#501+1
+    /// END1
+    /// M30
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// o1 while [#<_depth> GT #<bottom>]
+    /// G1 Z#<_depth> F100
+    /// o1 endwhile
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// WHILE [#500 LT 5] DO1
+    /// #500=#500+1
+    /// END1
+    /// WHILE [#502 LT 5] DO1
+    /// IF [#501 GT 9] GOTO 10
+    /// #501=#501+1
+    /// END1
+    /// N10 M30
+    /// ```
+    rule "loop-condition-unchanged" in "flow" {
+        summary: "loop that does not change its condition",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::ENDLESS.union(Watch::FINISH),
+            make: || Box::new(LoopConditionUnchanged::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct LoopConditionUnchanged {
+    /// Loops seen to repeat their state: `endless-loop` speaks of them.
+    endless: HashSet<u32>,
+}
+
+impl PathRule for LoopConditionUnchanged {
+    fn endless(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.endless.insert(cx.origin().at.block);
+    }
+
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        for (at, place) in blocks_with(cx.program, cx.scene, BlockFlags::STATEMENT) {
+            // A loop that is left before its first turn, and one that repeats itself, are other rules' matter.
+            if self.endless.contains(&at.block) || cx.is_never_reached(at.next()) {
+                continue;
+            }
+            if let Some((condition, body)) = loop_at(cx, at, &place)
+                && is_unchanged(cx, &place, condition, body)
+            {
+                report.add(finding(place.range()));
+            }
+        }
+    }
+}
+
+/// The condition and the blocks of a loop that begins here.
+fn loop_at(cx: &FinishCx<'_>, at: At, place: &Place) -> Option<(ExprIx, Range<u32>)> {
+    let file = cx.program.file(0)?;
+    let outline = file.loaded.outline();
+    // A jump in front of the loop's statement would be its way out.
+    place.table.statements(place.ix).find_map(|statement| match &statement.kind {
+        StatementKind::Do { condition: Some(condition), .. } => {
+            Some((*condition, at.block + 1..outline.end_of(at.block)?))
+        }
+        StatementKind::OWord { keyword: OKeyword::While, arguments, .. } => {
+            let links = outline.o_word(at.block)?;
+            // The `while` at the end of a `do` has its body in front.
+            if links.head.is_some() {
+                return None;
+            }
+            Some((StatementKind::arguments(arguments).next()?, at.block + 1..links.end?))
+        }
+        _ => None,
+    })
+}
+
+/// Variables of a condition.
+#[derive(Default)]
+struct Asked {
+    numbers: HashSet<u32>,
+    names: HashSet<String>,
+}
+
+/// Does nothing in the blocks set what the condition asks for, call, jump or end?
+fn is_unchanged(cx: &FinishCx<'_>, place: &Place, condition: ExprIx, body: Range<u32>) -> bool {
+    let Some(file) = cx.program.file(0) else { return false };
+    let mut asked = Asked::default();
+    for op in place.table.ops(place.table.expr(condition)) {
+        match op {
+            // What the machine changes by itself: positions, timers, inputs.
+            Op::Variable(number) if is_the_machines(cx, *number) => return false,
+            Op::Variable(0) | Op::Number(_) | Op::Negate | Op::Binary(_) | Op::Call(..) => {}
+            Op::Variable(number) => {
+                asked.numbers.insert(*number);
+            }
+            Op::Named { start, end } => {
+                let name = key(file.loaded.chunk_text(place.chunk), &(*start..*end));
+                if is_system_name(cx, &name) {
+                    return false;
+                }
+                asked.names.insert(name);
+            }
+            Op::Indirect => return false,
+        }
+    }
+    if asked.numbers.is_empty() && asked.names.is_empty() {
+        return false;
+    }
+    // So long a loop is not written by hand.
+    if body.len() > 5_000 {
+        return false;
+    }
+    body.into_iter().all(|block| {
+        file.loaded
+            .place(block, cx.scene.dialect)
+            .is_some_and(|place| !may_change(cx, &place, &asked, file.loaded.chunk_text(place.chunk)))
+    })
+}
+
+fn may_change(cx: &FinishCx<'_>, place: &Place, asked: &Asked, text: &str) -> bool {
+    if place.block().flags.intersects(BlockFlags::ERROR | BlockFlags::UNKNOWN_CODE) {
+        return true;
+    }
+    let statement_may = place.table.statements(place.ix).any(|statement| match &statement.kind {
+        StatementKind::Assign { target, .. } => match target {
+            Target::Variable(number) => {
+                // Writing an alarm or a stop is a way out; so is what the control does with its own variables.
+                asked.numbers.contains(number) || is_the_machines(cx, *number)
+            }
+            Target::Named(range) => asked.names.contains(&key(text, range)),
+            Target::Computed(_) | Target::Invalid => true,
+        },
+        StatementKind::Goto { .. } => true,
+        StatementKind::OWord { keyword, .. } => {
+            matches!(keyword, OKeyword::Call | OKeyword::Break | OKeyword::Return | OKeyword::EndSub)
+        }
+        _ => false,
+    });
+    let word_may = |word: &gcheck_program::Word| {
+        let code = cx.scene.control().code_at(word.code);
+        let is_user = code.is_some_and(gcheck_controls::Code::is_user);
+        let is_computed = !word.code.is_some() && matches!(word.letter.ascii(), b'G' | b'M');
+        is_user
+            || is_computed
+            || matches!(
+                cx.model.effect(word.code),
+                Effect::CallLocal
+                    | Effect::CallProgram
+                    | Effect::MacroCall
+                    | Effect::MacroModal
+                    | Effect::Return
+                    | Effect::ProgramEnd
+                    | Effect::ProgramEndWithPallet
+                    | Effect::JumpUnlessInput
+                    | Effect::Stop
+                    | Effect::OptionalStop
+                    | Effect::UserCommand
+            )
+    };
+    statement_may || place.table.words(place.block()).iter().any(word_may)
+}
+
+fn is_the_machines(cx: &FinishCx<'_>, number: u32) -> bool {
+    let [_, last_local] = cx.model.semantics().locals;
+    let is_common = (100..1000).contains(&number);
+    number > last_local && !is_common
+}
+
+fn is_system_name(cx: &FinishCx<'_>, name: &str) -> bool {
+    name.starts_with("_ini[")
+        || name.starts_with("_hal[")
+        || cx.scene.control().named_parameter(name).is_some()
+        || cx
+            .model
+            .semantics()
+            .system_variables
+            .iter()
+            .any(|variable| variable.name.as_ref().is_some_and(|n| n.eq_ignore_ascii_case(name)))
+}
+
+/// A parameter's name as the control compares names.
+fn key(text: &str, range: &Range<u32>) -> String {
+    let name = text.get(range.start as usize..range.end as usize).unwrap_or_default();
+    let name = name.trim_start_matches("#<").trim_end_matches('>');
+    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+}
+
+fn finding(range: Range<u32>) -> Finding {
+    Finding::new(&META, range, "loop does not change what its condition asks for")
+        .label("nothing inside the loop sets these variables")
+        .help("raise the counter inside the loop, or ask for the variable that the loop sets")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_condition_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nWHILE [#100 LT 5] DO1\nG0 X1.\nEND1\nM30\n",
+            &expect![[r#"
+                2 | WHILE [#100 LT 5] DO1
+                  | ^^^^^^^^^^^^^^^^^^^^^ warning[loop-condition-unchanged] loop does not change what its condition asks for
+            "#]],
+        );
+    }
+
+    #[test]
+    fn ways_out_and_writes_of_any_kind_count() {
+        for body in ["#100=#100+1", "IF [#1 EQ 2] GOTO 5", "M98 P10", "G65 P10", "#[#2]=1", "M30", "M0", "#3000=1"] {
+            let program = format!("O1\nWHILE [#100 LT 5] DO1\n{body}\nEND1\nN5 M30\nO10\nM99\n");
+            check_rule(&RULE, "fanuc-mill", &program, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn what_the_machine_changes_may_end_a_loop() {
+        check_rule(&RULE, "fanuc-mill", "WHILE [#3002 LT 5] DO1\nG4 X1.\nEND1\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "o1 while [#5399 EQ 0]\nG4 P1\no1 endwhile\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_loop_that_repeats_itself_is_told_elsewhere() {
+        check_rule(&RULE, "fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn breaks_and_do_loops_are_not_judged() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#<n>=#100\no1 while [#<n> LT 5]\no2 if [#5061 GT 2]\no1 break\no2 endif\no1 endwhile\nM2\n",
+            &expect![[""]],
+        );
+        check_rule(&RULE, "linuxcnc", "o1 do\n#1=[#1+1]\no1 while [#1 LT 5]\nM2\n", &expect![[""]]);
+    }
+}

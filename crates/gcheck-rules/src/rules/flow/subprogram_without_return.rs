@@ -1,0 +1,130 @@
+//! A called program that does not come back.
+
+use gcheck_controls::Ends;
+use gcheck_engine::{At, Ending, Fault, FrameKind};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text.
+    ///
+    /// ## Why it matters
+    /// The calling program is never finished: `M30` in the subprogram ends the whole job, and a text without an end makes
+    /// the control alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// M98 P2
+    /// G0 X0.
+    /// M30
+    /// O0002
+    /// G0 X10.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// M97 P100
+    /// M30
+    /// N100 G0 X1.
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// M98 P2
+    /// M30
+    /// O0002
+    /// IF [#500 GT 10] GOTO 90
+    /// M99
+    /// N90 M30
+    /// ```
+    rule "subprogram-without-return" in "flow" {
+        summary: "called program that does not return",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::ENDS.union(Watch::FAULTS),
+            make: || Box::new(SubprogramWithoutReturn),
+        },
+    }
+}
+
+struct SubprogramWithoutReturn;
+
+impl PathRule for SubprogramWithoutReturn {
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if ending == Ending::Program {
+            check(cx, false, report);
+        }
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault == Fault::NoProgramEnd {
+            check(cx, true, report);
+        }
+    }
+}
+
+fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
+    let Some(frame) = cx.state().frames().last() else { return };
+    if frame.entry.file != 0 || !matches!(frame.kind, FrameKind::Subprogram | FrameKind::Local | FrameKind::Macro) {
+        return;
+    }
+    let Some(entry) = cx.range_of(frame.entry) else { return };
+    let Some(file) = cx.program.file(0) else { return };
+    let part = file.loaded.outline().part_of(frame.entry.block);
+    let end = cx.range_of(At { file: 0, block: part.end }).map_or(u32::MAX, |next| next.start);
+    // A return anywhere in the called program says that this end is one of several.
+    let returns = |range: std::ops::Range<u32>| {
+        cx.survey.ends.iter().any(|mark| mark.ends == Ends::Subprogram && range.contains(&mark.range.start))
+    };
+    let own = match frame.kind {
+        FrameKind::Local => entry.start..cx.range().end.min(end),
+        _ => entry.start..end,
+    };
+    if returns(own) {
+        return;
+    }
+    let (message, label) = if at_end_of_text {
+        ("called program has no return (`M99`)", "runs to the end of the text")
+    } else {
+        ("called program ends the whole job: no return (`M99`)", "ends here, and does not go back to its caller")
+    };
+    let finding = cx
+        .finding(&META, cx.range(), message)
+        .label(label)
+        .also(entry, "the called program begins here")
+        .help("end the called program with `M99`");
+    report.add(finding);
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_end_is_marked() {
+        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nG0 X1.\nM30\n", &expect![[r#"
+            6 | M30
+              | ^^^ warning[subprogram-without-return] called program ends the whole job: no return (`M99`)
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", "O1\nG65 P2 A1.\nM30\nO2\nG0 X#1\n", &expect![[r#"
+            5 | G0 X#1
+              | ^^^^^^ warning[subprogram-without-return] called program has no return (`M99`)
+        "#]]);
+    }
+
+    #[test]
+    fn the_end_of_a_job_on_purpose_stands_beside_a_return() {
+        check_rule(&RULE, "haas-mill", "O1\nM97 P10\nM30\nN10 IF [#500 EQ 1] GOTO 20\nM99\nN20 M30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_main_program_may_end_as_it_likes() {
+        check_rule(&RULE, "haas-mill", "O1\nG0 X1.\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,86 @@
+//! A feed faster than the configured machine.
+
+use gcheck_engine::{Abstract, Domain, Event, FeedMode};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A feed per minute (`F`) above the configured highest feed of the machine.
+    ///
+    /// ## Why it matters
+    /// The control runs slower than the program says, or stops with an alarm. A feed ten times too high often is a missing
+    /// decimal point, or a feed in millimetres in an inch program.
+    ///
+    /// ## Reported
+    /// On a machine with 10,000 mm a minute:
+    /// ```nc,reported,fanuc-mill
+    /// G21 G94 G1 X10. F12000.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G94 G1 X10. F8000.
+    /// M30
+    /// ```
+    rule "feed-above-machine-limit" in "machine" {
+        summary: "feed above the machine's limit",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CHANGES, make: || Box::new(FeedAboveMachineLimit) },
+    }
+}
+
+struct FeedAboveMachineLimit;
+
+impl PathRule for FeedAboveMachineLimit {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let (Event::FeedRate(_), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else { return };
+        if cx.state().feed_mode(cx.model) != Some(FeedMode::PerMinute) {
+            return;
+        }
+        let Some((lowest, _)) = Abstract::bounds(cx.state().feed()) else { return };
+        if lowest <= highest.0 * (1.0 + 1e-9) {
+            return;
+        }
+        report.add(
+            cx.finding(
+                &META,
+                cx.letter_range('F'),
+                format!("feed of {lowest:.0} mm/min is above the machine's {:.0} mm/min (`F`)", highest.0),
+            )
+            .label("faster than the machine is configured to go")
+            .help("lower the feed, or correct the limit in the configuration"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{META, RULE};
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn inches_are_compared_as_millimetres() {
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G20 G94 G1 X1. F500.\nG1 X2. F300.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn inverse_time_is_no_speed() {
+        check_rule_in(&RULE, "haas-mill", "G20 G93 G1 X1. F90000.\nM30\n", &World::of_examples(&META), &expect![[""]]);
+    }
+
+    #[test]
+    fn nothing_configured_nothing_said() {
+        check_rule(&RULE, "haas-mill", "G20 G94 G1 X1. F9000.\nM30\n", &expect![[""]]);
+    }
+}

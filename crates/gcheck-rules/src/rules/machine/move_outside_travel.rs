@@ -1,0 +1,139 @@
+//! A move beyond the configured travel.
+
+use gcheck_engine::{Event, Position};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A move ends outside the configured travel of an axis.
+    ///
+    /// The rule speaks only where travel is configured and the position in machine coordinates is known: from the configured
+    /// work offsets and tool lengths, or because the block is in machine coordinates (`G53`).
+    ///
+    /// ## Why it matters
+    /// The control stops with a soft limit alarm in the middle of the part, or runs into the switch.
+    ///
+    /// ## Reported
+    /// With 500 mm of travel each way and `G54` at the machine's zero:
+    /// ```nc,reported,fanuc-mill
+    /// G21 G90 G54 G0 X10. Y0.
+    /// X600.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G54 G0 X10. Y0.
+    /// X400.
+    /// M30
+    /// ```
+    /// Where `G55` lies nobody said.
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G55 G0 X600. Y0.
+    /// M30
+    /// ```
+    rule "move-outside-travel" in "machine" {
+        summary: "move beyond the configured travel",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(MoveOutsideTravel { is_outside: [false; 9] }) },
+    }
+}
+
+struct MoveOutsideTravel {
+    /// By axis: the last move ended outside, so that the way on is not told again.
+    is_outside: [bool; 9],
+}
+
+impl PathRule for MoveOutsideTravel {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let travel = &cx.scene.machine.engine.travel;
+        if travel.is_empty() {
+            return;
+        }
+        let Some(to) = end_of(event) else { return };
+        let machine = cx.state().to_machine(&to);
+        for (axis, (lowest, highest)) in travel {
+            let Some(told) = self.is_outside.get_mut(axis.index()) else { continue };
+            let Some(value) = machine.get(*axis) else {
+                *told = false;
+                continue;
+            };
+            // What a control calls outside it measures in its own increments.
+            let beyond = (lowest - value).max(value - highest);
+            let is_outside = beyond > 1e-3;
+            if std::mem::replace(told, is_outside) || !is_outside {
+                continue;
+            }
+            let unit = if axis.is_rotary() { "°" } else { " mm" };
+            let end = if value > *highest { "upper" } else { "lower" };
+            let limit = if value > *highest { *highest } else { *lowest };
+            let name = axis.name();
+            let finding = cx
+                .finding(
+                    &META,
+                    cx.letter_range(name),
+                    format!("`{name}` goes {beyond:.3}{unit} beyond the machine's travel"),
+                )
+                .label(format!("machine position {value:.3}{unit}, {end} limit {limit:.3}{unit}"))
+                .help("check the work offset and the tool length that are configured, or move the part");
+            report.add(if cx.is_on_every_path() { finding } else { finding.at_most(Severity::Warning) });
+        }
+    }
+}
+
+fn end_of(event: &Event) -> Option<Position> {
+    match event {
+        Event::Travel(travel) => Some(travel.to),
+        Event::Arc(arc) => Some(arc.to),
+        Event::Curve(curve) => Some(curve.to),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{META, RULE};
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn the_word_that_leads_out_is_marked_once() {
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X0. Y0.\nX600.\nX610.\nX0.\nG1 Y-500.5 F100.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn machine_coordinates_are_compared_as_they_stand() {
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G55\nG53 G0 Z-20.\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_length_of_the_tool_counts() {
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X0. Y0.\nG43 H7 Z-600.\nM30\n",
+            &World { machine: crate::MachineFacts { engine: gcheck_engine::Machine { tool_table_is_complete: false, ..World::of_examples(&META).machine.engine }, ..crate::MachineFacts::default() }, ..World::default() },
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn nothing_configured_nothing_said() {
+        check_rule(&RULE, "fanuc-mill", "G21 G90 G53 G0 X9000.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,97 @@
+//! A spindle speed faster than the configured machine.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, Domain, Event, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A spindle speed (`S`) above the configured highest speed of the machine.
+    ///
+    /// ## Why it matters
+    /// The control runs slower than the program says, so that the feed no longer fits, or stops with an alarm.
+    ///
+    /// ## Reported
+    /// On a machine with 8000 turns a minute:
+    /// ```nc,reported,haas-mill
+    /// S12000 M3
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// S8000 M3
+    /// M30
+    /// ```
+    /// Under constant surface speed `S` is no speed of the spindle.
+    /// ```nc,quiet,fanuc-lathe
+    /// G50 S3000
+    /// G96 S9000 M3
+    /// M30
+    /// ```
+    rule "speed-above-machine-limit" in "machine" {
+        summary: "spindle speed above the machine's limit",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CHANGES, make: || Box::new(SpeedAboveMachineLimit) },
+    }
+}
+
+struct SpeedAboveMachineLimit;
+
+impl PathRule for SpeedAboveMachineLimit {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.scene.machine.engine.max_rpm) else { return };
+        let state = cx.state();
+        let mode = state.mode(Role::SpindleMode);
+        // `S` and the mode may stand in one block, in either order.
+        let is_surface = |effect| effect == Effect::SurfaceSpeed;
+        let is_constant = mode.only().is_some_and(|code| !is_surface(cx.model.effect(code)));
+        if !is_constant || cx.has_effect(is_surface) {
+            return;
+        }
+        let Some((lowest, _)) = Abstract::bounds(state.speed()) else { return };
+        if lowest <= highest.0 {
+            return;
+        }
+        report.add(
+            cx.finding(
+                &META,
+                cx.letter_range('S'),
+                format!("speed of {lowest:.0} rpm is above the machine's {:.0} rpm (`S`)", highest.0),
+            )
+            .label("faster than the machine is configured to turn")
+            .help("lower the speed, or correct the limit in the configuration"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{META, RULE};
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn the_word_is_marked() {
+        check_rule_in(
+            &RULE,
+            "linuxcnc",
+            "G21 S5000 M3\nS8001\nS#1\nM2\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn surface_speed_given_in_one_block_is_none() {
+        check_rule_in(&RULE, "fanuc-lathe", "S9000 G96 M3\nG97 S9000\nM30\n", &World::of_examples(&META), &expect![[""]]);
+    }
+
+    #[test]
+    fn nothing_configured_nothing_said() {
+        check_rule(&RULE, "haas-mill", "S90000 M3\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,169 @@
+//! A rapid move down into the part.
+
+use std::ops::Range;
+
+use gcheck_engine::{Event, Travel, TravelKind};
+
+use super::rapid_in_material::{Clear, Cuts, point};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A rapid move takes the tool from above the zero of the part to below it, at a place where no move has cut so deep
+    /// before, and the next move feeds straight on down.
+    ///
+    /// A tool that goes down beside the part to cut its contour feeds sideways next; nothing is said of that.
+    ///
+    /// ## Why it matters
+    /// The tool that drills on down from there meets material there: it hits the part at rapid. Often a minus sign is one too
+    /// many, or a `G0` of an earlier block is still the kind of motion.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z5.
+    /// Z-2.
+    /// G1 Z-20. F100.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z5.
+    /// Z2.
+    /// G1 Z-10. F100.
+    /// G0 Z5.
+    /// G0 Z-9.
+    /// G1 Z-20.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    rule "rapid-plunge" in "motion" {
+        summary: "rapid move down into the part",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(RapidPlunge::default()) },
+    }
+}
+
+#[derive(Default)]
+struct RapidPlunge {
+    cuts: Cuts,
+    /// The move before this one, if it went down.
+    plunge: Option<Plunge>,
+}
+
+/// A rapid move down.
+struct Plunge {
+    bytes: Range<u32>,
+    to: [f64; 3],
+    clear: Clear,
+}
+
+/// Millimetres: heights that differ by less are one, and the surface is this thick.
+const LEVEL: f64 = 0.01;
+
+impl PathRule for RapidPlunge {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let plunge = self.plunge.take();
+        if !self.cuts.follows(cx, event) {
+            return;
+        }
+        if let Event::Travel(travel) = event {
+            if let Some(plunge) = plunge
+                && feeds_on_down(travel, plunge.to)
+            {
+                tell(cx, &plunge, report);
+            }
+            self.plunge = self.look(cx, travel);
+        }
+        self.cuts.add(event);
+    }
+}
+
+impl RapidPlunge {
+    /// A rapid move from above the part to a depth that nothing has reached at that place.
+    fn look(&self, cx: &PathCx<'_>, travel: &Travel) -> Option<Plunge> {
+        if travel.kind != TravelKind::Rapid || travel.expanded {
+            return None;
+        }
+        let to = point(&travel.to)?;
+        let above = travel.from.get(gcheck_engine::Axis::Z)? >= 0.0;
+        let [x, y, z] = to;
+        if !above || z >= -LEVEL {
+            return None;
+        }
+        let clear = Clear::of(cx);
+        if self.cuts.reach(self.cuts.len(), [x, y], z, clear.radius) {
+            return None;
+        }
+        Some(Plunge { bytes: cx.range(), to, clear })
+    }
+}
+
+fn feeds_on_down(travel: &Travel, [x, y, z]: [f64; 3]) -> bool {
+    let Some([x1, y1, z1]) = point(&travel.to) else { return false };
+    travel.kind == TravelKind::Feed && (x1 - x).hypot(y1 - y) < LEVEL && z1 < z - LEVEL
+}
+
+fn tell(cx: &PathCx<'_>, plunge: &Plunge, report: &mut Report<'_>) {
+    let depth = super::super::arcs::arc_end_off_circle::length(cx, -plunge.to[2]);
+    let mut finding = cx
+        .finding(&META, plunge.bytes.clone(), "rapid move down into the part")
+        .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
+        .also(cx.range(), "the tool feeds on down from there")
+        .assuming("the part is solid where the program has not cut")
+        .help("end the rapid move above the part, and feed from there");
+    if let Some(assumption) = &plunge.clear.assumption {
+        finding = finding.assuming(assumption.clone());
+    }
+    report.add(finding);
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_rapid_move_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X10. Y10. Z5.\nG0 Z-2.\nG1 Z-20. F100.\nG0 Z5.\nX50. Z-3.\nG1 Z-4.\nG0 Z5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn going_down_beside_the_part_is_fine() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X-10. Y0. Z5.\nG0 Z-2.\nG1 X50. F100.\nG0 Z5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_hole_that_a_cycle_has_drilled_is_open() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 G0 X10. Y10. Z5.\nG81 Z-8. R2. F100.\nG80\nG0 Z-7.\nG1 Z-20.\nG0 Z5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn words_state_the_assumption() {
+        let program = "G20 G90 G54 G0 X1. Y1. Z1.\nG0 Z-.1\nG1 Z-1. F10.\nG0 Z1.\nM30\n";
+        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}

@@ -1,0 +1,90 @@
+//! A cut while the spindle stands on some path.
+
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Truth};
+
+use super::spindle_stopped_while_cutting::{is_cut, starts};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// On some path of the program the spindle stands where a block cuts; on others it turns.
+    ///
+    /// ## Why it matters
+    /// The program runs well until the day the other path is taken. Then the tool is pushed through the material.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G0 X0. Y0.
+    /// IF [#500 EQ 1] GOTO 5
+    /// S1000 M3
+    /// N5 G1 X10. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// IF [#500 EQ 1] GOTO 5
+    /// G0 X0. Y0.
+    /// N5 S1000 M3
+    /// G1 X10. F100.
+    /// M30
+    /// ```
+    rule "maybe-spindle-stopped-while-cutting" in "spindle" {
+        summary: "cut where the spindle may stand",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(MaybeSpindleStopped { told: None }) },
+    }
+}
+
+struct MaybeSpindleStopped {
+    /// What switched the spindle last where it was reported.
+    told: Option<Option<At>>,
+}
+
+impl PathRule for MaybeSpindleStopped {
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let state = cx.state();
+        let may_stand = state.spindle().is_none() && state.live_tool() == Truth::False;
+        // What a program leaves that is not at hand is not known, and no path of this one.
+        let is_told_of = !cx.is_behind_unknown_program()
+            && !cx.trace().decisions().is_empty()
+            && Abstract::bounds(state.speed()).is_some()
+            && cx.file_uses(starts);
+        if !may_stand || !is_told_of || !is_cut(cx, event) || cx.is_called_only() {
+            return;
+        }
+        let switched_by = cx.trace().set_by(Fact::Spindle);
+        if self.told.replace(switched_by) == Some(switched_by) {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.range(), "cut where the spindle may stand (`M5`)")
+            .label("on some path nothing turns here")
+            .help("start the spindle where the paths have met again");
+        report.add(cx.with_path(finding));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn stopped_on_one_of_the_ways() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S1000 M3\nG1 X1. F5.\nIF [#500 EQ 1] GOTO 5\nM5\nN5 G1 X2.\nX3.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_program_that_is_not_at_hand_says_nothing() {
+        check_rule(&RULE, "haas-mill", "S1000 M3\nM98 P9000\nG1 X2. F5.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,117 @@
+//! A spindle that turns with no speed given.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
+
+use super::spindle_stopped_while_cutting::is_cut;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block cuts with the spindle started (`M3`, `M4`) and no speed (`S`) given on the way here.
+    ///
+    /// ## Why it matters
+    /// The spindle turns with the speed of the last program, stands, or the control stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G0 X1. M3
+    /// G1 X2. F10.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// M3
+    /// G0 X1. S1000
+    /// G1 X2. F10.
+    /// M30
+    /// ```
+    rule "speed-missing" in "spindle" {
+        summary: "spindle started without a speed",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(SpeedMissing { told: None }) },
+    }
+}
+
+struct SpeedMissing {
+    /// The block that started the spindle where it was reported last.
+    told: Option<At>,
+}
+
+impl PathRule for SpeedMissing {
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let state = cx.state();
+        let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
+        if !turns || Abstract::known(state.speed()) != Some(0.0) || !is_cut(cx, event) || cx.is_called_only() {
+            return;
+        }
+        let started_by = cx.trace().set_by(Fact::Spindle);
+        if started_by.is_none() || self.told == started_by {
+            return;
+        }
+        self.told = started_by;
+        let code = started_by.and_then(|at| start_code(cx, at)).unwrap_or_else(|| "M3".to_owned());
+        let is_zero = cx.trace().set_by(Fact::Speed).is_some();
+        let message = if is_zero {
+            format!("the spindle turns with speed zero (`S0`, `{code}`)")
+        } else {
+            format!("the spindle was started without a speed (`{code}` without `S`)")
+        };
+        let finding = cx
+            .finding(&META, cx.range(), message)
+            .label("cuts with whatever speed is left over")
+            .help(format!("give `S` with `{code}`"));
+        let finding = cx.resting_on(finding, Fact::Spindle, &format!("`{code}`"));
+        report.add(if is_zero {
+            cx.resting_on(finding, Fact::Speed, "`S0`")
+        } else {
+            finding.assuming("no speed is left from what ran before")
+        });
+    }
+}
+
+fn start_code(cx: &PathCx<'_>, at: At) -> Option<String> {
+    let place = cx.place_of(at)?;
+    let is_start = |effect| {
+        matches!(
+            effect,
+            Effect::SpindleClockwise
+                | Effect::SpindleCounterClockwise
+                | Effect::SpindleClockwiseWithCoolant
+                | Effect::SpindleCounterClockwiseWithCoolant
+        )
+    };
+    let words = place.table.words(place.block()).iter();
+    let code = words.map(|word| word.code).find(|code| code.is_some() && is_start(cx.model.effect(*code)))?;
+    Some(cx.name_of(code))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_cut_is_marked() {
+        check_rule(&RULE, "fanuc-mill", "G0 X1. M4\nG1 X2. F50.\nM8\nX3.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn speed_zero_is_none() {
+        check_rule(&RULE, "fanuc-mill", "S0 M3\nG1 X2. F50.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_speed_of_unknown_value_is_a_speed() {
+        check_rule(&RULE, "fanuc-mill", "S#500 M3\nG1 X2. F50.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_caller_of_a_subprogram_gives_the_speed() {
+        check_rule(&RULE, "fanuc-mill", "O10\nM3\nG1 X2. F50.\nM99\n", &expect![[""]]);
+    }
+}

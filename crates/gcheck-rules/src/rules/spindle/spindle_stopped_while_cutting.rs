@@ -1,0 +1,193 @@
+//! A cut while the spindle stands.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Event, Fact, Fault, Spindle, TravelKind, Truth};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A block cuts while the spindle stands: it was never started, or `M5` or a tool change stopped it.
+    ///
+    /// ## Why it matters
+    /// The tool is pushed through the material and breaks. Probing, drag knives, engraving by scratching and machines whose
+    /// spindle is switched by hand are the exceptions.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G0 X1. S1000 M3
+    /// G1 X2. F10.
+    /// T2 M6
+    /// G1 X3.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G0 X1. S1000 M3
+    /// G1 X2. F10.
+    /// M5
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// A feed move straight up is a way out, not a cut.
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G0 Z-5. S1000 M3
+    /// G1 X20. F100.
+    /// M5
+    /// G1 Z50. F500.
+    /// M30
+    /// ```
+    rule "spindle-stopped-while-cutting" in "spindle" {
+        summary: "cut while the spindle stands",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FAULTS),
+            make: || Box::new(SpindleStoppedWhileCutting { told: None, is_oriented: false }),
+        },
+    }
+}
+
+struct SpindleStoppedWhileCutting {
+    /// What stopped the spindle where it was reported last.
+    told: Option<Option<At>>,
+    /// Stopped at an angle: for a probe or a boring bar.
+    is_oriented: bool,
+}
+
+impl PathRule for SpindleStoppedWhileCutting {
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        match event {
+            Event::OrientSpindle { .. } => self.is_oriented = true,
+            Event::Spindle(_) => self.is_oriented = false,
+            _ => {}
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
+        if !stands || self.is_oriented || !is_cut(cx, event) || cx.is_called_only() {
+            return;
+        }
+        let stopped_by = cx.trace().set_by(Fact::Spindle);
+        if self.told == Some(stopped_by) {
+            return;
+        }
+        self.told = Some(stopped_by);
+        let is_ever_started = cx.file_uses(starts);
+        let mut finding = cx
+            .finding(&META, cx.range(), "cut while the spindle stands (`M5`)")
+            .label(if is_ever_started { "nothing turns here" } else { "the program never starts the spindle" })
+            .help("start the spindle with `S` and `M3` or `M4`; for probing, engraving or a drag knife, silence the rule here");
+        // Started by hand, or no spindle at all: a laser, a knife, a pen.
+        if !is_ever_started || cx.file_uses(probes) {
+            finding = finding.at_most(Severity::Info);
+        }
+        if stopped_by.is_none() && !is_ever_started {
+            report.add(finding.assuming("the spindle stands before the program"));
+        } else {
+            report.add(cx.resting_on(finding, Fact::Spindle, "the stop"));
+        }
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::SpindleStopped {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.range(), "feed by the spindle's turns while it stands (`M5`)")
+            .label("waits for turns that do not come")
+            .note("this control refuses the block")
+            .help("start the spindle with `S` and `M3` or `M4` before it");
+        report.add(cx.resting_on(finding, Fact::Spindle, "the stop"));
+    }
+}
+
+/// A move with the tool in the work, as far as a program shows it.
+pub(super) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
+    if cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip)) {
+        return false;
+    }
+    match event {
+        Event::Travel(travel) => {
+            let ([x, y, z], [to_x, to_y, to_z]) = (travel.from.xyz(), travel.to.xyz());
+            let is_up = to_z.0 > z.0 && x.0.to_bits() == to_x.0.to_bits() && y.0.to_bits() == to_y.0.to_bits();
+            travel.kind == TravelKind::Feed && !is_up
+        }
+        Event::Arc(_) | Event::Curve(_) => true,
+        _ => false,
+    }
+}
+
+/// Does the code start something that cuts?
+pub(super) fn starts(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::SpindleClockwise
+            | Effect::SpindleCounterClockwise
+            | Effect::SpindleClockwiseWithCoolant
+            | Effect::SpindleCounterClockwiseWithCoolant
+            | Effect::LiveToolOn
+    )
+}
+
+/// Does the code touch the work with a probe?
+pub(super) fn probes(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::ProbeToward
+            | Effect::ProbeTowardOptional
+            | Effect::ProbeAway
+            | Effect::ProbeAwayOptional
+            | Effect::Skip
+            | Effect::ProbeDiameter
+            | Effect::ProbeLength
+            | Effect::ProbeOffset
+            | Effect::ProbeCentre
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_cut_of_each_stop_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G0 X1. S1000 M3\nG1 X2. F10.\nM5\nG1 X3.\nM8\nX4.\nT2 M6\nG1 X5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_program_without_a_spindle_is_told_once() {
+        check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_spindle_that_stands_at_an_angle_is_meant_to() {
+        check_rule(&RULE, "haas-mill", "S100 M3\nG1 X1. F5.\nM19\nG1 X2.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_subprogram_is_called_with_the_spindle_on() {
+        check_rule(&RULE, "haas-mill", "O100\nG1 X2. F10.\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "S100 M3\nM97 P10\nM30\nN10 G1 X2. F10.\nM99\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_live_tool_turns() {
+        check_rule(&RULE, "haas-lathe", "T101\nP1000 M133\nG1 X2. F.01\nM135\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_thread_waits_for_the_spindle() {
+        check_rule(&RULE, "linuxcnc", "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n", &expect![[""]]);
+    }
+}

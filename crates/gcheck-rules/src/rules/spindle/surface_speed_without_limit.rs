@@ -1,0 +1,106 @@
+//! Constant surface speed that nothing limits.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Event, Fact, Role, Spindle};
+
+use super::spindle_stopped_while_cutting::is_cut;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block cuts at constant surface speed (`G96`) and no limit of the spindle speed was given (`G50 S`, `G92 S`, `D`).
+    ///
+    /// ## Why it matters
+    /// Toward the centre the speed rises to the highest the machine has. A chuck that loses its grip throws the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// T0101
+    /// G96 S200 M3
+    /// G0 X50. Z2.
+    /// G1 X0. F.2
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// T0101
+    /// G50 S2000
+    /// G96 S200 M3
+    /// G1 X0. F.2
+    /// M30
+    /// ```
+    /// ```nc,quiet,linuxcnc
+    /// G21 G96 D2000 S200 M3
+    /// G1 X10 F100
+    /// M2
+    /// ```
+    rule "surface-speed-without-limit" in "spindle" {
+        summary: "constant surface speed without a limit",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(SurfaceSpeedWithoutLimit { told: None }) },
+    }
+}
+
+struct SurfaceSpeedWithoutLimit {
+    /// The block that set the mode where it was reported last.
+    told: Option<At>,
+}
+
+impl PathRule for SurfaceSpeedWithoutLimit {
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let state = cx.state();
+        let Some(Effect::SurfaceSpeed) = state.effect(Role::SpindleMode, cx.model) else { return };
+        let set_by = cx.trace().set_by(Fact::Mode(Role::SpindleMode));
+        let is_limited = state.speed_limit() != f64::INFINITY;
+        if set_by.is_none() || set_by == self.told || is_limited || state.spindle() == Some(Spindle::Stopped) {
+            return;
+        }
+        if !is_cut(cx, event) || cx.is_called_only() {
+            return;
+        }
+        let Some(code) = state.mode(Role::SpindleMode).only() else { return };
+        self.told = set_by;
+        let name = cx.name_of(code);
+        let limiter = cx.cancel_of(Effect::SpeedLimitOrSetPosition);
+        let help = match &limiter {
+            Some(limiter) => format!("give the limit before it: `{limiter} S2000`"),
+            None => format!("give the limit with it: `{name} D2000`"),
+        };
+        let finding = cx
+            .finding(&META, cx.range(), format!("constant surface speed has no limit (`{name}`)"))
+            .label("the spindle may go up to its highest speed")
+            .assuming("no limit is left from what ran before")
+            .help(help);
+        report.add(cx.resting_on(finding, Fact::Mode(Role::SpindleMode), &format!("`{name}`")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_start_of_the_mode_is_told_once() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "T101\nG96 S200 M3\nG1 X1. F.01\nM8\nX.5\nG97 S500\nG1 X1.\nG96 S300\nG1 X0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_limit_after_the_mode_will_do() {
+        check_rule(&RULE, "haas-lathe", "T101\nG96 S200 M3\nG50 S2000\nG1 X0. F.01\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_limit_of_unknown_value_is_a_limit() {
+        check_rule(&RULE, "fanuc-lathe", "T0101\nG50 S#500\nG96 S200 M3\nG1 X0. F.2\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,84 @@
+//! A tool change when no tool was called.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::Fact;
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A tool change (`M6`) with no tool called (`T`) in its block or before it.
+    ///
+    /// ## Why it matters
+    /// The control takes the tool that the last program, or the operator, called, or stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// M6
+    /// G43 H1 Z1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1
+    /// M6
+    /// G43 H1 Z1.
+    /// M30
+    /// ```
+    rule "tool-change-without-t" in "tool" {
+        summary: "tool change without a called tool",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ToolChangeWithoutT { is_done: false }) },
+    }
+}
+
+struct ToolChangeWithoutT {
+    is_done: bool,
+}
+
+impl PathRule for ToolChangeWithoutT {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let is_change = cx.has_effect(|effect| effect == Effect::ToolChange);
+        if self.is_done || !is_change || !cx.model.semantics().tools.change_needs_t {
+            return;
+        }
+        self.is_done = true;
+        let is_called = cx.origin().letters.contains(Letter::of('T')) || cx.trace().set_by(Fact::Selected).is_some();
+        if is_called || cx.is_called_only() || cx.is_behind_unknown_program() {
+            return;
+        }
+        let range = cx.effect_range(|effect| effect == Effect::ToolChange);
+        report.add(
+            cx.finding(&META, range, "tool change, and no tool was called (`M6` without `T`)")
+                .label("takes the tool that was called before the program, if any")
+                .assuming("no tool is called when the program starts")
+                .help("name the tool: `T1 M6`"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_change_is_marked() {
+        check_rule(&RULE, "linuxcnc", "G21 G0 X1\nM6\nG0 X2\nM6\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tool_called_in_a_subprogram_counts() {
+        check_rule(&RULE, "haas-mill", "M97 P10\nM6\nM30\nN10 T5\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "M98 P9000\nM6\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tool_change_program_is_called_with_its_tool() {
+        check_rule(&RULE, "fanuc-mill", "O9001\nG91 G28 Z0.\nM6\nM99\n", &expect![[""]]);
+    }
+}
