@@ -246,6 +246,12 @@ pub enum Effect {
     reason = "independent yes/no facts of a control, named one by one in data"
 )]
 pub struct Semantics {
+    /// Blocks whose words and codes do not fit together are refused, before anything of them acts.
+    #[serde(default)]
+    pub strict: bool,
+    /// What a strict control refuses beside what its codes, addresses and block rules say, and when.
+    #[serde(default)]
+    pub refusals: Refusals,
     /// What a variable holds that was never set.
     pub unset: Unset,
     /// How `FIX` and `FUP` round.
@@ -327,6 +333,39 @@ pub struct Semantics {
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
+}
+
+/// What a strict control refuses beside what its codes, addresses and block rules say, and when.
+///
+/// Letters stand one behind the other: `"IJ"`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Refusals {
+    /// By code: words that are judged (given, alone, in range) only when the code acts, so that earlier parts of the block
+    /// have acted by then. All others are judged before the block.
+    #[serde(default)]
+    pub late_words: BTreeMap<String, String>,
+    /// By code: words that must stand before the block acts, but whose value is judged when the code acts, or not at all.
+    #[serde(default)]
+    pub late_values: BTreeMap<String, String>,
+    /// By code: words that newer versions of the control read, and the one followed here does not.
+    #[serde(default)]
+    pub newer_words: BTreeMap<String, String>,
+    /// Codes that are read only where they open the block.
+    #[serde(default)]
+    pub first_only: Vec<String>,
+    /// By address: addresses beside which it may stand though no code reads it.
+    #[serde(default)]
+    pub beside: BTreeMap<String, String>,
+    /// Axes of a machine that nobody described; all of the control's when not given.
+    #[serde(default)]
+    pub axes: Option<String>,
+    /// Spindles of such a machine; any number when not given.
+    #[serde(default)]
+    pub spindles: Option<u8>,
+    /// The highest number of a variable.
+    #[serde(default)]
+    pub last_variable: Option<u32>,
 }
 
 /// What a variable holds that was never set.

@@ -243,6 +243,7 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{code}` at the start or end is no code here"));
             }
         }
+        self.refusals();
         let [first, last] = semantics.locals;
         for number in [first, last] {
             let is_local =
@@ -287,6 +288,41 @@ impl Problems<'_> {
             self.say(PLACE, "`loop-depth` 0 allows no loop");
         }
         self.lengths();
+    }
+
+    /// Refusals speak of words that their codes read, and of addresses that the control has.
+    fn refusals(&mut self) {
+        const PLACE: &str = "semantics.refusals";
+        let control = self.control;
+        let refusals = &control.semantics().refusals;
+        for (code, letters) in
+            refusals.late_words.iter().chain(&refusals.late_values).chain(&refusals.newer_words)
+        {
+            let entry = CodeNumber::parse(code).and_then(|n| control.code(n)).map(|code| code.entry());
+            for letter in letters.chars() {
+                let is_word = |word: &crate::WordEntry| word.letter == letter.to_string();
+                if entry.is_none_or(|entry| !entry.words.iter().any(is_word)) {
+                    self.say(PLACE, format!("`{letter}` is no word of a code `{code}` here"));
+                }
+            }
+        }
+        for code in &refusals.first_only {
+            if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
+                self.say(PLACE, format!("`{code}` is no code here"));
+            }
+        }
+        for (letter, others) in &refusals.beside {
+            for letter in std::iter::once(letter.clone()).chain(others.chars().map(String::from)) {
+                if !self.is_letter(&letter) {
+                    self.say(PLACE, format!("`{letter}` is no address here"));
+                }
+            }
+        }
+        for axis in refusals.axes.iter().flat_map(|axes| axes.chars()) {
+            if Letter::parse(&axis.to_string()).is_none_or(|axis| !control.axes().contains(axis)) {
+                self.say(PLACE, format!("`{axis}` is no axis here"));
+            }
+        }
     }
 
     /// Tolerances and clearances, in millimetres: none so large that it would be a mistake of units.

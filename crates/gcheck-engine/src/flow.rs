@@ -77,9 +77,9 @@ pub trait FlowObserver {
         let _ = (cx, ending);
     }
 
-    /// A loop comes back to this block in the state it was in before: it never ends.
-    fn endless(&mut self, cx: &FlowCx<'_>) {
-        let _ = cx;
+    /// This block leads back to `head` in the state that was met there before: the loop never ends.
+    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
+        let _ = (cx, head);
     }
 }
 
@@ -195,6 +195,8 @@ struct Head {
 const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
 const MOST_VISITS: u32 = 200;
+/// Turns of a loop that are executed exactly; from there on it is widened, so that a loop that counts past its end is seen to.
+const MOST_EXACT_TURNS: u32 = 250_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
@@ -216,6 +218,7 @@ pub fn flow<O: FlowObserver>(
         fuel,
         blocks: 0,
         forks: 0,
+        parted: false,
         pending: vec![Pending { key: Key::of(at, &state), state, trace: Trace::default() }],
         met: FxHashMap::default(),
         order: Vec::new(),
@@ -239,6 +242,8 @@ struct Flow<'a, 'p, 'o, O: FlowObserver> {
     fuel: u64,
     blocks: u64,
     forks: u64,
+    /// A path ended while others went on: what comes is no longer on every path.
+    parted: bool,
     pending: Vec<Pending>,
     met: FxHashMap<Key, Met>,
     /// Keys of `met` in the order in which they were met.
@@ -289,7 +294,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         let Pending { key, mut state, trace } = from;
         let mut at = key.at;
         self.executor.observer.trace = trace;
-        self.executor.observer.solo = true;
+        self.executor.observer.solo = !self.parted;
         self.executor.observer.muted = false;
         loop {
             if self.blocks >= self.fuel {
@@ -297,7 +302,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             }
             self.blocks += 1;
             set_bit(&mut self.result.reached, at);
-            set_bit(&mut self.result.always, at);
+            if !self.parted {
+                set_bit(&mut self.result.always, at);
+            }
             match self.executor.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(to) => {
@@ -335,12 +342,15 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             return true;
         };
         head.visits += 1;
-        if head.forks != self.forks {
+        if head.forks != self.forks || head.visits > MOST_EXACT_TURNS {
             // The paths parted and met again inside the loop: its turns are not exact, so they are one.
             head.forks = self.forks;
             let widen = head.visits > JOINS_BEFORE_WIDENING;
             let joined = head.state.join(state, widen);
-            if joined == head.state || head.visits > MOST_VISITS {
+            let gives_up = head.visits > MOST_EXACT_TURNS + MOST_VISITS
+                || head.visits <= MOST_EXACT_TURNS && head.visits > MOST_VISITS;
+            if joined == head.state || gives_up {
+                self.result.out_of_fuel |= gives_up;
                 return false;
             }
             head.state = joined.clone();
@@ -348,8 +358,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             return true;
         }
         if head.state == *state {
-            let origin = Origin { at, ..self.executor.origin() };
-            self.executor.observer.endless(origin, state);
+            let origin = self.executor.origin();
+            self.executor.observer.endless(origin, at, state);
             return false;
         }
         // Compared with a state that is taken ever more seldom: a loop that repeats itself is found, whatever its period.
@@ -385,8 +395,14 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     self.fork(at, ways);
                     return Stretch::Done;
                 }
-                Outcome::End(_) => return Stretch::Done,
-                Outcome::Fault(fault) if is_final(&fault) => return Stretch::Done,
+                Outcome::End(_) => {
+                    self.parted = true;
+                    return Stretch::Done;
+                }
+                Outcome::Fault(fault) if is_final(&fault) => {
+                    self.parted = true;
+                    return Stretch::Done;
+                }
                 Outcome::Fault(_) => at.next(),
             };
             at = next;
@@ -549,9 +565,9 @@ struct Shown<'a, 'o, O: FlowObserver> {
 }
 
 impl<O: FlowObserver> Shown<'_, '_, O> {
-    fn endless(&mut self, origin: Origin, state: &State<Abstract>) {
+    fn endless(&mut self, origin: Origin, head: At, state: &State<Abstract>) {
         let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
-        self.observer.endless(&cx);
+        self.observer.endless(&cx, head);
     }
 }
 

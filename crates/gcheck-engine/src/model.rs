@@ -8,6 +8,7 @@ use gcheck_controls::{
 };
 use rustc_hash::FxHashMap;
 
+use crate::event::Units;
 use crate::position::Axis;
 
 /// What a code's modal group decides, where the engine follows it.
@@ -282,6 +283,23 @@ impl<'c> Model<'c> {
     /// Where controls read one thing two ways.
     pub fn semantics(&self) -> &'c Semantics {
         self.control.semantics()
+    }
+
+    /// Units before a program says any: the power-on code's, or those of the setting that decides, told or assumed.
+    pub fn units_at_power_on(&self, settings: &std::collections::BTreeMap<String, String>) -> Option<Units> {
+        match self.defaults.get(Role::Units.index()).map(|code| self.effect(*code)) {
+            Some(Effect::Inch) => return Some(Units::Inch),
+            Some(Effect::Millimetre) => return Some(Units::Mm),
+            _ => {}
+        }
+        let decides = |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
+        let setting = self.control.settings().iter().find(|setting| decides(&setting.values))?;
+        let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
+        match value.as_str() {
+            "inch" => Some(Units::Inch),
+            "mm" => Some(Units::Mm),
+            _ => None,
+        }
     }
 
     /// A code's effect; [`Effect::None`] for codes that the control does not have.

@@ -33,12 +33,16 @@ pub(crate) fn start_state<D: Domain>(
             }
         }
     }
-    let units = machine.units.map(|units| match units {
+    let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).map(|units| match units {
         Units::Inch => gcheck_controls::Effect::Inch,
         Units::Mm => gcheck_controls::Effect::Millimetre,
     });
     if let (Some(effect), Some(slot)) = (units, modes.get_mut(Role::Units.index())) {
-        *slot = ModeSet::one(model.code_with(effect));
+        let code = model.code_with(effect);
+        *slot = ModeSet::one(code);
+        if machine.units.is_none() {
+            assumptions.insert(Assumption::StartMode(Role::Units, code));
+        }
     }
     let position = machine.start.unwrap_or(Position::UNKNOWN);
     if machine.start.is_none() {

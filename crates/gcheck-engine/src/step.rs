@@ -466,7 +466,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// The length of a word in millimetres, or the angle of a rotary axis in degrees.
     fn length(&self, letter: Letter, state: &State<D>) -> Option<f64> {
         let number = self.words.number(letter)?;
-        Some(number * self.unit(state))
+        // Zero is zero in any unit.
+        Some(if number == 0.0 { 0.0 } else { number * self.unit(state) })
     }
 
     /// Millimetres in a unit of the program; NaN when not known.
@@ -733,6 +734,20 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 Some(op) => (*variable, op, *bound),
                 None => return,
             },
+            // `#1 EQ #0`: nothing, or something.
+            [Op::Variable(variable), Op::Variable(0), Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual))]
+            | [Op::Variable(0), Op::Variable(variable), Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual))]
+                if self.model.semantics().unset == Unset::Vacant =>
+            {
+                let vacant = (*op == BinaryOp::Equal) == holds;
+                if let Ok(value) = self.read_variable(*variable, state)
+                    && let Some(narrowed) = D::assume_vacant(&value, vacant)
+                    && self.model.system_variable(*variable).is_none()
+                {
+                    self.write_plain(*variable, narrowed, state);
+                }
+                return;
+            }
             [Op::Variable(variable), Op::Variable(other), Op::Binary(op)] => {
                 match self.read_variable(*other, state).ok().as_ref().and_then(D::known) {
                     Some(bound) => (*variable, *op, bound),

@@ -54,7 +54,9 @@ fn words_of_a_turning_pass_stay_until_the_tool_starts_elsewhere() {
 
 #[test]
 fn facing_passes_go_along_x() {
-    two_blocks("G94 X20. Z2. F0.2\nZ0.\nW-7. K-1.", &expect![[r#"
+    two_blocks(
+        "G94 X20. Z2. F0.2\nZ0.\nW-7. K-1.",
+        &expect![[r#"
         rapid x30 z5
         rapid x30 z2
         feed x10 z2
@@ -68,19 +70,25 @@ fn facing_passes_go_along_x() {
         feed x10 z-2
         feed x10 z5
         rapid x30 z5
-        at x30 z5"#]]);
-    one_block("G94 X-0.03 Z0. F0.008", &expect![[r#"
+        at x30 z5"#]],
+    );
+    one_block(
+        "G94 X-0.03 Z0. F0.008",
+        &expect![[r#"
         rapid x27.94 z2.54
         rapid x27.94 z0
         feed x-0.381 z0
         feed x-0.381 z2.54
         rapid x27.94 z2.54
-        at x27.94 z2.54"#]]);
+        at x27.94 z2.54"#]],
+    );
 }
 
 #[test]
 fn a_threading_pass_takes_its_lead_from_the_block_or_the_one_before() {
-    two_blocks("G92 X38. Z-30. F1.5\nX37.5", &expect![[r#"
+    two_blocks(
+        "G92 X38. Z-30. F1.5\nX37.5",
+        &expect![[r#"
         rapid x30 z5
         rapid x19 z5
         sync 1.500000
@@ -94,8 +102,11 @@ fn a_threading_pass_takes_its_lead_from_the_block_or_the_one_before() {
         sync off
         rapid x30 z-30
         rapid x30 z5
-        at x30 z5"#]]);
-    one_block("G92 X0.95 Z-0.9 F0.0625", &expect![[r#"
+        at x30 z5"#]],
+    );
+    one_block(
+        "G92 X0.95 Z-0.9 F0.0625",
+        &expect![[r#"
         rapid x27.94 z2.54
         rapid x12.065 z2.54
         sync 1.587500
@@ -103,7 +114,8 @@ fn a_threading_pass_takes_its_lead_from_the_block_or_the_one_before() {
         sync off
         rapid x27.94 z-22.86
         rapid x27.94 z2.54
-        at x27.94 z2.54"#]]);
+        at x27.94 z2.54"#]],
+    );
 }
 
 #[test]
@@ -117,7 +129,8 @@ fn a_pass_without_feed_is_refused_after_the_move() {
         feed x30 z-30
         rapid x30 z5
         NoFeed in N7
-        at x30 z5"#]].assert_eq(&shown);
+        at x30 z5"#]]
+    .assert_eq(&shown);
 }
 
 #[test]
@@ -127,14 +140,17 @@ fn a_pass_from_nowhere_ends_nowhere() {
     unknown.fresh = false;
     expect![[r#"
         rapid x? z5
-        at x? z5"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &unknown, text));
+        at x? z5"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &unknown, text));
 }
 
 // ---- grooving ----
 
 #[test]
 fn pecks_and_steps_count_least_increments_in_two_blocks() {
-    two_blocks("G75 R0.5\nG75 X52. Z1. P3000 Q2500 F0.08", &expect![[r#"
+    two_blocks(
+        "G75 R0.5\nG75 X52. Z1. P3000 Q2500 F0.08",
+        &expect![[r#"
         rapid x30 z5
         feed x27 z5
         rapid x27.5 z5
@@ -151,8 +167,11 @@ fn pecks_and_steps_count_least_increments_in_two_blocks() {
         feed x26 z1
         rapid x30 z1
         rapid x30 z5
-        at x30 z5"#]]);
-    two_blocks("G0 X0.\nG74 R1.\nG74 Z-15. Q8000 F0.1", &expect![[r#"
+        at x30 z5"#]],
+    );
+    two_blocks(
+        "G0 X0.\nG74 R1.\nG74 Z-15. Q8000 F0.1",
+        &expect![[r#"
         rapid x30 z5
         rapid x0 z5
         feed x0 z-3
@@ -161,12 +180,15 @@ fn pecks_and_steps_count_least_increments_in_two_blocks() {
         rapid x0 z-10
         feed x0 z-15
         rapid x0 z5
-        at x0 z5"#]]);
+        at x0 z5"#]],
+    );
 }
 
 #[test]
 fn pecks_and_steps_are_lengths_in_one_block() {
-    one_block("G0 X0.\nG74 Z-0.3 K0.15 F0.006", &expect![[r#"
+    one_block(
+        "G0 X0.\nG74 Z-0.3 K0.15 F0.006",
+        &expect![[r#"
         rapid x27.94 z2.54
         rapid x0 z2.54
         feed x0 z-1.27
@@ -175,8 +197,11 @@ fn pecks_and_steps_are_lengths_in_one_block() {
         rapid x0 z-2.54
         feed x0 z-7.62
         rapid x0 z2.54
-        at x0 z2.54"#]]);
-    one_block("G75 X2. Z0. I0.06 K0.08 F0.004", &expect![[r#"
+        at x0 z2.54"#]],
+    );
+    one_block(
+        "G75 X2. Z0. I0.06 K0.08 F0.004",
+        &expect![[r#"
         rapid x27.94 z2.54
         feed x26.416 z2.54
         rapid x27.94 z2.54
@@ -193,7 +218,8 @@ fn pecks_and_steps_are_lengths_in_one_block() {
         feed x25.4 z0
         rapid x27.94 z0
         rapid x27.94 z2.54
-        at x27.94 z2.54"#]]);
+        at x27.94 z2.54"#]],
+    );
 }
 
 // ---- threading ----
@@ -246,7 +272,9 @@ fn a_thread_in_two_blocks() {
 
 #[test]
 fn a_thread_in_one_block() {
-    one_block("G0 X1.2 Z0.3\nG76 X0.88 Z-1.1 K0.06 D0.04 F0.1 A60.", &expect![[r#"
+    one_block(
+        "G0 X1.2 Z0.3\nG76 X0.88 Z-1.1 K0.06 D0.04 F0.1 A60.",
+        &expect![[r#"
         rapid x27.94 z2.54
         rapid x15.24 z7.62
         rapid x15.24 z7.0334
@@ -271,19 +299,26 @@ fn a_thread_in_one_block() {
         rapid x15.24 z-27.94
         rapid x15.24 z6.7401
         rapid x15.24 z7.62
-        at x15.24 z7.62"#]]);
+        at x15.24 z7.62"#]],
+    );
 }
 
 #[test]
 fn a_thread_needs_its_height() {
-    one_block("N5 G76 X0.88 Z-1.1 D0.012 F0.1", &expect![[r#"
+    one_block(
+        "N5 G76 X0.88 Z-1.1 D0.012 F0.1",
+        &expect![[r#"
         rapid x27.94 z2.54
         Cycle(Missing(K)) in N5
-        at x27.94 z2.54"#]]);
-    two_blocks("N5 G76 X30. Z-30. Q600 F2.", &expect![[r#"
+        at x27.94 z2.54"#]],
+    );
+    two_blocks(
+        "N5 G76 X30. Z-30. Q600 F2.",
+        &expect![[r#"
         rapid x30 z5
         Cycle(Missing(P)) in N5
-        at x30 z5"#]]);
+        at x30 z5"#]],
+    );
 }
 
 #[test]
@@ -334,7 +369,9 @@ fn a_thread_by_the_drive_line() {
 
 #[test]
 fn in_diameter_mode_thread_depths_are_diameters() {
-    oracle("n40 g7\nn41 g0 x40\nn42 g76 p1.5 z-20 i-2 j0.3 k0.5", &expect![[r#"
+    oracle(
+        "n40 g7\nn41 g0 x40\nn42 g76 p1.5 z-20 i-2 j0.3 k0.5",
+        &expect![[r#"
         rapid x20 z2
         rapid x20 z2
         rapid x20.1 z2
@@ -354,7 +391,8 @@ fn in_diameter_mode_thread_depths_are_diameters() {
         rapid x20 z-20
         override on
         rapid x20 z-20
-        at x20 z-20"#]]);
+        at x20 z-20"#]],
+    );
 }
 
 #[test]
@@ -538,28 +576,41 @@ fn an_unknown_profile_leaves_the_tool_where_it_was() {
     expect![[r#"
         rapid x30 z5
         rapid x31 z5
-        at x31 z5"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &unknown, text));
+        at x31 z5"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &unknown, text));
 }
 
 #[test]
 fn profiles_that_are_not_there_are_refused() {
-    two_blocks("N5 G71 P100 Q130 F0.25\nN100 G0 X40.", &expect![[r#"
+    two_blocks(
+        "N5 G71 P100 Q130 F0.25\nN100 G0 X40.",
+        &expect![[r#"
         rapid x30 z5
         NoSuchLabel(130) in N5
-        at x30 z5"#]]);
-    two_blocks("N5 G71 P100 F0.25\nN100 G0 X40.", &expect![[r#"
+        at x30 z5"#]],
+    );
+    two_blocks(
+        "N5 G71 P100 F0.25\nN100 G0 X40.",
+        &expect![[r#"
         rapid x30 z5
         MissingWord(Q) in N5
-        at x30 z5"#]]);
-    two_blocks("N130 G0 X40.\nN5 G71 P5 Q6\nN6 X3.", &expect![[r#"
+        at x30 z5"#]],
+    );
+    two_blocks(
+        "N130 G0 X40.\nN5 G71 P5 Q6\nN6 X3.",
+        &expect![[r#"
         rapid x30 z5
         rapid x20 z5
         Profile in N5
-        at x20 z5"#]]);
-    two_blocks("N1 G70 P10 Q20\nN10 G0 X40.\nN11 G70 P30 Q40\nN20 X50.\nN30 X2.\nN40 X3.", &expect![[r#"
+        at x20 z5"#]],
+    );
+    two_blocks(
+        "N1 G70 P10 Q20\nN10 G0 X40.\nN11 G70 P30 Q40\nN20 X50.\nN30 X2.\nN40 X3.",
+        &expect![[r#"
         rapid x30 z5
         Profile in N1
-        at x30 z5"#]]);
+        at x30 z5"#]],
+    );
 }
 
 // ---- profiles in subprograms ----
@@ -568,7 +619,9 @@ const SUB: &str = "o100 sub\nn901 g0 x10 z1\nn902 g1 z-10\nn903 x15 z-15\nn904 x
 
 #[test]
 fn a_profile_in_a_subprogram_is_roughed_layer_by_layer() {
-    oracle(&format!("{SUB}n40 g71 q100 i6 d0.5 r1\nn50 x30"), &expect![[r#"
+    oracle(
+        &format!("{SUB}n40 g71 q100 i6 d0.5 r1\nn50 x30"),
+        &expect![[r#"
         rapid x20 z2
         rapid x20 z2
         rapid x20 z2
@@ -588,12 +641,15 @@ fn a_profile_in_a_subprogram_is_roughed_layer_by_layer() {
         feed x18 z-14.5
         feed x20 z-14.5
         feed x30 z-14.5
-        at x30 z-14.5"#]]);
+        at x30 z-14.5"#]],
+    );
 }
 
 #[test]
 fn a_profile_in_a_subprogram_is_finished_in_passes() {
-    oracle(&format!("{SUB}n40 g70 q100 d1 e0.5 p2\nn50 z-30"), &expect![[r#"
+    oracle(
+        &format!("{SUB}n40 g70 q100 d1 e0.5 p2\nn50 z-30"),
+        &expect![[r#"
         rapid x20 z2
         rapid x20 z2
         rapid x20 z2
@@ -607,12 +663,16 @@ fn a_profile_in_a_subprogram_is_finished_in_passes() {
         feed x15.2071 z-14.5
         feed x18 z-14.5
         feed x18 z-30
-        at x18 z-30"#]]);
-    oracle(&format!("{SUB}n40 g70 q100 p0\nn50 z-30"), &expect![[r#"
+        at x18 z-30"#]],
+    );
+    oracle(
+        &format!("{SUB}n40 g70 q100 p0\nn50 z-30"),
+        &expect![[r#"
         rapid x20 z2
         rapid x20 z2
         feed x18 z-30
-        at x18 z-30"#]]);
+        at x18 z-30"#]],
+    );
 }
 
 #[test]

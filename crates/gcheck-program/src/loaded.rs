@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use gcheck_syntax::cut;
 
-use crate::block::{Block, BlockIx, BlockTable};
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable};
 use crate::lower::{Dialect, lower};
 use crate::outline::Outline;
 use crate::survey::code_region;
@@ -23,6 +23,8 @@ const KEPT: usize = 2 << 20;
 pub struct Loaded<'a> {
     text: Cow<'a, str>,
     chunks: Vec<Range<u32>>,
+    /// By chunk: what any of its blocks has.
+    flags: Vec<BlockFlags>,
     region_end: u32,
     outline: Outline,
     tables: RefCell<Tables>,
@@ -69,6 +71,7 @@ impl<'a> Loaded<'a> {
         let region_end = code_region(&text).end as u32;
         let mut builder = Outline::builder();
         let mut chunks = Vec::new();
+        let mut flags = Vec::new();
         let mut tables = Tables { slots: Vec::new(), kept: std::collections::VecDeque::new(), bytes: 0 };
         for chunk in cut(&text) {
             if chunk.start as u32 >= region_end && !chunks.is_empty() {
@@ -80,13 +83,14 @@ impl<'a> Loaded<'a> {
             see(base, &table, part);
             builder.add(&table, base, region_end, part, dialect);
             chunks.push(base..chunk.end as u32);
+            flags.push(table.blocks().fold(BlockFlags::empty(), |all, (_, block)| all | block.flags));
             tables.slots.push(None);
             // The first chunks are those that execution begins with.
             if tables.bytes + chunk.len() <= KEPT {
                 tables.keep(chunks.len() as u32 - 1, Rc::new(table), chunk.len());
             }
         }
-        Self { chunks, region_end, outline: builder.finish(), tables: RefCell::new(tables), text }
+        Self { chunks, flags, region_end, outline: builder.finish(), tables: RefCell::new(tables), text }
     }
 
     /// The text.
@@ -108,6 +112,16 @@ impl<'a> Loaded<'a> {
     pub fn chunk_text(&self, chunk: u32) -> &str {
         let range = self.chunks.get(chunk as usize).cloned().unwrap_or_default();
         self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
+    }
+
+    /// Numbers of the blocks that have any of these flags, in text order. Chunks without such a block are passed over.
+    pub fn blocks_with(&self, flags: BlockFlags, dialect: &Dialect<'_>) -> impl Iterator<Item = (u32, Place)> {
+        let chunks = (0..self.chunks.len()).filter(move |chunk| self.flags.get(*chunk).is_some_and(|f| f.intersects(flags)));
+        let blocks = chunks.flat_map(|chunk| self.outline.blocks_of(chunk));
+        blocks.filter_map(move |block| {
+            let place = self.place(block, dialect)?;
+            place.block().flags.intersects(flags).then_some((block, place))
+        })
     }
 
     /// A block by its number in the file.

@@ -347,15 +347,21 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             return;
         }
         let named = open.target.clone();
+        // The expression of a computed label stands in front of the arguments.
+        let mut first_argument = self.table.exprs.len() as u32;
         let label = match named {
             Some(Target::Named(range)) => OLabel::Name(name_key(self.slice(&range))),
             _ => match self.table.words.pop() {
-                Some(word) => from_word(&word),
+                Some(word) => {
+                    if let Value::Expr(ix) = word.value {
+                        first_argument = ix.0;
+                    }
+                    from_word(&word)
+                }
                 None => OLabel::Computed,
             },
         };
         let ops = self.table.ops.len();
-        let first_argument = self.table.exprs.len() as u32;
         if let Some(open) = self.open.last_mut() {
             open.keyword = Some((label, keyword));
             open.ops = ops;

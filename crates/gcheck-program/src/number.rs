@@ -24,6 +24,9 @@ impl NumberShape {
 
 /// Reads `12`, `-1.5`, `+.5`, `1.`; blanks inside are skipped. The lexer guarantees the form.
 pub(crate) fn parse(text: &[u8]) -> (f64, NumberShape) {
+    if text.len() <= 17 {
+        return short(text);
+    }
     let mut shape = NumberShape::default();
     let mut mantissa: u64 = 0;
     let mut exact = true;
@@ -49,6 +52,33 @@ pub(crate) fn parse(text: &[u8]) -> (f64, NumberShape) {
         _ => long(text),
     };
     (if shape.minus { -value } else { value }, shape)
+}
+
+/// At most seventeen characters: the digits fit a machine word, so nothing need be checked on the way.
+fn short(text: &[u8]) -> (f64, NumberShape) {
+    let mut mantissa: u64 = 0;
+    let (mut digits, mut before_point, mut point, mut minus) = (0_u8, 0_u8, false, false);
+    for byte in text {
+        let digit = byte.wrapping_sub(b'0');
+        if digit < 10 {
+            mantissa = mantissa * 10 + u64::from(digit);
+            digits += 1;
+        } else if *byte == b'.' {
+            point = true;
+            before_point = digits;
+        } else {
+            minus ^= *byte == b'-';
+        }
+    }
+    let whole_digits = if point { before_point } else { digits };
+    let shape = NumberShape { whole_digits, decimals: digits - whole_digits, point, minus };
+    // Both operands are exact, so the quotient is the correctly rounded value of the decimal.
+    let value = match POWERS.get(usize::from(shape.decimals)) {
+        #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+        Some(power) if mantissa < 1 << 53 => mantissa as f64 / power,
+        _ => long(text),
+    };
+    (if minus { -value } else { value }, shape)
 }
 
 /// More digits than arithmetic on machine words holds: the standard library's exact algorithm.

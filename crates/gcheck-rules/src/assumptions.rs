@@ -31,16 +31,20 @@ impl Described {
 /// Words for one assumption.
 pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
     match assumption {
-        Assumption::StartMode(_, code) => Described::new(format!("{} is in effect at the start", named(*code, model))),
+        Assumption::StartMode(_, code) => {
+            Described::new(format!("{} is in effect at the start", named(*code, model)))
+        }
         Assumption::StartPosition => Described::new("where the axes stand at the start is not known"),
         Assumption::WorkOffset(number) => {
             let name = work_offset_name(*number, model);
-            Described::new(format!("the work offset {name} is not known"))
-                .pin(format!("[offsets] {} = {{ {} }}", key(&name), axes(model)))
+            Described::new(format!("the work offset {name} is not known")).pin(format!(
+                "[offsets] {} = {{ {} }}",
+                key(&name),
+                axes(model)
+            ))
         }
-        Assumption::ToolLength(tool) => {
-            Described::new(format!("the length of tool {tool} is not known")).pin(format!("[tools] {tool}.length = …"))
-        }
+        Assumption::ToolLength(tool) => Described::new(format!("the length of tool {tool} is not known"))
+            .pin(format!("[tools] {tool}.length = …")),
         Assumption::ToolRadius(tool) => match model.control().machine() {
             Machine::Mill => Described::new(format!("the diameter of tool {tool} is not known"))
                 .pin(format!("[tools] {tool}.diameter = …")),
@@ -60,13 +64,18 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
             match &model.control().numbers().unpointed_setting {
                 Some(setting) => {
                     let number = setting.rsplit(' ').next().unwrap_or_default();
-                    Described { pin: self::setting(number, model).pin, ..Described::new(format!("{text} ({setting})")) }
+                    Described {
+                        pin: self::setting(number, model).pin,
+                        ..Described::new(format!("{text} ({setting})"))
+                    }
                 }
                 None => Described::new(text),
             }
         }
-        Assumption::Variable(number) => Described::new(format!("the value of `#{number}` at the start is not known"))
-            .pin(format!("[variables] \"#{number}\" = …")),
+        Assumption::Variable(number) => {
+            Described::new(format!("the value of `#{number}` at the start is not known"))
+                .pin(format!("[variables] \"#{number}\" = …"))
+        }
         Assumption::MissingProgram(number) => {
             Described::new(format!("what program {number} does is not known: it was not found"))
                 .pin("[search] paths = [\"…\"]")
@@ -81,13 +90,15 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::ProbeTouch => Described::new("probing moves touch, at points that nobody knows"),
         Assumption::Axis(axis) => Described::new(format!("the machine has the axis `{}`", axis.name()))
             .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
-        Assumption::Code(code) => Described::new(format!("what {} changes is not known", named(*code, model))),
+        Assumption::Code(code) => {
+            Described::new(format!("what {} changes is not known", named(*code, model)))
+        }
     }
 }
 
 /// Words for all assumptions of a result, what matters most first. The modes at the start share one sentence.
 pub fn describe_all(assumptions: &BTreeSet<Assumption>, model: &Model<'_>) -> Vec<Described> {
-    let modes: Vec<CodeIx> = assumptions
+    let at_start: Vec<CodeIx> = assumptions
         .iter()
         .filter_map(|assumption| match assumption {
             Assumption::StartMode(_, code) => Some(*code),
@@ -102,7 +113,7 @@ pub fn describe_all(assumptions: &BTreeSet<Assumption>, model: &Model<'_>) -> Ve
     // Stable: assumptions of one weight keep their order.
     all.sort_by_key(|(weight, _)| *weight);
     let mut all: Vec<Described> = all.into_iter().map(|(_, described)| described).collect();
-    match modes.as_slice() {
+    match at_start.as_slice() {
         [] => {}
         [code] => all.push(Described::new(format!("{} is in effect at the start", named(*code, model)))),
         codes => {
@@ -167,12 +178,16 @@ fn weight(assumption: &Assumption) -> u8 {
 
 fn setting(number: &str, model: &Model<'_>) -> Described {
     let Some(entry) = model.control().setting(number) else {
-        return Described::new(format!("setting {number} is not known")).pin(format!("[settings] {} = …", key(number)));
+        return Described::new(format!("setting {number} is not known"))
+            .pin(format!("[settings] {} = …", key(number)));
     };
     let told = format!("setting {number} ({})", entry.title);
     match &entry.default {
-        Some(value) => Described::new(format!("{told} is `{value}`, as usual"))
-            .pin(format!("[settings] {} = {}", key(number), scalar(value))),
+        Some(value) => Described::new(format!("{told} is `{value}`, as usual")).pin(format!(
+            "[settings] {} = {}",
+            key(number),
+            scalar(value)
+        )),
         None => Described::new(format!("{told} is not known")).pin(format!("[settings] {} = …", key(number))),
     }
 }
@@ -189,7 +204,8 @@ fn scalar(value: &str) -> String {
 
 /// A key of TOML, in quotes where it needs them.
 fn key(name: &str) -> String {
-    let is_bare = !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'-' | b'_'));
+    let is_bare =
+        !name.is_empty() && name.bytes().all(|b| b.is_ascii_alphanumeric() || matches!(b, b'-' | b'_'));
     if is_bare { name.to_owned() } else { format!("\"{name}\"") }
 }
 

@@ -16,6 +16,7 @@ mod meta;
 mod mistakes;
 mod paths;
 mod rules;
+mod schemes;
 mod sections;
 mod selection;
 mod suppression;

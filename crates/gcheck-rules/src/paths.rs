@@ -5,6 +5,7 @@
 
 use std::collections::HashSet;
 use std::ops::Range;
+use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{
@@ -12,6 +13,8 @@ use gcheck_engine::{
     Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
 };
 use gcheck_program::{Place, Survey, Word};
+
+use rustc_hash::FxHashMap;
 
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
@@ -84,9 +87,9 @@ pub trait PathRule {
         let _ = (cx, variable, report);
     }
 
-    /// A loop repeats its state.
-    fn endless(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let _ = (cx, report);
+    /// The block leads back to `head` in the state that was met there before.
+    fn endless(&mut self, cx: &PathCx<'_>, head: At, report: &mut Report<'_>) {
+        let _ = (cx, head, report);
     }
 
     /// All paths were seen.
@@ -107,6 +110,16 @@ pub struct PathCx<'a> {
     /// What the main file holds, without regard to paths.
     pub survey: &'a Survey,
     flow: &'a FlowCx<'a>,
+    /// The block's words, when a rule was shown the block.
+    read: Option<&'a ReadBlock>,
+}
+
+/// A block as rules read it, kept because loops come by again.
+struct ReadBlock {
+    at: At,
+    place: Place,
+    codes: Vec<CodeIx>,
+    effects: Vec<Effect>,
 }
 
 impl<'a> PathCx<'a> {
@@ -137,7 +150,15 @@ impl<'a> PathCx<'a> {
 
     /// The block with its words.
     pub fn place(&self) -> Option<Place> {
+        if let Some(read) = self.read_block() {
+            return Some(read.place.clone());
+        }
         self.place_of(self.flow.origin.at)
+    }
+
+    fn read_block(&self) -> Option<&'a ReadBlock> {
+        // Under cutter compensation an event may belong to a block before the one under way.
+        self.read.filter(|read| read.at == self.flow.origin.at)
     }
 
     /// A block of the main file.
@@ -175,6 +196,9 @@ impl<'a> PathCx<'a> {
 
     /// The codes of the block.
     pub fn codes(&self) -> Vec<CodeIx> {
+        if let Some(read) = self.read_block() {
+            return read.codes.clone();
+        }
         self.place().map_or_else(Vec::new, |place| {
             let words = place.table.words(place.block()).iter();
             words.map(|word| word.code).filter(|code| code.is_some()).collect()
@@ -183,7 +207,13 @@ impl<'a> PathCx<'a> {
 
     /// Does the block have a code with an effect that `is` says yes to?
     pub fn has_effect(&self, is: impl Fn(Effect) -> bool) -> bool {
-        self.codes().into_iter().any(|code| is(self.model.effect(code)))
+        if !self.origin().flags.contains(gcheck_program::BlockFlags::CODE) {
+            return false;
+        }
+        match self.read_block() {
+            Some(read) => read.effects.iter().any(|effect| is(*effect)),
+            None => self.codes().into_iter().any(|code| is(self.model.effect(code))),
+        }
     }
 
     /// The code in effect for a role as programs write it; `None` when it may be several.
@@ -311,7 +341,14 @@ pub(crate) struct Watchers<'a, 'c> {
     made: HashSet<(&'static str, u32, String)>,
     /// Something else than a move happened since the last cut.
     changed: bool,
+    /// Blocks of the main file that were read, by number.
+    read: FxHashMap<u32, Rc<ReadBlock>>,
+    /// The block under way, when it was read.
+    current: Option<Rc<ReadBlock>>,
 }
+
+/// Blocks that are kept read.
+const MOST_READ: usize = 4096;
 
 impl<'a, 'c> Watchers<'a, 'c> {
     pub(crate) fn new(
@@ -333,7 +370,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             }
             active.push(Active { entry, severity: *severity, rule: make() });
         }
-        Self { scene, program, model, survey, rules: active, lists, add, made: HashSet::new(), changed: true }
+        Self { scene, program, model, survey, rules: active, lists, add, made: HashSet::new(), changed: true, read: FxHashMap::default(), current: None }
     }
 
     /// Does any rule watch?
@@ -372,6 +409,23 @@ impl<'a, 'c> Watchers<'a, 'c> {
         }
     }
 
+    fn read_block(&mut self, at: At) -> Option<Rc<ReadBlock>> {
+        if let Some(read) = self.read.get(&at.block) {
+            return Some(Rc::clone(read));
+        }
+        let file = self.program.file(at.file)?;
+        let place = file.loaded.place(at.block, self.scene.dialect)?;
+        let words = place.table.words(place.block()).iter();
+        let codes: Vec<CodeIx> = words.map(|word| word.code).filter(|code| code.is_some()).collect();
+        let effects = codes.iter().map(|code| self.model.effect(*code)).collect();
+        let read = Rc::new(ReadBlock { at, place, codes, effects });
+        if self.read.len() >= MOST_READ {
+            self.read.clear();
+        }
+        self.read.insert(at.block, Rc::clone(&read));
+        Some(read)
+    }
+
     fn watches(&self, watch: Watch) -> bool {
         let bit = watch.bits().trailing_zeros() as usize;
         self.lists.get(bit).is_some_and(|list| !list.is_empty())
@@ -383,7 +437,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
             return;
         }
         let (scene, program, model, survey) = (self.scene, self.program, self.model, self.survey);
-        let cx = PathCx { scene, program, model, survey, flow };
+        let read = self.current.clone();
+        let cx = PathCx { scene, program, model, survey, flow, read: read.as_deref() };
         self.each(watch, |rule, report| call(rule, &cx, report));
     }
 }
@@ -397,7 +452,9 @@ fn is_eventful(origin: Origin) -> bool {
 
 impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
-        if is_eventful(cx.origin) {
+        self.current = None;
+        if is_eventful(cx.origin) && cx.origin.at.file == 0 && self.watches(Watch::BLOCKS) {
+            self.current = self.read_block(cx.origin.at);
             self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
         }
     }
@@ -435,8 +492,8 @@ impl FlowObserver for Watchers<'_, '_> {
         self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
     }
 
-    fn endless(&mut self, cx: &FlowCx<'_>) {
-        self.show(Watch::ENDLESS, cx, |rule, cx, report| rule.endless(cx, report));
+    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
+        self.show(Watch::ENDLESS, cx, |rule, cx, report| rule.endless(cx, head, report));
     }
 }
 

@@ -10,11 +10,13 @@ use gcheck_program::{BlockFlags, OKeyword, Op, Place, StatementKind, Survey};
 
 use crate::Scene;
 
-/// The first program of the file ends with a return alone: other programs call it, and give it its variables and modes.
+/// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give it
+/// its variables and modes.
 pub(crate) fn is_called_from_elsewhere(survey: &Survey) -> bool {
     let behind = survey.programs.get(1).map_or(u32::MAX, |second| second.range.start);
-    let mut ends = survey.ends.iter().filter(|end| end.range.start < behind).peekable();
-    ends.peek().is_some() && ends.all(|end| end.ends == Ends::Subprogram)
+    let first = survey.ends.iter().find(|end| end.range.start < behind && !end.conditional);
+    let any = first.or_else(|| survey.ends.iter().find(|end| end.range.start < behind));
+    any.is_some_and(|end| end.ends == Ends::Subprogram)
 }
 
 /// The blocks of the main file that have any of these flags.
@@ -24,11 +26,8 @@ pub(crate) fn blocks_with(
     flags: BlockFlags,
 ) -> impl Iterator<Item = (At, Place)> {
     let file: Option<Rc<ProgramFile<'_>>> = program.file(0);
-    let blocks = file.as_ref().map_or(0, |file| file.loaded.outline().blocks());
-    (0..blocks).filter_map(move |block| {
-        let place = file.as_ref()?.loaded.place(block, scene.dialect)?;
-        place.block().flags.intersects(flags).then_some((At { file: 0, block }, place))
-    })
+    let found: Vec<_> = file.map_or_else(Vec::new, |file| file.loaded.blocks_with(flags, scene.dialect).collect());
+    found.into_iter().map(|(block, place)| (At { file: 0, block }, place))
 }
 
 /// Does the way through the main file depend on a condition?

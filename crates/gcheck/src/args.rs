@@ -303,8 +303,8 @@ fn assignment(text: &str) -> Result<Assignment, String> {
     if !value.is_finite() {
         return Err(format!("`{value}` is no number that a control can hold"));
     }
-    let variable =
-        VariableName::parse(name).ok_or_else(|| format!("`{}` is no variable; write `#100` or `#<name>`", name.trim()))?;
+    let variable = VariableName::parse(name)
+        .ok_or_else(|| format!("`{}` is no variable; write `#100` or `#<name>`", name.trim()))?;
     Ok(Assignment { variable, value })
 }
 
@@ -314,7 +314,8 @@ impl VariableName {
         let text = text.trim();
         let inner = text.strip_prefix('#').unwrap_or(text);
         if let Some(name) = inner.strip_prefix('<').and_then(|rest| rest.strip_suffix('>')) {
-            let name: String = name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect();
+            let name: String =
+                name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect();
             return (!name.is_empty()).then_some(Self::Name(name));
         }
         inner.parse().ok().map(Self::Number)

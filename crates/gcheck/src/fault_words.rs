@@ -33,7 +33,6 @@ impl Words {
 }
 
 /// A fault in words; lengths are shown in `units`, those of the program.
-#[expect(clippy::too_many_lines, reason = "one arm a fault, in the order of their definition")]
 pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),
@@ -45,22 +44,28 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
             .why("the control keeps this variable itself"),
         Fault::VariableNumber => Words::new("there is no variable of this number")
             .why("the number is not whole, or outside the range of the control's variables"),
-        Fault::MissingValue(letter) => {
-            Words::new(format!("`{letter}` has no value")).help("write a number behind the letter, or take the letter away")
-        }
+        Fault::MissingValue(letter) => Words::new(format!("`{letter}` has no value"))
+            .help("write a number behind the letter, or take the letter away"),
         Fault::MissingWord(letter) => Words::new(format!("`{letter}` is missing in this block"))
             .why(format!("a code of the block needs a `{letter}` word")),
-        Fault::WordRange(letter) => Words::new(format!("the value of `{letter}` is outside what the code takes")),
+        Fault::WordRange(letter) => {
+            Words::new(format!("the value of `{letter}` is outside what the code takes"))
+        }
         Fault::UnknownCode => Words::new("the control does not have this code")
             .help("`gcheck codes` lists the codes; `[codes]` in gcheck.toml adds those of the shop"),
-        Fault::NotNow(refused, None) => Words::new(format!("{} cannot be carried out here", code(model, *refused)))
-            .why("the modes in effect do not allow it"),
+        Fault::NotNow(refused, None) => {
+            Words::new(format!("{} cannot be carried out here", code(model, *refused)))
+                .why("the modes in effect do not allow it")
+        }
         Fault::NotNow(refused, Some(active)) if refused == active => {
             Words::new(format!("{} is in effect already", code(model, *refused)))
         }
         Fault::NotNow(refused, Some(active)) => {
-            let words =
-                Words::new(format!("{} cannot be carried out while {} is in effect", code(model, *refused), code(model, *active)));
+            let words = Words::new(format!(
+                "{} cannot be carried out while {} is in effect",
+                code(model, *refused),
+                code(model, *active)
+            ));
             match ends(model, *active) {
                 Some(end) => words.help(format!("end it first, with `{end}`")),
                 None => words,
@@ -112,9 +117,8 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
             .why("a program that calls itself without an end does this"),
         Fault::LoopMismatch => Words::new("the other end of this loop or condition is not found"),
         Fault::StrayReturn => Words::new("a return, and nothing was called"),
-        Fault::NoProgramEnd => {
-            Words::new("the program ends without an end of program").help("write `M2` or `M30` at its end, or `%` around it")
-        }
+        Fault::NoProgramEnd => Words::new("the program ends without an end of program")
+            .help("write `M2` or `M30` at its end, or `%` around it"),
         Fault::Alarm(number) => alarm(*number, None),
     }
 }
@@ -146,7 +150,9 @@ pub(crate) fn undecidable(variables: &[u32]) -> Words {
     };
     Words::new(format!("what happens next depends on {what}"))
         .why("a condition, a repeat count, a target or a code is computed from it")
-        .help(format!("give the value: `--set '#{example}=1'`, or `[variables]`, `[offsets]`, `[tools]` in gcheck.toml"))
+        .help(format!(
+            "give the value: `--set '#{example}=1'`, or `[variables]`, `[offsets]`, `[tools]` in gcheck.toml"
+        ))
 }
 
 fn of_value(fault: ValueFault) -> Words {
@@ -171,22 +177,28 @@ fn of_arc(fault: &ArcFault, units: Units) -> Words {
     match *fault {
         ArcFault::NoCentre => Words::new("an arc without centre and radius")
             .help("give the centre (`I`, `J`, `K`, those of the plane) or the radius (`R`)"),
-        ArcFault::CentreAndRadius => Words::new("an arc with both centre and radius").help("take `R` or the centre away"),
+        ArcFault::CentreAndRadius => {
+            Words::new("an arc with both centre and radius").help("take `R` or the centre away")
+        }
         ArcFault::WrongPlane(letter) => Words::new(format!("`{letter}` belongs to an arc of another plane"))
             .why("`G17` takes `I` and `J`, `G18` `I` and `K`, `G19` `J` and `K`"),
-        ArcFault::ZeroRadius => Words::new("the radius of the arc is zero")
-            .why("the centre is the start point, or `R` is zero"),
-        ArcFault::RadiusTooSmall { half_chord, radius } => Words::new("the radius is too small to reach the end point")
-            .why(format!(
+        ArcFault::ZeroRadius => {
+            Words::new("the radius of the arc is zero").why("the centre is the start point, or `R` is zero")
+        }
+        ArcFault::RadiusTooSmall { half_chord, radius } => {
+            Words::new("the radius is too small to reach the end point").why(format!(
                 "the radius is {}, and half the way from start to end is {}",
                 length(radius, units),
                 length(half_chord, units)
-            )),
-        ArcFault::OffCircle { start, end } => Words::new("the end point is not on the circle of the start point").why(format!(
-            "it lies {} from the centre, and the start {}",
-            length(end, units),
-            length(start, units)
-        )),
+            ))
+        }
+        ArcFault::OffCircle { start, end } => {
+            Words::new("the end point is not on the circle of the start point").why(format!(
+                "it lies {} from the centre, and the start {}",
+                length(end, units),
+                length(start, units)
+            ))
+        }
         ArcFault::FullCircleByRadius => Words::new("a full circle by its radius")
             .why("start and end are one point, so that `R` does not say where the centre lies")
             .help("give the centre (`I`, `J`, `K`)"),
@@ -199,7 +211,9 @@ fn of_cycle(fault: CycleFault) -> Words {
         CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
             .why("it stands neither in this block nor in an earlier one of the cycle"),
         CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the bottom of the hole"),
-        CycleFault::NotPositive(letter) => Words::new(format!("`{letter}` of the canned cycle must be above zero")),
+        CycleFault::NotPositive(letter) => {
+            Words::new(format!("`{letter}` of the canned cycle must be above zero"))
+        }
         CycleFault::ZeroRepeats => Words::new("the canned cycle is repeated `L0` times"),
         CycleFault::Rotary => Words::new("rotary axes cannot move in a canned cycle"),
         CycleFault::InverseTime => Words::new("a canned cycle cannot run with inverse-time feed")
@@ -215,11 +229,16 @@ fn of_compensation(fault: &CompensationFault, units: Units) -> Words {
     match *fault {
         CompensationFault::EntryTooShort { needed, got } => {
             Words::new("the move that switches cutter compensation on is too short")
-                .why(format!("it is {} long, and the radius is {}", length(got, units), length(needed, units)))
+                .why(format!(
+                    "it is {} long, and the radius is {}",
+                    length(got, units),
+                    length(needed, units)
+                ))
                 .help("start compensation on a longer straight move, away from the contour")
         }
-        CompensationFault::EntryIsArc => Words::new("cutter compensation cannot begin on an arc")
-            .help("switch it on with a straight move"),
+        CompensationFault::EntryIsArc => {
+            Words::new("cutter compensation cannot begin on an arc").help("switch it on with a straight move")
+        }
         CompensationFault::ExitIsArc => {
             Words::new("cutter compensation cannot end on an arc").help("switch it off with a straight move")
         }
@@ -288,7 +307,9 @@ pub(crate) fn culprit(fault: &Fault) -> Option<Culprit> {
         | Fault::Arc(ArcFault::WrongPlane(letter))
         | Fault::Cycle(CycleFault::NotPositive(letter)) => Culprit::Letter(*letter),
         Fault::Arc(ArcFault::Turns) => Culprit::Letter(Letter::of('P')),
-        Fault::Arc(ArcFault::RadiusTooSmall { .. } | ArcFault::FullCircleByRadius) => Culprit::Letter(Letter::of('R')),
+        Fault::Arc(ArcFault::RadiusTooSmall { .. } | ArcFault::FullCircleByRadius) => {
+            Culprit::Letter(Letter::of('R'))
+        }
         Fault::NoSuchTool(_) => Culprit::Letter(Letter::of('T')),
         Fault::NotNow(code, _) => Culprit::Code(*code),
         Fault::UnknownCode => Culprit::UnknownCode,

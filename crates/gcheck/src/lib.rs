@@ -22,6 +22,8 @@ mod programs;
 mod reading;
 
 use std::io::Write as _;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::Parser as _;
@@ -49,8 +51,12 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<u8, Problem> {
     match &arguments.command {
         Command::Check(options) => check::run(&arguments.global, options),
-        Command::Run(options) => commands::run::run(&arguments.global, options),
-        Command::Stats(options) => commands::stats::run(&arguments.global, options),
+        Command::Run(options) => {
+            guarded(&options.execution.file, || commands::run::run(&arguments.global, options))
+        }
+        Command::Stats(options) => {
+            guarded(&options.execution.file, || commands::stats::run(&arguments.global, options))
+        }
         Command::Explain(options) => commands::explain::run(&arguments.global, options),
         Command::Rules(options) => commands::rules::run(options),
         Command::Codes(options) => commands::codes::run(&arguments.global, options),
@@ -59,6 +65,12 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Schema => output::print(&config::schema()),
         Command::Completions { shell } => commands::completions::run(*shell),
     }
+}
+
+/// Whatever happens in the work, the program ends in words.
+fn guarded(file: &Path, work: impl FnOnce() -> Result<u8, Problem>) -> Result<u8, Problem> {
+    panic::catch_unwind(AssertUnwindSafe(work))
+        .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref()).in_file(file)))
 }
 
 /// Says a problem on standard error, where it can be said.

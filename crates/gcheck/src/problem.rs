@@ -2,6 +2,7 @@
 //!
 //! Knows: how such a message is laid out. Must not know: where it is printed, or what becomes of the run.
 
+use std::any::Any;
 use std::fmt;
 use std::ops::Range;
 use std::path::Path;
@@ -13,7 +14,7 @@ use crate::paths;
 pub struct Problem {
     place: Option<String>,
     message: String,
-    excerpt: Option<Excerpt>,
+    excerpt: Option<Box<Excerpt>>,
     note: Option<String>,
     help: Option<String>,
 }
@@ -42,6 +43,21 @@ impl Problem {
         Self { place: Some(paths::shown(path)), ..Self::new(message) }
     }
 
+    /// What a panic of our own code left.
+    pub(crate) fn own_mistake(payload: &(dyn Any + Send)) -> Self {
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let what =
+            text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("it stopped without a word");
+        Self::new(format!("a mistake of gcheck itself: {what}"))
+            .help("please report it with the program, or as much of it as you can show")
+    }
+
+    /// The same, with a file.
+    #[must_use]
+    pub(crate) fn in_file(self, path: &Path) -> Self {
+        Self { place: Some(paths::shown(path)), ..self }
+    }
+
     /// A problem at some bytes of a text; `name` is what the text is called.
     pub fn at(name: &str, text: &str, range: &Range<usize>, message: impl Into<String>) -> Self {
         let start = range.start.min(text.len());
@@ -58,7 +74,7 @@ impl Problem {
         let excerpt = Excerpt { line: number, text: shown, before, marked };
         Self {
             place: Some(format!("{name}:{number}:{}", before + 1)),
-            excerpt: (before < SHOWN).then_some(excerpt),
+            excerpt: (before < SHOWN).then_some(Box::new(excerpt)),
             ..Self::new(message)
         }
     }
@@ -89,7 +105,7 @@ impl fmt::Display for Problem {
             write!(f, "{place}: ")?;
         }
         f.write_str(&self.message)?;
-        if let Some(Excerpt { line, text, before, marked }) = &self.excerpt {
+        if let Some(Excerpt { line, text, before, marked }) = self.excerpt.as_deref() {
             let margin = " ".repeat(line.to_string().len());
             let marked = (*marked).min(SHOWN - before);
             write!(

@@ -128,7 +128,9 @@ impl Folder {
         // Folders are listed in any order; which of two programs of one number is called must not depend on it.
         programs.sort();
         for path in &programs {
-            let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) else { continue };
+            let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) else {
+                continue;
+            };
             let digits = stem.strip_prefix('o').unwrap_or(&stem);
             if let Ok(number) = digits.parse() {
                 folder.numbers.entry(number).or_insert_with(|| path.clone());

@@ -22,6 +22,8 @@ pub(crate) fn execute(program: &Path, setup: &Setup) -> Outcome {
     command.current_dir(program.parent().unwrap());
     command.args(["run", "--isolated", "--control", "linuxcnc", "--output-format", "canonical", "--config"]);
     command.arg(format!("tools.table={}", quoted(&setup.table)));
+    // The reference reads its table in inches, whatever its programs are written in.
+    command.args(["--config", "machine.table_units=\"inch\""]);
     if !setup.search.is_empty() {
         let folders: Vec<String> = setup.search.iter().map(|folder| quoted(folder)).collect();
         command.arg("--config").arg(format!("search.paths=[{}]", folders.join(", ")));

@@ -51,7 +51,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         let old_form = if effect == Effect::FacingPass { 'K' } else { 'I' };
-        if let Some(taper) = self.length(Letter::of('R'), state).or_else(|| self.length(Letter::of(old_form), state)) {
+        if let Some(taper) =
+            self.length(Letter::of('R'), state).or_else(|| self.length(Letter::of(old_form), state))
+        {
             words.taper = Some(taper);
         }
         let threads = effect == Effect::ThreadingPass;
@@ -66,7 +68,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let checked = if threads { Self::check_lead(words.lead, state) } else { self.check_feed(state) };
         let from = state.position.xyz();
         let mut strokes = Vec::new();
-        let result = box_pass(effect, from, (x, z), taper, lead, pull_out, &mut |stroke| strokes.push(stroke));
+        let result =
+            box_pass(effect, from, (x, z), taper, lead, pull_out, &mut |stroke| strokes.push(stroke));
         self.carry_out(&strokes, result, Plane::Zx, state.position, state)?;
         checked
     }
@@ -203,7 +206,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.assumptions.insert(Assumption::Code(ix));
         }
         let [passes, pull_out, angle, least, finish] = stored;
-        #[expect(clippy::cast_sign_loss, reason = "two digits, or not known: then the rest is not known either")]
+        #[expect(
+            clippy::cast_sign_loss,
+            reason = "two digits, or not known: then the rest is not known either"
+        )]
         let finish_passes = passes.unwrap_or(1.0).max(1.0) as u32;
         Ok(ThreadHeights {
             to,
@@ -333,7 +339,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Does the block name the axis, by its own address or as an increment?
     fn names_axis(&self, axis: Axis) -> bool {
-        self.words.present().iter().any(|letter| self.model.axis_of(letter).is_some_and(|(named, _)| named == axis))
+        self.words
+            .present()
+            .iter()
+            .any(|letter| self.model.axis_of(letter).is_some_and(|(named, _)| named == axis))
     }
 
     /// Millimetres a turn from the block's words.

@@ -116,7 +116,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             {
                 return Err(Fault::NoSuchAxis(letter));
             }
-            if !axis.is_rotary() {
+            if !axis.is_rotary() && value != 0.0 {
                 value *= unit;
             }
             if axis == Axis::X && state.is_diameter(self.model) != Some(false) {

@@ -77,7 +77,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let unit = self.unit(state);
         for axis in &self.model.axes {
             if let Some(value) = self.words.number(axis.letter()) {
-                let value = if axis.is_rotary() { value } else { value * unit };
+                let value = if axis.is_rotary() || value == 0.0 { value } else { value * unit };
                 values.set(*axis, if *axis == Axis::X && diameter { value / 2.0 } else { value });
             }
         }

@@ -159,7 +159,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.assumptions.insert(Assumption::MissingProgram(number));
             return Ok(None);
         };
-        let last = self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
+        let last =
+            self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
         let blocks = ProfileBlocks { file: first.file, first: first.block, last: last.saturating_sub(1) };
         let mut drawn = state.clone();
         drawn.position = *start;
@@ -212,7 +213,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let points: Result<Vec<(Mm, Mm)>, CycleError> = match (holes, effect) {
             (Count::Unknown, _) => Err(CycleError::Unknown),
-            (Count::Known(holes), Effect::BoltCircle) => bolt_circle(centre, size, angle, holes).map(Iterator::collect),
+            (Count::Known(holes), Effect::BoltCircle) => {
+                bolt_circle(centre, size, angle, holes).map(Iterator::collect)
+            }
             (Count::Known(holes), Effect::BoltArc) => {
                 bolt_arc(centre, size, angle, between, holes).map(Iterator::collect)
             }

@@ -25,6 +25,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mode = state.feed_mode(self.model);
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
+            (_, Some(0.0)) => D::number(0.0),
             (_, Some(number)) => D::number(number * self.unit(state)),
             (_, None) => D::unknown(),
         };

@@ -5,8 +5,8 @@
 use std::fmt::Write;
 
 use gcheck_engine::{
-    Axis, Concrete, Event, Fault, Machine, Model, NoLibrary, Observer, Options, Origin, Position, Program, State, Tool,
-    TravelKind, run,
+    Axis, Concrete, Event, Fault, Machine, Model, NoLibrary, Observer, Options, Origin, Position, Program,
+    State, Tool, TravelKind, run,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
@@ -29,7 +29,8 @@ fn number(value: f64) -> String {
 impl Recorder {
     fn point(&self, position: &Position) -> String {
         let axes = Axis::ALL.into_iter().filter(|axis| self.plane_axes.contains(axis.name()));
-        axes.map(|axis| format!(" {}{}", axis.name().to_ascii_lowercase(), number(position.raw(axis)))).collect()
+        axes.map(|axis| format!(" {}{}", axis.name().to_ascii_lowercase(), number(position.raw(axis))))
+            .collect()
     }
 }
 
@@ -88,16 +89,5 @@ pub(crate) fn shown_on(control: &str, axes: &'static str, machine: &Machine, tex
     let mut recorder = Recorder { text: String::new(), plane_axes: axes };
     let result = run(&program, &model, machine, Options::NONE, 100_000, &mut recorder);
     write!(recorder.text, "at{}", recorder.point(result.state.position())).unwrap();
-    recorder.text
-}
-
-pub(crate) fn shown_fuel(control: &str, text: &str, fuel: u64) -> String {
-    let control = gcheck_controls::load(control).unwrap();
-    let dialect = Dialect::new(&control);
-    let loaded = Loaded::new(text, &dialect, |_, _, _| ());
-    let program = Program::new(loaded, &dialect, &NoLibrary);
-    let model = Model::new(&control);
-    let mut recorder = Recorder { text: String::new(), plane_axes: "X" };
-    let _ = run(&program, &model, &machine(10.0), Options::NONE, fuel, &mut recorder);
     recorder.text
 }

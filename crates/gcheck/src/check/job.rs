@@ -2,7 +2,6 @@
 //!
 //! Knows: how configuration, control and rules come together for a file. Must not know: other files, output.
 
-use std::any::Any;
 use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -53,7 +52,10 @@ impl<'o> Bench<'o> {
             control: global.control.as_deref(),
             wishes,
             suppressions: !options.no_suppressions,
-            execution: Execution { fuel: options.fuel, block_skip: options.block_skip.map(|skip| skip == Switch::On) },
+            execution: Execution {
+                fuel: options.fuel,
+                block_skip: options.block_skip.map(|skip| skip == Switch::On),
+            },
             set: &options.set,
             folders: ProgramFolders::default(),
             controls: Mutex::default(),
@@ -93,16 +95,8 @@ pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Pr
 
 /// Checks a file; a panic is contained, so that the other files are still checked.
 pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
-    panic::catch_unwind(AssertUnwindSafe(|| check_file(bench, target))).unwrap_or_else(|payload| {
-        let what = words(payload.as_ref());
-        Err(Problem::with_file(&target.path, format!("a mistake of gcheck itself: {what}"))
-            .help("please report it with the program, or as much of it as you can show"))
-    })
-}
-
-fn words(payload: &(dyn Any + Send)) -> String {
-    let text = payload.downcast_ref::<String>().map(String::as_str);
-    text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("it stopped without a word").to_owned()
+    panic::catch_unwind(AssertUnwindSafe(|| check_file(bench, target)))
+        .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref()).in_file(&target.path)))
 }
 
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
@@ -119,8 +113,13 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         programs: &programs,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
-    let outcome =
-        check(&Job { source: &source, scene, selection: &selection, suppressions: bench.suppressions, execution: gcheck_rules::Execution::default() });
+    let outcome = check(&Job {
+        source: &source,
+        scene,
+        selection: &selection,
+        suppressions: bench.suppressions,
+        execution: bench.execution,
+    });
     // A program without findings is never shown: let go of its text before the last file is read.
     let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
     Ok(FileReport {

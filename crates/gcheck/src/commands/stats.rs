@@ -106,8 +106,11 @@ fn json(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Valu
         Described { text: assumption.text, pin: Some(pin) }
     });
     let rests = Rests::new(session, ran).after(timing.collect());
-    let rests: Vec<Value> =
-        rests.described().iter().map(|described| json!({ "text": described.text, "pin": described.pin })).collect();
+    let rests: Vec<Value> = rests
+        .described()
+        .iter()
+        .map(|described| json!({ "text": described.text, "pin": described.pin }))
+        .collect();
     // Both are structs, so both are objects.
     let mut whole = serde_json::to_value(head).unwrap_or_default();
     if let (Value::Object(whole), Value::Object(figures)) =

@@ -6,7 +6,9 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
-use gcheck_engine::{At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult, Spindle, State, Stop, Truth,
+use gcheck_engine::{
+    At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult,
+    Spindle, State, Stop, Truth,
 };
 use gcheck_report::LineIndex;
 use gcheck_toolpath::Step;
@@ -66,7 +68,14 @@ pub(super) fn stopping_at_errors(run: impl FnOnce() -> RunResult) -> Option<RunR
 
 impl<'s, S: Steps> Bridge<'s, S> {
     pub(super) fn new(session: &'s Session<'s>, steps: S) -> Self {
-        Self { session, steps, error: None, executing: None, executing_at: At { file: 0, block: 0 }, files: Vec::new() }
+        Self {
+            session,
+            steps,
+            error: None,
+            executing: None,
+            executing_at: At { file: 0, block: 0 },
+            files: Vec::new(),
+        }
     }
 
     /// What the run left; the error is that of the output.
@@ -90,7 +99,8 @@ impl<'s, S: Steps> Bridge<'s, S> {
             let file = session.program.file(origin.at.file);
             let text = file.as_ref().map_or("", |file| file.loaded.text());
             let name = file.as_ref().map_or("", |file| &*file.name);
-            let name = if name.is_empty() { Rc::from(session.prepared.shown.as_str()) } else { Rc::from(name) };
+            let name =
+                if name.is_empty() { Rc::from(session.prepared.shown.as_str()) } else { Rc::from(name) };
             Lines { name, index: LineIndex::new(text), last: (0, 1) }
         });
         (Rc::clone(&lines.name), lines.line(origin.start))
@@ -104,14 +114,21 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     }
 
     fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
-        if !S::AS_INTERPRETED && matches!(event, Event::Stop(Stop::Optional)) && !self.session.prepared.options.optional_stop {
+        if !S::AS_INTERPRETED
+            && matches!(event, Event::Stop(Stop::Optional))
+            && !self.session.prepared.options.optional_stop
+        {
             return;
         }
         let model = self.session.model;
         let (file, line) = self.place(origin);
         let step = Step {
             event,
-            n: if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) { self.executing } else { origin.n },
+            n: if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) {
+                self.executing
+            } else {
+                origin.n
+            },
             line,
             units: state.units(model).unwrap_or(self.session.prepared.equipment.units),
             feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),

@@ -151,7 +151,8 @@ impl Equipment {
         }
         tool.diameter = told.diameter.map_or(tool.diameter, |diameter| Mm(diameter * mm));
         tool.corner_radius = told.corner_radius.map_or(tool.corner_radius, |radius| Mm(radius * mm));
-        tool.orientation = told.orientation.as_ref().map_or(tool.orientation, |orientation| orientation.value);
+        tool.orientation =
+            told.orientation.as_ref().map_or(tool.orientation, |orientation| orientation.value);
         tool.pocket = told.pocket.unwrap_or(tool.pocket);
     }
 
@@ -198,7 +199,8 @@ fn units_at_power_on(control: &Control, settings: &BTreeMap<String, String>) -> 
         Some(Effect::Millimetre) => return Some(Units::Mm),
         _ => {}
     }
-    let decides = |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
+    let decides =
+        |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
     let setting = control.settings().iter().find(|setting| decides(&setting.values))?;
     let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
     match value.as_str() {
@@ -216,7 +218,7 @@ pub(super) fn start_code(model: &Model<'_>, role: Role) -> Option<CodeIx> {
         let code = control.code_ix(CodeNumber::parse(name)?);
         (code.is_some() && model.role(code) == Some(role)).then_some(code)
     };
-    defaults.chain(&model.semantics().at_start).filter_map(of_role).last()
+    defaults.chain(&model.semantics().at_start).filter_map(of_role).next_back()
 }
 
 /// The number of a work offset as a configuration names it: `G54`, `G154 P3`.
@@ -236,7 +238,8 @@ pub(super) fn axes_of(model: &Model<'_>) -> Vec<Axis> {
     let control = model.control();
     let increments: Vec<Letter> =
         model.semantics().increments.keys().filter_map(|letter| Letter::parse(letter)).collect();
-    let is_axis = |axis: &Axis| control.axes().contains(axis.letter()) && !increments.contains(&axis.letter());
+    let is_axis =
+        |axis: &Axis| control.axes().contains(axis.letter()) && !increments.contains(&axis.letter());
     Axis::ALL.into_iter().filter(is_axis).collect()
 }
 
@@ -256,7 +259,8 @@ impl<'m> AxesSeen<'m> {
     }
 
     pub(super) fn look(&mut self, table: &BlockTable) {
-        let is_call = |kind: &StatementKind| matches!(kind, StatementKind::OWord { keyword: OKeyword::Call, .. });
+        let is_call =
+            |kind: &StatementKind| matches!(kind, StatementKind::OWord { keyword: OKeyword::Call, .. });
         self.calls |= table.all_statements().iter().any(|(_, statement)| is_call(&statement.kind));
         for (_, block) in table.blocks() {
             let mut has_arguments = false;

@@ -48,9 +48,8 @@ impl<'m> ToolNames<'m> {
 
     /// Looks at the blocks of a chunk.
     pub(super) fn look(&mut self, table: &BlockTable, text: &str) {
-        let interesting = |block: &Block| {
-            block.flags.contains(BlockFlags::COMMENT) || block.letters.intersects(LETTERS)
-        };
+        let interesting =
+            |block: &Block| block.flags.contains(BlockFlags::COMMENT) || block.letters.intersects(LETTERS);
         for (_, block) in table.blocks() {
             if !interesting(block) {
                 if !block.letters.is_empty() {
@@ -78,7 +77,8 @@ impl<'m> ToolNames<'m> {
         }
         let tools = &self.model.semantics().tools;
         let t = words.iter().find(|word| word.letter == Letter::of('T')).filter(|_| !has_arguments);
-        let t = t.and_then(gcheck_program::Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
+        let t =
+            t.and_then(gcheck_program::Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
         changes |= t.is_some() && tools.change_by_t;
         self.called = t.or(self.called);
         if let Some((tool, name)) = remark.and_then(entry) {

@@ -26,7 +26,8 @@ pub(super) struct ToolTableFile {
 /// Reads a table; its lengths are in `units`.
 pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> {
     let name = paths::shown_from_here(path);
-    let source = reading::file(Path::new(&name)).map_err(|problem| problem.help("`tools.table` names this file"))?;
+    let source =
+        reading::file(Path::new(&name)).map_err(|problem| problem.help("`tools.table` names this file"))?;
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
     let read = if is_csv { columns } else { words };
     read(source.text(), units.in_mm())
@@ -102,7 +103,10 @@ fn words(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
             if !parsed.is_finite() {
                 return Err(no_number());
             }
-            let whole = || whole(parsed).ok_or_else(|| Mistake::new(range.clone(), format!("`{word}` must be a whole number")));
+            let whole = || {
+                whole(parsed)
+                    .ok_or_else(|| Mistake::new(range.clone(), format!("`{word}` must be a whole number")))
+            };
             match letter.to_ascii_uppercase() {
                 'T' => number = Some(whole()?),
                 'P' => pocket = Some(whole()?),
@@ -119,13 +123,18 @@ fn words(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
                     Some(axis) => tool.offset.set(axis, if axis.is_rotary() { parsed } else { parsed * mm }),
                     None => {
                         let known = "T, P, X, Y, Z, A, B, C, U, V, W, D, I, J and Q";
-                        return Err(Mistake::new(range, format!("`{letter}` says nothing of a tool; known are {known}")));
+                        return Err(Mistake::new(
+                            range,
+                            format!("`{letter}` says nothing of a tool; known are {known}"),
+                        ));
                     }
                 },
             }
         }
         let range = start..start + told.trim_end().len();
-        let Some(number) = number else { return Err(Mistake::new(range, "a tool's line has its number: `T1`")) };
+        let Some(number) = number else {
+            return Err(Mistake::new(range, "a tool's line has its number: `T1`"));
+        };
         // A line's place is its own when it names none.
         tool.pocket = pocket.unwrap_or(number);
         table.add(number, tool, remark, range)?;
@@ -166,9 +175,9 @@ impl Column {
             "corner_radius" | "nose_radius" | "tip_radius" => Self::CornerRadius,
             "q" | "orientation" | "tip" | "tip_direction" => Self::Orientation,
             "comment" | "remark" | "description" | "name" | "title" => Self::Remark,
-            one if one.len() == 1 => Letter::parse(&one.to_uppercase())
-                .and_then(Axis::of)
-                .map_or(Self::Other, Self::Offset),
+            one if one.len() == 1 => {
+                Letter::parse(&one.to_uppercase()).and_then(Axis::of).map_or(Self::Other, Self::Offset)
+            }
             _ => Self::Other,
         }
     }
@@ -208,10 +217,15 @@ fn columns(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
             // A decimal comma can only be meant where commas part nothing.
             let text = if separator == ',' { cell.clone() } else { cell.replace(',', ".") };
             let text = if *column == Column::Number { text.trim_start_matches(['T', 't']) } else { &text };
-            let value: f64 = text.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
-                Mistake::new(range.clone(), format!("`{cell}` is no number"))
-            })?;
-            let whole = || whole(value).ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` must be a whole number")));
+            let value: f64 = text
+                .parse()
+                .ok()
+                .filter(|value: &f64| value.is_finite())
+                .ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` is no number")))?;
+            let whole = || {
+                whole(value)
+                    .ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` must be a whole number")))
+            };
             match column {
                 Column::Number => number = Some(whole()?),
                 Column::Pocket => pocket = Some(whole()?),
@@ -222,10 +236,10 @@ fn columns(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
                 Column::Radius => tool.diameter = Mm(2.0 * value * mm),
                 Column::CornerRadius => tool.corner_radius = Mm(value * mm),
                 Column::Orientation => {
-                    tool.orientation = u8::try_from(whole()?)
-                        .ok()
-                        .filter(|orientation| *orientation <= 9)
-                        .ok_or_else(|| Mistake::new(range.clone(), "a tip points in one of the directions 0 to 9"))?;
+                    tool.orientation =
+                        u8::try_from(whole()?).ok().filter(|orientation| *orientation <= 9).ok_or_else(
+                            || Mistake::new(range.clone(), "a tip points in one of the directions 0 to 9"),
+                        )?;
                 }
                 Column::Remark | Column::Other => {}
             }
@@ -278,10 +292,10 @@ mod tests {
 
     #[test]
     fn words_stand_in_any_order_and_case() {
-        assert_eq!(told(words("T1 P2 Z0.5 D1 ;mill\r\n;nothing\n\n  d+.5 z-1e0 t2\n", 25.4)), [
-            "T1 P2 Z12.7 D25.4 mill",
-            "T2 P2 Z-25.4 D12.7 ",
-        ]);
+        assert_eq!(
+            told(words("T1 P2 Z0.5 D1 ;mill\r\n;nothing\n\n  d+.5 z-1e0 t2\n", 25.4)),
+            ["T1 P2 Z12.7 D25.4 mill", "T2 P2 Z-25.4 D12.7 ",]
+        );
         let table = words("T3 X1 A90 I5 J10 Q9\n", 25.4).unwrap();
         let tool = table.tools[0].1;
         // Angles are degrees in any unit.
@@ -291,7 +305,10 @@ mod tests {
 
     #[test]
     fn columns_are_found_by_their_headings() {
-        assert_eq!(told(columns("Tool,Length,Radius,Comment\n1,2,3,\"a, b\"\"c\"\"\"\n", 1.0)), ["T1 P1 Z2 D6 a, b\"c\""]);
+        assert_eq!(
+            told(columns("Tool,Length,Radius,Comment\n1,2,3,\"a, b\"\"c\"\"\"\n", 1.0)),
+            ["T1 P1 Z2 D6 a, b\"c\""]
+        );
         assert_eq!(told(columns("\u{FEFF}T;Z;D\nT5;1,5;0,25\n", 1.0)), ["T5 P5 Z1.5 D0.25 "]);
         assert_eq!(told(columns("number\tpocket\tcolour\n7\t3\tred\n", 1.0)), ["T7 P3 ZNaN DNaN "]);
         assert_eq!(told(columns("", 1.0)), Vec::<String>::new());

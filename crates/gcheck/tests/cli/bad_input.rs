@@ -169,7 +169,7 @@ fn an_empty_file() {
 
 #[test]
 fn a_large_file() {
-    let mut text = String::from("%\nO0001 (LARGE)\nG90\n");
+    let mut text = String::from("%\nO0001 (LARGE)\nG21 G90 G54\nS3000 M3\n");
     let mut line = 0;
     while text.len() < 30 << 20 {
         let _ = writeln!(text, "N{line} G1 X{}.{:03} Y-1.5 F200.", line % 300, line % 1000);
@@ -556,4 +556,37 @@ fn wrong_arguments() {
     "#]],
     );
     assert_eq!(Shop::new().gcheck("").code, 2);
+}
+
+#[test]
+fn nothing_hangs_or_breaks_a_run() {
+    let programs: [(&str, Vec<u8>); 12] = [
+        ("empty", Vec::new()),
+        ("blank", b"\n\n\r\n".to_vec()),
+        ("tape", b"%\n%\n".to_vec()),
+        ("binary", b"\x7fELF\x02\x01\x01\0\0\0\0\0\0\0\0\0\x02\0>\0\x01".to_vec()),
+        ("latin-1", b"(Fr\xE4sen)\nG0 X1\nM30\n".to_vec()),
+        ("words", format!("G0 {}\nM30\n", "X1.".repeat(100_000)).into_bytes()),
+        ("brackets", format!("#1={}1\nM30\n", "[".repeat(10_000)).into_bytes()),
+        ("recursion", b"O1\nM98 P1\nM30\n".to_vec()),
+        ("calls", b"O1\nM98 P2 L999999999\nM30\nO2\nM98 P3 L999999999\nM99\nO3\nM99\n".to_vec()),
+        ("jump", b"N1 GOTO 1\nM30\n".to_vec()),
+        ("holes", b"G91 G81 X1. Z-1. R1. F100. L999999999\nM30\n".to_vec()),
+        ("numbers", b"G0 X99999999999999999999999999 Y-1e99 Z.\nG1 X#[1/0] F0\nM30\n".to_vec()),
+    ];
+    let shop = Shop::new();
+    for (name, program) in &programs {
+        shop.file(name, program);
+        for control in ["haas-mill", "haas-lathe", "fanuc-mill", "linuxcnc"] {
+            for command in ["run --output-format jsonl -o moves", "stats -o figures"] {
+                let start = Instant::now();
+                let run = shop.gcheck(&format!("{command} {name} --control {control} --fuel 200000"));
+                assert!(
+                    matches!(run.code, 0..=2) && !run.stderr.contains("mistake of gcheck"),
+                    "{command} {name}\n{run}"
+                );
+                assert!(start.elapsed() < PATIENCE, "{command} {name} {:?}", start.elapsed());
+            }
+        }
+    }
 }

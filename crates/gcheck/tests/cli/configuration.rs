@@ -301,8 +301,8 @@ fn what_is_in_force_is_shown() {
         part.nc
           control: linuxcnc, by option
           configuration: none
-          rules (5): code-given-twice, code-must-stand-alone, codes-conflict, too-many-m-codes, two-codes-of-one-group
+          rules (2): codes-conflict, too-many-m-codes
 
         exit 0
-    "#]].assert_eq(&shop.gcheck("check --show-settings --isolated --select modal --control linuxcnc").to_string());
+    "#]].assert_eq(&shop.gcheck("check --show-settings --isolated --select too-many-m-codes,codes-conflict --control linuxcnc").to_string());
 }

@@ -114,13 +114,7 @@ fn a_machine_file_leaves_little_to_assume() {
 
         taken for granted
           where the axes stand at the start is not known
-          the work offset G54 is not known
-          the work offset G55 is not known
           in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
-        gcheck.toml can say
-          [offsets]
-          G54 = { X = …, Y = …, Z = … }
-          G55 = { X = …, Y = …, Z = … }
         ! part.nc: control haas-mill, set in gcheck.toml
         exit 0
     "#]]
@@ -147,7 +141,9 @@ fn json_is_for_other_programs() {
     assert_eq!(json["tools"][1]["holes"], 2);
     let assumptions = json["assumptions"].as_array().unwrap();
     assert!(assumptions.iter().all(|one| one["text"].is_string()), "{assumptions:?}");
-    let without = Shop::with(&[("part.nc", PART)]).gcheck("stats part.nc --control haas-mill --output-format json").json();
+    let without = Shop::with(&[("part.nc", PART)])
+        .gcheck("stats part.nc --control haas-mill --output-format json")
+        .json();
     let pins: Vec<String> = without["assumptions"]
         .as_array()
         .unwrap()
@@ -181,7 +177,9 @@ fn a_program_that_faults_has_figures_up_to_there() {
 #[test]
 fn a_program_that_does_not_say_its_units_has_them_assumed() {
     let shop = Shop::with(&[("part.nc", "%\nO1\nG0 X1.\nM30\n%\n")]);
-    let assumed = |arguments: &str| shop.gcheck(&format!("stats part.nc {arguments}")).stdout.contains("the program does not say");
+    let assumed = |arguments: &str| {
+        shop.gcheck(&format!("stats part.nc {arguments}")).stdout.contains("the program does not say")
+    };
     assert!(assumed("--control haas-mill"));
     assert!(!assumed("--control haas-mill --config machine.units=inch"));
 }
@@ -192,7 +190,10 @@ fn names_of_tools_come_from_the_program_or_the_table() {
         ("part.ngc", "T1 M6\nG0 X1\nT2 M6 (mine)\nG0 X2\nM2\n"),
         ("tool.tbl", "T1 P1 Z1 ;from the table\nT2 P2 Z1 ;from the table\n"),
     ]);
-    let json = shop.gcheck("stats part.ngc --control linuxcnc --output-format json --config tools.table=tool.tbl").json();
-    let names: Vec<&str> = json["tools"].as_array().unwrap().iter().filter_map(|tool| tool["name"].as_str()).collect();
+    let json = shop
+        .gcheck("stats part.ngc --control linuxcnc --output-format json --config tools.table=tool.tbl")
+        .json();
+    let names: Vec<&str> =
+        json["tools"].as_array().unwrap().iter().filter_map(|tool| tool["name"].as_str()).collect();
     assert_eq!(names, ["from the table", "mine"]);
 }

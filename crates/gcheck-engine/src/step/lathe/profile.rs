@@ -18,8 +18,8 @@ use super::super::{Count, Executor, Flow, Outcome, Statements, Step};
 use super::keep;
 use crate::assumption::Assumption;
 use crate::cycles::{
-    CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileSegment, Roughing, RoughingDirection,
-    layered_finish, layered_roughing, pattern_repeat, roughing,
+    CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileSegment, Roughing,
+    RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
 };
 use crate::event::{TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
@@ -67,7 +67,12 @@ type CutCorner = ((f64, f64), ProfileSegment, (f64, f64));
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G70` to `G73` of lathes.
-    pub(in crate::step) fn profile_cycle(&mut self, effect: Effect, ix: CodeIx, state: &mut State<D>) -> Step {
+    pub(in crate::step) fn profile_cycle(
+        &mut self,
+        effect: Effect,
+        ix: CodeIx,
+        state: &mut State<D>,
+    ) -> Step {
         if !self.takes_label(ix, "P") {
             return self.layered_cycle(effect, ix, state);
         }
@@ -119,7 +124,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let first = find(first, at.block, 'P')?;
         let last = find(last, first, 'Q')?;
-        if last < first { Err(Fault::Profile) } else { Ok(Some(ProfileBlocks { file: at.file, first, last })) }
+        if last < first {
+            Err(Fault::Profile)
+        } else {
+            Ok(Some(ProfileBlocks { file: at.file, first, last }))
+        }
     }
 
     /// The first of two blocks: depth and way back, or shift and passes.
@@ -361,7 +370,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn sequence_number(&mut self, at: At) -> Option<u32> {
         let place = self.place(at)?;
-        place.table.words(place.block()).iter().find(|word| word.letter == Letter::of('N')).and_then(Word::integer)
+        place
+            .table
+            .words(place.block())
+            .iter()
+            .find(|word| word.letter == Letter::of('N'))
+            .and_then(Word::integer)
     }
 
     // ---- reading ----
@@ -394,7 +408,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Is everything read?
-    fn read_blocks(&mut self, blocks: ProfileBlocks, state: &mut State<D>, drawing: &mut Drawing) -> Step<bool> {
+    fn read_blocks(
+        &mut self,
+        blocks: ProfileBlocks,
+        state: &mut State<D>,
+        drawing: &mut Drawing,
+    ) -> Step<bool> {
         let mut block = blocks.first;
         let mut left = MOST_BLOCKS;
         while (blocks.first..=blocks.last).contains(&block) {
@@ -416,7 +435,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end: place.base + read.range.end,
                 flags: read.flags,
                 letters: read.letters,
-                n: table.words(read).iter().find(|word| word.letter == Letter::of('N')).and_then(Word::integer),
+                n: table
+                    .words(read)
+                    .iter()
+                    .find(|word| word.letter == Letter::of('N'))
+                    .and_then(Word::integer),
             };
             self.observer.before(self.origin, state);
             if read.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
@@ -471,7 +494,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if code.takes_axes {
                 return Ok(Drawn::On);
             }
-            if let Some(role @ (Role::Motion | Role::Distance | Role::ArcCentre | Role::Diameter)) = code.role {
+            if let Some(role @ (Role::Motion | Role::Distance | Role::ArcCentre | Role::Diameter)) = code.role
+            {
                 state.set_mode(role, ix);
             }
         }
@@ -524,7 +548,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             plain.filter(|_| takes("R"))
         });
         let chamfer = self.words.number(Letter::CORNER_C);
-        let corner = radius.map(|r| Corner::Round(r * unit)).or_else(|| chamfer.map(|c| Corner::Chamfer(c * unit)));
+        let corner =
+            radius.map(|r| Corner::Round(r * unit)).or_else(|| chamfer.map(|c| Corner::Chamfer(c * unit)));
         if let Some(corner) = corner {
             drawing.corners.push((drawing.segments.len(), corner));
         }
@@ -591,7 +616,11 @@ enum Drawn {
 }
 
 /// The pieces with fillets and chamfers between straight ones. A corner that does not fit stays sharp.
-fn with_corners(start: (f64, f64), pieces: &[ProfileSegment], corners: &[(usize, Corner)]) -> Vec<ProfileSegment> {
+fn with_corners(
+    start: (f64, f64),
+    pieces: &[ProfileSegment],
+    corners: &[(usize, Corner)],
+) -> Vec<ProfileSegment> {
     let mut shaped = Vec::with_capacity(pieces.len() + corners.len());
     let mut at = start;
     for (index, piece) in pieces.iter().enumerate() {
@@ -625,12 +654,7 @@ fn with_corners(start: (f64, f64), pieces: &[ProfileSegment], corners: &[(usize,
 }
 
 /// Where a corner begins, its piece, and where it ends.
-fn cut_corner(
-    from: (f64, f64),
-    corner: (f64, f64),
-    to: (f64, f64),
-    shape: Corner,
-) -> Option<CutCorner> {
+fn cut_corner(from: (f64, f64), corner: (f64, f64), to: (f64, f64), shape: Corner) -> Option<CutCorner> {
     let (before, behind) = ((corner.0 - from.0, corner.1 - from.1), (to.0 - corner.0, to.1 - corner.1));
     let (length, other) = (before.0.hypot(before.1), behind.0.hypot(behind.1));
     let (d, e) = ((before.0 / length, before.1 / length), (behind.0 / other, behind.1 / other));

@@ -1,6 +1,8 @@
 //! An arc whose end does not lie on its circle.
 
-use gcheck_engine::{ArcFault, Fact, Fault, Role, Units};
+use gcheck_controls::{Letter, Unpointed};
+use gcheck_engine::{ArcFault, Event, Fact, Fault, Position, Role, Units};
+use gcheck_program::Word;
 
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
@@ -34,24 +36,92 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcEndOffCircle) },
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::MOVES),
+            make: || Box::new(ArcEndOffCircle::default()),
+        },
     }
 }
 
-struct ArcEndOffCircle;
+#[derive(Default)]
+struct ArcEndOffCircle {
+    /// The programmed point before the block.
+    at: Option<Position>,
+    /// An arc was told of whose centre fits when it is counted from the origin: the others say the same.
+    absolute: bool,
+}
 
 impl PathRule for ArcEndOffCircle {
+    fn moved(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.at = match event {
+            Event::Travel(travel) => Some(travel.programmed),
+            Event::Arc(arc) => Some(arc.programmed),
+            _ => None,
+        };
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Arc(ArcFault::OffCircle { start, end }) = *fault else { return };
+        let before = self.at.replace(*cx.state().position());
+        if counts_least_increments(cx) {
+            return;
+        }
+        let is_absolute = before.is_some_and(|from| fits_from_origin(cx, &from));
+        if is_absolute && std::mem::replace(&mut self.absolute, true) {
+            return;
+        }
         let (from, to) = (length(cx, start), length(cx, end));
         let difference = length(cx, (end - start).abs());
-        let is_centre = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K');
-        let finding = cx
+        let is_centre = |word: &Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K');
+        let mut finding = cx
             .finding(&META, cx.word_range(is_centre), format!("arc ends {difference} off its circle"))
-            .label(format!("the centre is {from} from the start and {to} from the end"))
-            .help("check the signs of the centre words, the end point, and where the block before ends");
+            .label(format!("the centre is {from} from the start and {to} from the end"));
+        finding = if is_absolute {
+            finding
+                .note("counted from the origin instead of the start of the arc, the centre fits; arcs like this one are told of once")
+                .help("have the centres written as distances from the start of the arc")
+        } else {
+            finding.help("check the signs of the centre words, the end point, and where the block before ends")
+        };
         report.add(judged(cx, finding));
     }
+}
+
+/// Would the arc be one if its centre were counted from the origin?
+fn fits_from_origin(cx: &PathCx<'_>, from: &Position) -> bool {
+    let (Some(place), Some(plane)) = (cx.place(), cx.state().plane(cx.model)) else { return false };
+    let unit = cx.state().units(cx.model).map_or(f64::NAN, Units::in_mm);
+    let words = place.table.words(place.block());
+    let value = |letter: char| {
+        let word = words.iter().find(|word| word.letter == Letter::of(letter));
+        word.map_or(Some(0.0), |word| word.number().map(|number| number * unit))
+    };
+    let (Some(i), Some(j), Some(k)) = (value('I'), value('J'), value('K')) else { return false };
+    let [first, second, _] = plane.to_local([i, j, k]);
+    let distance = |position: &Position| {
+        let [a, b, _] = plane.to_local(position.xyz());
+        (a.0 - first).hypot(b.0 - second)
+    };
+    let (start, end) = (distance(from), distance(cx.state().position()));
+    start > 0.01 && (start - end).abs() <= f64::max(0.02, start * 0.002)
+}
+
+/// Were numbers of this block or of those before it written without decimal point, on a control that counts them in least
+/// increments? Which of the two was meant is another rule's business, and where the tool stands hangs on it.
+pub(crate) fn counts_least_increments(cx: &PathCx<'_>) -> bool {
+    if cx.scene.control().numbers().unpointed == Unpointed::AsWritten {
+        return false;
+    }
+    let at = cx.origin().at;
+    let is_unpointed = |word: &Word| {
+        matches!(word.letter.ascii(), b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'I' | b'J' | b'K' | b'R')
+            && !word.shape.point
+            && word.number().is_some_and(|number| number.abs() > 0.0)
+    };
+    (at.block.saturating_sub(8)..=at.block).any(|block| {
+        let place = cx.place_of(gcheck_engine::At { block, ..at });
+        place.is_some_and(|place| place.table.words(place.block()).iter().any(is_unpointed))
+    })
 }
 
 /// A length as the program counts, rounded to what controls resolve.
@@ -106,6 +176,22 @@ mod tests {
             2 | G2 X10.05 Y0. I5. F100.
               |               ^^^ warning[arc-end-off-circle] arc ends 0.05 mm off its circle
         "#]]);
+    }
+
+    #[test]
+    fn centres_from_the_origin_are_told_of_once() {
+        let program = "G17 G21 G90 G0 X55. Y-40.\nG1 X55.123 Y-39.556 F100.\n\
+            G3 X39.556 Y-55.123 I39.556 J-39.556\nG1 X-39.556\nG2 X-55.123 Y-39.556 I-39.556 J-39.556\nM30\n";
+        check_rule(&RULE, "fanuc-mill", program, &expect![[r#"
+            3 | G3 X39.556 Y-55.123 I39.556 J-39.556
+              |                     ^^^^^^^ warning[arc-end-off-circle] arc ends 4.176 mm off its circle
+        "#]]);
+    }
+
+    #[test]
+    fn numbers_without_decimal_point_are_judged_elsewhere() {
+        let program = "G17 G21 G90 G0 X0. Y0.\nG1 X10 F100.\nG2 X20. Y0. I5.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
     }
 
     #[test]

@@ -1,7 +1,9 @@
 //! A block that looks like a straight move while an arc mode is active.
 
+use std::collections::BTreeSet;
+
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{ArcFault, Fact, Fault, Role};
+use gcheck_engine::{ArcFault, At, Fact, Fault, Role};
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
@@ -10,7 +12,8 @@ declare_rule! {
     /// A block gives an end point only, while an arc (`G2`, `G3`) of an earlier block is still the kind of motion.
     ///
     /// ## Why it matters
-    /// A `G1` or `G0` is missing behind the arc. The control stops with an alarm, or moves in a way that nobody meant.
+    /// A `G1` or `G0` is missing behind the arc. The control stops with an alarm, or goes straight to the point, whatever was
+    /// meant; on some a parameter decides.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -32,11 +35,18 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcModeLeftOn) },
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcModeLeftOn::default()) },
     }
 }
 
-struct ArcModeLeftOn;
+#[derive(Default)]
+struct ArcModeLeftOn {
+    /// Blocks that chose the arcs told of: the first block without centre speaks for those behind it.
+    told: BTreeSet<Option<At>>,
+}
+
+/// What the setting is about that lets a control go straight, and its value then.
+const SETTING: (&str, &str) = ("arc without radius and centre", "straight line");
 
 impl PathRule for ArcModeLeftOn {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
@@ -44,17 +54,30 @@ impl PathRule for ArcModeLeftOn {
             return;
         }
         // A block that names the arc itself is another matter: a word is missing there.
-        if cx.has_effect(|effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise)) {
+        let arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
+        if cx.has_effect(arc) || !cx.state().effect(Role::Motion, cx.model).is_some_and(arc) {
             return;
         }
         let Some(code) = cx.code_name(Role::Motion) else { return };
-        let finding = cx
+        let fact = Fact::Mode(Role::Motion);
+        let setting = cx.scene.control().settings().iter().find(|setting| setting.title == SETTING.0);
+        let value = setting.and_then(|setting| cx.scene.setting(&setting.number)).map(|(value, _)| value);
+        if value == Some(SETTING.1) || !self.told.insert(cx.trace().set_by(fact)) {
+            return;
+        }
+        let mut finding = cx
             .finding(&META, cx.range(), format!("end point alone while an arc is the kind of motion (`{code}`)"))
             .label("neither centre nor radius")
-            .help("write `G1` or `G0` if the move is straight, else give the centre or the radius")
-            // Some controls go straight instead of stopping.
-            .at_most(if cx.model.semantics().compensation.freezes_modes { Severity::Error } else { Severity::Warning });
-        report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), &format!("`{code}`")));
+            .help("write `G1` or `G0` if the move is straight, else give the centre or the radius");
+        finding = match setting {
+            // Programs rely on it where the control goes straight.
+            Some(setting) if value.is_none() => finding
+                .note(format!("setting {} decides: a straight line, or an alarm", setting.number))
+                .at_most(Severity::Info),
+            _ if cx.model.semantics().compensation.freezes_modes => finding,
+            _ => finding.at_most(Severity::Warning),
+        };
+        report.add(cx.resting_on(finding, fact, &format!("`{code}`")));
     }
 }
 
@@ -66,7 +89,7 @@ mod tests {
     use crate::testing::check_rule;
 
     #[test]
-    fn each_block_is_marked() {
+    fn the_first_block_is_marked() {
         check_rule(
             &RULE,
             "linuxcnc",
@@ -74,8 +97,6 @@ mod tests {
             &expect![[r#"
                 3 | X20
                   | ^^^ error[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
-                4 | Y5
-                  | ^^ error[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
             "#]],
         );
     }
@@ -83,6 +104,15 @@ mod tests {
     #[test]
     fn an_arc_that_is_named_is_judged_by_another_rule() {
         check_rule(&RULE, "haas-mill", "G17 G90 G0 X0 Y0\nG2 X10. F10.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_setting_may_let_the_control_go_straight() {
+        let program = "G17 G21 G90 G0 X0. Y0.\nG2 X10. I5. F100.\nX20.\nM30\n";
+        check_rule(&RULE, "fanuc-mill", program, &expect![[r#"
+            3 | X20.
+              | ^^^^ info[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
+        "#]]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use super::arc_end_off_circle::{judged, length};
+use super::arc_end_off_circle::{counts_least_increments, judged, length};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -39,6 +39,9 @@ struct ArcRadiusTooSmall;
 impl PathRule for ArcRadiusTooSmall {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Arc(ArcFault::RadiusTooSmall { half_chord, radius }) = *fault else { return };
+        if counts_least_increments(cx) {
+            return;
+        }
         let finding = cx
             .finding(&META, cx.letter_range('R'), "arc radius (`R`) does not reach the end point")
             .label(format!("{}, and the end is {} away", length(cx, radius), length(cx, 2.0 * half_chord)))

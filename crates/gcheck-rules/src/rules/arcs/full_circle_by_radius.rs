@@ -2,7 +2,7 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use super::arc_end_off_circle::judged;
+use super::arc_end_off_circle::{counts_least_increments, judged};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -39,6 +39,9 @@ struct FullCircleByRadius;
 impl PathRule for FullCircleByRadius {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::Arc(ArcFault::FullCircleByRadius) {
+            return;
+        }
+        if counts_least_increments(cx) {
             return;
         }
         let finding = cx

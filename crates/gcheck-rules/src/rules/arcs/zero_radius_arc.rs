@@ -2,7 +2,7 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use super::arc_end_off_circle::judged;
+use super::arc_end_off_circle::{counts_least_increments, judged};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -38,6 +38,9 @@ struct ZeroRadiusArc;
 impl PathRule for ZeroRadiusArc {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::Arc(ArcFault::ZeroRadius) {
+            return;
+        }
+        if counts_least_increments(cx) {
             return;
         }
         let is_size = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K' | b'R');

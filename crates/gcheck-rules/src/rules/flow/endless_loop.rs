@@ -55,9 +55,8 @@ declare_rule! {
 struct EndlessLoop;
 
 impl PathRule for EndlessLoop {
-    fn endless(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let head = cx.origin().at;
-        let Some(turn) = turn_block(cx) else { return };
+    fn endless(&mut self, cx: &PathCx<'_>, head: At, report: &mut Report<'_>) {
+        let turn = cx.origin().at;
         if waits_for_somebody(cx, head, turn) {
             return;
         }
@@ -75,24 +74,7 @@ impl PathRule for EndlessLoop {
     }
 }
 
-/// The block that leads back: bytes of the block that was executed last, the number of the one gone back to.
-fn turn_block(cx: &PathCx<'_>) -> Option<At> {
-    let head = cx.origin().at;
-    let file = cx.program.file(head.file)?;
-    let outline = file.loaded.outline();
-    let start = cx.origin().start;
-    let mut turn = None;
-    for block in outline.part_of(head.block) {
-        let at = At { file: head.file, block };
-        if cx.place_of(at)?.range().start == start {
-            turn = Some(at);
-            break;
-        }
-    }
-    turn
-}
-
-/// Stops for the operator inside the loop, or a return that starts the program again.
+/// Stops for the operator or asks an input inside the loop, or a return that starts the program again.
 fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
     let has = |block: u32, is: &dyn Fn(Effect) -> bool| {
         let Some(place) = cx.place_of(At { file: head.file, block }) else { return false };
@@ -101,7 +83,16 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
     let waits = |effect: Effect| {
         matches!(
             effect,
-            Effect::Stop | Effect::OptionalStop | Effect::PalletStop | Effect::BarFeed | Effect::WaitForInput
+            Effect::Stop
+                | Effect::OptionalStop
+                | Effect::PalletStop
+                | Effect::BarFeed
+                | Effect::WaitForInput
+                | Effect::ProbeToward
+                | Effect::ProbeTowardOptional
+                | Effect::ProbeAway
+                | Effect::ProbeAwayOptional
+                | Effect::Skip
         )
     };
     let calls = |effect: Effect| {

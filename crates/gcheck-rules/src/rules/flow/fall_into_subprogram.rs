@@ -137,7 +137,7 @@ fn entries(cx: &PathCx<'_>) -> BTreeSet<u32> {
             let has_end = cx.survey.ends.iter().any(|end| {
                 matches!(end.ends, Ends::Program | Ends::Subprogram) && (from..to).contains(&end.range.start)
             });
-            if has_end && part.head.is_some() {
+            if has_end && part.number.is_some() {
                 entries.insert(part.blocks.start);
             }
         }
@@ -158,13 +158,19 @@ mod tests {
             &RULE,
             "haas-mill",
             "M97 P100\nG0 Z1.\nN100 (SLOT)\nG91 G1 X.1 F10.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | N100 (SLOT)
+                  | ^^^^^^^^^^^ warning[fall-into-subprogram] program runs into a subprogram without a call
+            "#]],
         );
         check_rule(
             &RULE,
             "fanuc-mill",
             "O1\nM98 P2\nGOTO 5\nM30\nN5 G0 X1.\nO2\nG0 X2.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | O2
+                  | ^^ warning[fall-into-subprogram] program runs into the next program of the file
+            "#]],
         );
     }
 

@@ -112,7 +112,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "O1\nIF [#500 EQ 1] GOTO 20\nWHILE [#501 LT 5] DO1\nN20 #501= #501 + 1\nEND1\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | IF [#500 EQ 1] GOTO 20
+                  |                ^^^^^^^ warning[jump-into-loop] jump into a loop
+            "#]],
         );
     }
 
@@ -122,7 +125,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "O1\nWHILE [#501 LT 5] DO1\nGOTO 20\nEND1\nWHILE [#502 LT 5] DO1\nN20 #502=#502+1\nEND1\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | GOTO 20
+                  | ^^^^^^^ warning[jump-into-loop] jump into a loop
+            "#]],
         );
     }
 

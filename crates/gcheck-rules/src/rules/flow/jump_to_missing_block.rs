@@ -34,7 +34,7 @@ declare_rule! {
     /// #1=1
     /// GOTO [#1*10]
     /// N10 GOTO #500
-    /// M30
+    /// N20 M30
     /// ```
     rule "jump-to-missing-block" in "flow" {
         summary: "computed jump to a block that does not exist",
@@ -83,9 +83,18 @@ mod tests {
 
     #[test]
     fn the_block_that_jumps_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nGOTO #1\nN1 M30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nM97 P#1\nN1 M30\n", &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nM99 P50\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nGOTO #1\nN1 M30\n", &expect![[r#"
+            3 | GOTO #1
+              | ^^^^^^^ error[jump-to-missing-block] jump to `N3`, which does not exist
+        "#]]);
+        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nM97 P#1\nN1 M30\n", &expect![[r#"
+            3 | M97 P#1
+              | ^^^^^^^ error[jump-to-missing-block] jump to `N3`, which does not exist
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nM99 P50\n", &expect![[r#"
+            5 | M99 P50
+              | ^^^^^^^ error[jump-to-missing-block] jump to `N50`, which does not exist
+        "#]]);
     }
 
     #[test]

@@ -63,8 +63,9 @@ struct LoopConditionUnchanged {
 }
 
 impl PathRule for LoopConditionUnchanged {
-    fn endless(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        self.endless.insert(cx.origin().at.block);
+    fn endless(&mut self, cx: &PathCx<'_>, head: At, _: &mut Report<'_>) {
+        let _ = cx;
+        self.endless.insert(head.block);
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
@@ -256,7 +257,10 @@ mod tests {
 
     #[test]
     fn a_loop_that_repeats_itself_is_told_elsewhere() {
-        check_rule(&RULE, "fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[r#"
+            2 | WHILE [#1 LT 5] DO1
+              | ^^^^^^^^^^^^^^^^^^^ warning[loop-condition-unchanged] loop does not change what its condition asks for
+        "#]]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
 use crate::meta::declare_rule;
 use crate::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
-use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Watch};
+use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// No path of the program comes to these blocks: they stand behind an end, a return or a jump, and no jump, call or
@@ -41,7 +41,8 @@ declare_rule! {
     /// N100 G1 X2. F10.
     /// M99
     /// ```
-    /// Where a variable decides that the program does not set, both ways are taken.
+    /// What a condition leaves out with the values that the program itself sets is a hint at most: such a program has its
+    /// settings at its top. Where a variable decides that the program does not set, both ways are taken.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// IF [#500 EQ 1] GOTO 20
@@ -111,8 +112,15 @@ fn goes_anywhere(cx: &FinishCx<'_>) -> bool {
 struct Group {
     range: Range<u32>,
     blocks: usize,
-    /// The last reached block in front, when it leads elsewhere.
-    behind: Option<Range<u32>>,
+    cause: Cause,
+}
+
+/// Why nothing comes here.
+enum Cause {
+    /// The block in front always leads elsewhere.
+    LedAway(Range<u32>),
+    /// The block in front decides, and the values that the program sets decide one way.
+    Decided(Range<u32>),
 }
 
 fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
@@ -138,7 +146,9 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
             let Some(place) = file.loaded.place(block, cx.scene.dialect) else { continue };
             // The body of a subroutine runs when it is called; an uncalled one is whole.
             let uncalled = outline.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
-            if uncalled || !does_something(&place) {
+            // The `while` at the end of a `do`, behind a `break`.
+            let ends_loop = outline.o_word(block).is_some_and(|links| links.head.is_some());
+            if uncalled || !does_something(&place, ends_loop) {
                 continue;
             }
             match &mut open {
@@ -147,17 +157,50 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                     group.blocks += 1;
                 }
                 None => {
-                    let behind = last_reached
-                        .and_then(|block| file.loaded.place(block, cx.scene.dialect))
-                        .filter(|place| leads_away(place, cx.model))
-                        .map(|place| place.range());
-                    open = Some(Group { range: place.range(), blocks: 1, behind });
+                    let above = last_reached.and_then(|block| file.loaded.place(block, cx.scene.dialect));
+                    let range = place.range();
+                    // Behind a call, the program that is called may not come back: that is not told by its caller.
+                    open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block).map(|cause| Group { range, blocks: 1, cause });
+                    if open.is_none() {
+                        last_reached = None;
+                    }
                 }
             }
         }
         groups.extend(open);
     }
     groups
+}
+
+fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Option<Cause> {
+    let above = above?;
+    // A branch or a target in between says that a condition decides elsewhere.
+    if leads_away(above, cx.model) && !(last + 1..=block).any(|between| is_led_to(cx, between)) {
+        return Some(Cause::LedAway(above.range()));
+    }
+    // What a subprogram does with other arguments is its own matter.
+    let outline = cx.program.file(0)?;
+    let outline = outline.loaded.outline();
+    let is_called = outline.sub_around(block).is_some() || !outline.main().contains(&block);
+    let decides = above.block().flags.contains(BlockFlags::STATEMENT)
+        && !above.table.statements(above.ix).any(|statement| {
+            matches!(statement.kind, StatementKind::OWord { keyword: OKeyword::Call, .. })
+        });
+    (decides && !is_called).then(|| Cause::Decided(above.range()))
+}
+
+/// Does a statement or jump of the text lead to the block?
+fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
+    let Some(file) = cx.program.file(0) else { return false };
+    if !file.loaded.outline().may_be_target(block) {
+        return false;
+    }
+    let Some(place) = file.loaded.place(block, cx.scene.dialect) else { return false };
+    let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N');
+    match label.and_then(|word| word.integer()) {
+        Some(number) => cx.survey.jumps.iter().any(|jump| jump.target == Some(number)),
+        None => place.table.statements(place.ix).next().is_some(),
+    }
 }
 
 /// Blocks that a code reads as a profile or calls by their sequence numbers (`G70 P10 Q20`), wherever they stand.
@@ -190,7 +233,7 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
 }
 
 /// More than a comment, a label, an end, or the frame of a loop or branch.
-fn does_something(place: &Place) -> bool {
+fn does_something(place: &Place, ends_loop: bool) -> bool {
     let block = place.block();
     // Notes for people behind the end of a program.
     if block.flags.intersects(BlockFlags::ERROR | BlockFlags::TAPE_MARK) {
@@ -212,7 +255,7 @@ fn does_something(place: &Place) -> bool {
                 }
             )
     };
-    if place.table.statements(place.ix).any(|statement| !frame(&statement.kind)) {
+    if place.table.statements(place.ix).any(|statement| !frame(&statement.kind)) && !ends_loop {
         return true;
     }
     place.table.words(block).iter().any(|word| match word.letter.ascii() {
@@ -231,9 +274,12 @@ fn finding(group: Group) -> Finding {
         (format!("no path reaches these {} blocks", group.blocks), "remove the blocks, or let a jump or call lead to them")
     };
     let finding = Finding::new(&META, group.range, message).label("never executed").help(help);
-    match group.behind {
-        Some(range) => finding.also(range, "execution goes elsewhere here"),
-        None => finding,
+    match group.cause {
+        Cause::LedAway(range) => finding.also(range, "execution goes elsewhere here"),
+        // A program with settings at its top leaves out what they do not ask for.
+        Cause::Decided(range) => {
+            finding.also(range, "the values that the program sets always decide this one way").at_most(Severity::Hint)
+        }
     }
 }
 
@@ -270,7 +316,7 @@ mod tests {
             "O1\n#1=3\nIF [#1 LT 5] GOTO 10\nG0 X1.\nN10 M30\n",
             &expect![[r#"
                 4 | G0 X1.
-                  | ^^^^^^ warning[unreachable-block] no path reaches this block
+                  | ^^^^^^ hint[unreachable-block] no path reaches this block
             "#]],
         );
     }
@@ -308,6 +354,31 @@ mod tests {
             "O1\nT0101\nG0 X50. Z2.\nG71 U1. R.5\nG71 P10 Q20 U.2 W.1 F.2\nG70 P10 Q20\nM30\nN10 G0 X20.\nG1 Z-10. F.1\nN20 X50.\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_subroutine_may_have_branches_that_no_call_asks_for() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\no2 if [#1 GT 1]\nG0 X1\no2 endif\no1 endsub\no1 call [1]\nM2\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_branch_that_returns_leaves_the_rest_to_a_condition() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\no2 if [#1 GT 0]\no1 return\no2 endif\nG0 X1\no1 endsub\no1 call [1]\nM2\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_end_of_a_loop_behind_a_break_is_nothing() {
+        check_rule(&RULE, "linuxcnc", "o1 do\nG0 X1\no1 break\no1 while [1]\nM2\n", &expect![[""]]);
     }
 
     #[test]

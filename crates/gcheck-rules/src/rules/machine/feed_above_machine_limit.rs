@@ -15,12 +15,14 @@ declare_rule! {
     /// ## Reported
     /// On a machine with 10,000 mm a minute:
     /// ```nc,reported,fanuc-mill
-    /// G21 G94 G1 X10. F12000.
+    /// G21
+    /// G94 G1 X10. F12000.
     /// M30
     /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
-    /// G21 G94 G1 X10. F8000.
+    /// G21
+    /// G94 G1 X10. F8000.
     /// M30
     /// ```
     rule "feed-above-machine-limit" in "machine" {
@@ -36,11 +38,13 @@ struct FeedAboveMachineLimit;
 
 impl PathRule for FeedAboveMachineLimit {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Event::FeedRate(_), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else { return };
+        let (Event::FeedRate(rate), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else { return };
         if cx.state().feed_mode(cx.model) != Some(FeedMode::PerMinute) {
             return;
         }
-        let Some((lowest, _)) = Abstract::bounds(cx.state().feed()) else { return };
+        // A feed that is one of several is at least the lowest.
+        let lowest = if rate.is_nan() { Abstract::bounds(cx.state().feed()).map(|(lowest, _)| lowest) } else { Some(*rate) };
+        let Some(lowest) = lowest else { return };
         if lowest <= highest.0 * (1.0 + 1e-9) {
             return;
         }
@@ -68,15 +72,18 @@ mod tests {
         check_rule_in(
             &RULE,
             "haas-mill",
-            "G20 G94 G1 X1. F500.\nG1 X2. F300.\nM30\n",
+            "G20\nG94 G1 X1. F500.\nG1 X2. F300.\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                2 | G94 G1 X1. F500.
+                  |            ^^^^^ warning[feed-above-machine-limit] feed of 12700 mm/min is above the machine's 10000 mm/min (`F`)
+            "#]],
         );
     }
 
     #[test]
     fn inverse_time_is_no_speed() {
-        check_rule_in(&RULE, "haas-mill", "G20 G93 G1 X1. F90000.\nM30\n", &World::of_examples(&META), &expect![[""]]);
+        check_rule_in(&RULE, "haas-mill", "G20\nG93 G1 X1. F90000.\nM30\n", &World::of_examples(&META), &expect![""]);
     }
 
     #[test]

@@ -81,7 +81,10 @@ mod tests {
             "linuxcnc",
             "G21 S5000 M3\nS8001\nS#1\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                2 | S8001
+                  | ^^^^^ warning[speed-above-machine-limit] speed of 8001 rpm is above the machine's 8000 rpm (`S`)
+            "#]],
         );
     }
 

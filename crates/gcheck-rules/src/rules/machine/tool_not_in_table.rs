@@ -76,13 +76,21 @@ mod tests {
             "linuxcnc",
             "G21 T7 M6\nG43 H2\nG43 H9\nM2\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                1 | G21 T7 M6
+                  |     ^^ error[tool-not-in-table] the tool table has no tool 7
+                3 | G43 H9
+                  |     ^^ error[tool-not-in-table] the tool table has no tool 9
+            "#]],
         );
     }
 
     #[test]
     fn a_turret_names_tool_and_offset_in_one_word() {
-        check_rule_in(&RULE, "fanuc-lathe", "T0707\nM30\n", &World::of_examples(&META), &expect![[""]]);
+        check_rule_in(&RULE, "fanuc-lathe", "T0707\nM30\n", &World::of_examples(&META), &expect![[r#"
+            1 | T0707
+              | ^^^^^ error[tool-not-in-table] the tool table has no tool 7
+        "#]]);
     }
 
     #[test]

@@ -43,10 +43,13 @@ declare_rule! {
 struct AxisWordsWithoutMotionMode {
     /// What ended the motion mode: the first block behind each speaks for the others.
     told: BTreeSet<Option<At>>,
+    unknown_code: bool,
 }
 
 impl PathRule for AxisWordsWithoutMotionMode {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        // A code that nobody knows may have chosen a kind of motion.
+        self.unknown_code |= *fault == Fault::UnknownCode;
         if *fault != Fault::NoMotionMode || cx.has_effect(|effect| effect == Effect::NurbsClose) {
             return;
         }
@@ -64,7 +67,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
         }
         let set = |role| cx.trace().set_by(Fact::Mode(role));
         let cause = set(Role::Cycle).max(set(Role::Motion));
-        if cause.is_none() && cx.is_called_only() || !self.told.insert(cause) {
+        if cause.is_none() && (self.unknown_code || cx.is_called_only()) || !self.told.insert(cause) {
             return;
         }
         let mut finding = cx
@@ -115,6 +118,11 @@ mod tests {
     }
 
     #[test]
+    fn behind_a_code_that_nobody_knows_nothing_is_certain() {
+        check_rule(&RULE, "linuxcnc", "G21 G90\nG84.2 X1\nX10 Y10\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
     fn where_the_motion_mode_goes_on_behind_a_cycle_nothing_is_wrong() {
         check_rule(&RULE, "haas-mill", "G0 X0 Y0\nG81 Z-1. R.1 F10.\nG80\nX2.\nM30\n", &expect![[""]]);
     }
@@ -127,7 +135,7 @@ mod tests {
             "G17 G90 G0 X0 Y0\nG2 X10 I5 F100\nG53 Z0\nG53 G0 Z0\nM2\n",
             &expect![[r#"
                 3 | G53 Z0
-                  | ^^^ error[axis-words-without-motion-mode] move in machine coordinates that is neither rapid nor straight (`G2` is active)
+                  | ^^^ error[axis-words-without-motion-mode] machine coordinates in a move that is neither `G0` nor `G1` (`G2` is active)
             "#]],
         );
     }

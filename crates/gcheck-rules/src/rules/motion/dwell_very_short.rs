@@ -6,7 +6,7 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A dwell lasts less than twenty milliseconds, and is not zero.
+    /// A dwell lasts less than twenty milliseconds, but more than one: `G4 P1` is written to keep the control from reading ahead.
     ///
     /// ## Why it matters
     /// Some controls count a dwell in milliseconds, others in seconds: `G4 P2` is two seconds on one and no noticeable time
@@ -34,6 +34,8 @@ declare_rule! {
 
 /// Seconds: less than a spindle needs for a turn.
 const SHORT: f64 = 0.02;
+/// Milliseconds: the shortest dwell there is only keeps the control from reading ahead.
+const SHORTEST: f64 = 1.0001;
 
 struct DwellVeryShort;
 
@@ -41,7 +43,7 @@ impl PathRule for DwellVeryShort {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Dwell(time) = event else { return };
         let milliseconds = time.0 * 1000.0;
-        if !(milliseconds > 0.0 && time.0 < SHORT) {
+        if !(milliseconds > SHORTEST && time.0 < SHORT) {
             return;
         }
         let dwell = &cx.model.semantics().dwell;
@@ -70,10 +72,10 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "G4 P1\nG4 P1000\nG4 X2.\nG4 P0\nG4 P#100\nM30\n",
+            "G4 P1\nG4 P3\nG4 P1000\nG4 X2.\nG4 P0\nG4 P#100\nM30\n",
             &expect![[r#"
-                1 | G4 P1
-                  |    ^^ info[dwell-very-short] dwell of 1 milliseconds
+                2 | G4 P3
+                  |    ^^ info[dwell-very-short] dwell of 3 milliseconds
             "#]],
         );
     }

@@ -82,7 +82,12 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20\nG1 X1. F0.\nX2.\nG1 X3. F5.\nF0\nG0 X4.\nG1 X5.\nX6.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | G1 X1. F0.
+                  |        ^^^ error[feed-zero] cut at a feed of zero (`F`)
+                7 | G1 X5.
+                  | ^^^^^^ error[feed-zero] cut at a feed of zero (`F`)
+            "#]],
         );
     }
 

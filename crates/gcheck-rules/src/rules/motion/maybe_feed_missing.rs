@@ -89,7 +89,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21\nIF [#500 EQ 1] THEN #1=5\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nX2.\nG1 Y2. F50.\nX3.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | N10 G1 X1.
+                  | ^^^^^^^^^^ warning[maybe-feed-missing] cut that may be without a feed (`F`)
+            "#]],
         );
     }
 
@@ -97,7 +100,13 @@ mod tests {
     fn words_show_the_path() {
         let program = "G21\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nM30\n";
         let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            cut that may be without a feed (`F`)
+              here: on some path no feed is in effect here
+              there: the other path has its feed from here
+              there: when this is taken
+              help: give `F` where the paths have met again, or before they part
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -101,13 +101,16 @@ impl PathRule for RapidInMaterial {
 
 impl RapidInMaterial {
     fn rapid(&mut self, cx: &PathCx<'_>, travel: &Travel) {
+        let is_below = |z: f64| self.highest.is_some_and(|highest| z < highest - LIFT) && z < SURFACE;
+        let at_depth = travel.from.get(Axis::Z).is_some_and(is_below);
+        if let Some(z) = travel.to.get(Axis::Z) {
+            self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
+        }
         let (Some(from), Some(to)) = (point(&travel.from), point(&travel.to)) else { return };
         let (low, high) = (from[2].min(to[2]), from[2].max(to[2]));
-        let is_at_depth = self.highest.is_some_and(|highest| high < highest - LIFT) && high < SURFACE;
-        self.highest = Some(self.highest.map_or(high, |highest| highest.max(high)));
         let ([x0, y0, _], [x1, y1, _]) = (from, to);
         let is_level = high - low < LEVEL && (x1 - x0).hypot(y1 - y0) >= SHORT;
-        if is_at_depth && is_level && !travel.expanded && self.waiting.len() < MOST_WAITING {
+        if at_depth && is_level && !travel.expanded && self.waiting.len() < MOST_WAITING {
             self.waiting.push(Rapid {
                 from: [x0, y0],
                 to: [x1, y1],
@@ -210,7 +213,8 @@ impl Cuts {
         let frame = cx.state().work().map(|work| (work, [Axis::X, Axis::Y, Axis::Z].map(|a| shift.raw(a).to_bits())));
         let new_frame = self.frame.is_some() && self.frame != frame;
         let jumped = !new_frame
-            && matches!((self.last, point(&from)), (Some(last), Some(from)) if last.iter().zip(from).any(|(a, b)| (a - b).abs() > 1e-6));
+            // Z may count anew when a tool offset comes into effect.
+            && matches!((self.last, point(&from)), (Some(last), Some(from)) if (last[0] - from[0]).hypot(last[1] - from[1]) > 1e-6);
         let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
         if frame.is_none() || new_frame && !self.list.is_empty() || jumped || !is_mill || !cx.is_on_every_path() {
             // Cuts of another frame, in another file, or on another path: where they were is not known here.
@@ -327,7 +331,8 @@ fn crossing(a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])) -> Option<[f64; 2]
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use gcheck_engine::Tool;
+    use gcheck_engine::{Position, Tool};
+    use gcheck_geometry::Mm;
 
     use super::RULE;
     use crate::MachineFacts;
@@ -338,7 +343,10 @@ mod tests {
 
     #[test]
     fn the_rapid_move_is_marked() {
-        check_rule(&RULE, "haas-mill", SLOT, &expect![[""]]);
+        check_rule(&RULE, "haas-mill", SLOT, &expect![[r#"
+            5 | G0 X80.
+              | ^^^^^^^ warning[rapid-in-material] rapid move through what is cut only later
+        "#]]);
     }
 
     #[test]
@@ -362,11 +370,21 @@ mod tests {
         let program = SLOT.replace("G21", "T1 M6\nG21").replace("X10.", "X60.\nY-20.\nX0.\nY20.");
         let with = |diameter: f64| {
             let mut machine = MachineFacts::default();
-            let tool = Tool { diameter: gcheck_geometry::Mm(diameter), ..Tool::default() };
+            let tool = Tool {
+                pocket: 1,
+                offset: Position::ZERO,
+                diameter: Mm(diameter),
+                corner_radius: Mm::UNKNOWN,
+                angles: [0.0; 2],
+                orientation: 0,
+            };
             machine.engine.tools.insert(1, tool);
             World { machine, ..World::default() }
         };
-        check_rule_in(&RULE, "haas-mill", &program, &with(6.0), &expect![[""]]);
+        check_rule_in(&RULE, "haas-mill", &program, &with(6.0), &expect![[r#"
+            9 | G0 X80.
+              | ^^^^^^^ warning[rapid-in-material] rapid move through what is cut only later
+        "#]]);
         check_rule_in(&RULE, "haas-mill", &program, &with(50.0), &expect![[""]]);
     }
 

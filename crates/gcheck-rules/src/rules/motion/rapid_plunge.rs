@@ -136,7 +136,12 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G90 G54 G0 X10. Y10. Z5.\nG0 Z-2.\nG1 Z-20. F100.\nG0 Z5.\nX50. Z-3.\nG1 Z-4.\nG0 Z5.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | G0 Z-2.
+                  | ^^^^^^^ warning[rapid-plunge] rapid move down into the part
+                5 | X50. Z-3.
+                  | ^^^^^^^^^ warning[rapid-plunge] rapid move down into the part
+            "#]],
         );
     }
 
@@ -164,6 +169,13 @@ mod tests {
     fn words_state_the_assumption() {
         let program = "G20 G90 G54 G0 X1. Y1. Z1.\nG0 Z-.1\nG1 Z-1. F10.\nG0 Z1.\nM30\n";
         let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            rapid move down into the part
+              here: 0.1 in below the zero of the part, where nothing was cut so deep before
+              there: the tool feeds on down from there
+              assuming: the part is solid where the program has not cut
+              assuming: no cutter is wider than 25.4 mm (1 in)
+              help: end the rapid move above the part, and feed from there
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -149,7 +149,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G90 G54 G0 X0 Y0\nG43 H1 Z1.\nG28 X0 Y0 Z.5\nG43 H1 Z1.\nG28 Z1.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G28 X0 Y0 Z.5
+                  |           ^^^ warning[reference-return-through-point] reference return goes down to a point of the part first
+            "#]],
         );
     }
 
@@ -165,7 +168,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G90 G54 G0 X50. Y0\nG43 H1 Z-5.\nG1 X60. F100.\nG28 X0 Y0\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G28 X0 Y0
+                  | ^^^ warning[reference-return-through-point] reference return crosses the part at depth
+            "#]],
         );
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::Ends;
+use gcheck_controls::{Effect, Ends};
 use gcheck_program::{CallKind, OKeyword, OLabel};
 
 use crate::meta::declare_rule;
@@ -69,7 +69,17 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.keeps_programs_by_number() {
         numbered(cx, report);
     }
-    if cx.control().syntax().o_words {
+    // The profile of a turning cycle is a subroutine.
+    let reads_profiles = survey.codes.iter().any(|(number, _)| {
+        let code = cx.control().code_at(cx.control().code_ix(*number));
+        code.is_some_and(|code| {
+            matches!(
+                code.effect(),
+                Effect::FinishProfile | Effect::RoughAlongX | Effect::RoughAlongZ | Effect::RepeatPattern
+            )
+        })
+    });
+    if cx.control().syntax().o_words && !reads_profiles {
         o_words(cx, report);
     }
 }
@@ -122,7 +132,9 @@ fn o_words(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !subs.any(|sub| calls(&sub.label)) || !survey.ends.iter().any(|end| end.ends == Ends::Program) {
         return;
     }
-    for sub in survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub) {
+    // Where a file is one subroutine, its own name calls it.
+    let own = survey.first_block.as_ref().map(|first| first.start);
+    for sub in survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub && own.is_none_or(|own| o.range.start > own)) {
         if sub.label != OLabel::Computed && !calls(&sub.label) {
             let name = match &sub.label {
                 OLabel::Number(number) => format!("o{number}"),
@@ -147,12 +159,18 @@ mod tests {
 
     #[test]
     fn the_head_of_the_program_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\nM98 P2\nM30\nO2\nM99\nO3\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "O1\nM98 P2\nM30\nO2\nM99\nO3\nM99\n", &expect![[r#"
+            6 | O3
+              | ^^ info[program-never-called] nothing in this file calls `O3`
+        "#]]);
         check_rule(
             &RULE,
             "linuxcnc",
-            "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\no<b> call\nM2\n",
-            &expect![[""]],
+            "o<a> sub\no<a> endsub\no<b> sub\no<b> endsub\no<a> call\nM2\n",
+            &expect![[r#"
+                3 | o<b> sub
+                  | ^^^^^^^^ info[program-never-called] nothing in this file calls `o<b>`
+            "#]],
         );
     }
 

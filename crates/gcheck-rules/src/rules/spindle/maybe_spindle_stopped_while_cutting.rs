@@ -79,7 +79,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "S1000 M3\nG1 X1. F5.\nIF [#500 EQ 1] GOTO 5\nM5\nN5 G1 X2.\nX3.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | N5 G1 X2.
+                  | ^^^^^^^^^ info[maybe-spindle-stopped-while-cutting] cut where the spindle may stand (`M5`)
+            "#]],
         );
     }
 

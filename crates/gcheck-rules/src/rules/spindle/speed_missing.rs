@@ -97,12 +97,18 @@ mod tests {
 
     #[test]
     fn the_first_cut_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "G0 X1. M4\nG1 X2. F50.\nM8\nX3.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "G0 X1. M4\nG1 X2. F50.\nM8\nX3.\nM30\n", &expect![[r#"
+            2 | G1 X2. F50.
+              | ^^^^^^^^^^^ warning[speed-missing] the spindle was started without a speed (`M4` without `S`)
+        "#]]);
     }
 
     #[test]
     fn speed_zero_is_none() {
-        check_rule(&RULE, "fanuc-mill", "S0 M3\nG1 X2. F50.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "S0 M3\nG1 X2. F50.\nM30\n", &expect![[r#"
+            2 | G1 X2. F50.
+              | ^^^^^^^^^^^ warning[speed-missing] the spindle turns with speed zero (`S0`, `M3`)
+        "#]]);
     }
 
     #[test]

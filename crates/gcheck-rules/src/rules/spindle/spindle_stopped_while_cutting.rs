@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Fault, Spindle, TravelKind, Truth};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A block cuts while the spindle stands: it was never started, or `M5` or a tool change stopped it.
@@ -76,19 +76,21 @@ impl PathRule for SpindleStoppedWhileCutting {
         }
         self.told = Some(stopped_by);
         let is_ever_started = cx.file_uses(starts);
+        let message = match stopped_by {
+            Some(at) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
+            None => "cut, and the spindle was not started (no `M3`)".to_owned(),
+        };
         let mut finding = cx
-            .finding(&META, cx.range(), "cut while the spindle stands (`M5`)")
+            .finding(&META, cx.range(), message)
             .label(if is_ever_started { "nothing turns here" } else { "the program never starts the spindle" })
-            .help("start the spindle with `S` and `M3` or `M4`; for probing, engraving or a drag knife, silence the rule here");
+            .help(
+                "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
+            );
         // Started by hand, or no spindle at all: a laser, a knife, a pen.
         if !is_ever_started || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
-        if stopped_by.is_none() && !is_ever_started {
-            report.add(finding.assuming("the spindle stands before the program"));
-        } else {
-            report.add(cx.resting_on(finding, Fact::Spindle, "the stop"));
-        }
+        report.add(since(cx, finding, stopped_by));
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
@@ -100,8 +102,32 @@ impl PathRule for SpindleStoppedWhileCutting {
             .label("waits for turns that do not come")
             .note("this control refuses the block")
             .help("start the spindle with `S` and `M3` or `M4` before it");
-        report.add(cx.resting_on(finding, Fact::Spindle, "the stop"));
+        report.add(since(cx, finding, cx.trace().set_by(Fact::Spindle)));
     }
+}
+
+/// Adds where the spindle was stopped.
+fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
+    let Some(at) = stopped_by else { return finding.assuming("the spindle stands when the program starts") };
+    let range = cx.find_word(at, |word| stops(cx.model.effect(word.code))).or_else(|| cx.range_of(at));
+    match range {
+        Some(range) => finding.also(range, "stopped here"),
+        None => finding,
+    }
+}
+
+fn stops(effect: Effect) -> bool {
+    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient)
+}
+
+/// The code that stopped the spindle, as programs write it.
+fn stop_code(cx: &PathCx<'_>, at: At) -> String {
+    let place = cx.place_of(at);
+    let code = place.and_then(|place| {
+        let mut words = place.table.words(place.block()).iter();
+        words.find(|word| stops(cx.model.effect(word.code))).map(|word| word.code)
+    });
+    code.map_or_else(|| "M5".to_owned(), |code| cx.name_of(code))
 }
 
 /// A move with the tool in the work, as far as a program shows it.
@@ -161,13 +187,21 @@ mod tests {
             &RULE,
             "haas-mill",
             "G0 X1. S1000 M3\nG1 X2. F10.\nM5\nG1 X3.\nM8\nX4.\nT2 M6\nG1 X5.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G1 X3.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
+                8 | G1 X5.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+            "#]],
         );
     }
 
     #[test]
     fn a_program_without_a_spindle_is_told_once() {
-        check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![[r#"
+            1 | G1 X2. F10.
+              | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
+        "#]]);
     }
 
     #[test]
@@ -188,6 +222,9 @@ mod tests {
 
     #[test]
     fn a_thread_waits_for_the_spindle() {
-        check_rule(&RULE, "linuxcnc", "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n", &expect![[r#"
+            2 | G33 Z-10 K1
+              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
+        "#]]);
     }
 }

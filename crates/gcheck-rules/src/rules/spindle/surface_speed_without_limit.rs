@@ -90,7 +90,12 @@ mod tests {
             &RULE,
             "haas-lathe",
             "T101\nG96 S200 M3\nG1 X1. F.01\nM8\nX.5\nG97 S500\nG1 X1.\nG96 S300\nG1 X0.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G1 X1. F.01
+                  | ^^^^^^^^^^^ warning[surface-speed-without-limit] constant surface speed has no limit (`G96`)
+                9 | G1 X0.
+                  | ^^^^^^ warning[surface-speed-without-limit] constant surface speed has no limit (`G96`)
+            "#]],
         );
     }
 

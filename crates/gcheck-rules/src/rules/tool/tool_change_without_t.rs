@@ -68,7 +68,10 @@ mod tests {
 
     #[test]
     fn the_change_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G21 G0 X1\nM6\nG0 X2\nM6\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "G21 G0 X1\nM6\nG0 X2\nM6\nM2\n", &expect![[r#"
+            2 | M6
+              | ^^ warning[tool-change-without-t] tool change, and no tool was called (`M6` without `T`)
+        "#]]);
     }
 
     #[test]

@@ -1,0 +1,91 @@
+//! Cutter compensation by nothing.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+
+use super::compensation_on_in_arc::begins;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// Cutter compensation is switched on (`G41`, `G42`) with offset number zero (`D0`).
+    ///
+    /// A compensation that no `D` was ever given for is reported as `lasting-word-never-given`.
+    ///
+    /// ## Why it matters
+    /// Offset zero is no size: the tool's centre goes along the contour, and the part is too small by the tool's diameter.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G41 D0 G1 X10. F100.
+    /// G40 X0.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G41 D1 G1 X10. F100.
+    /// G40 X0.
+    /// M30
+    /// ```
+    rule "compensation-offset-missing" in "compensation" {
+        summary: "cutter compensation with offset number zero",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS),
+            make: || Box::new(CompensationOffsetMissing { has_begun: false }),
+        },
+    }
+}
+
+struct CompensationOffsetMissing {
+    /// Compensation was switched on, and no cut seen since.
+    has_begun: bool,
+}
+
+impl PathRule for CompensationOffsetMissing {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.has_begun |= begins(cx);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        if !std::mem::take(&mut self.has_begun) || Abstract::known(cx.state().d()) != Some(0.0) {
+            return;
+        }
+        let Some(code) = cx.state().mode(Role::Compensation).only() else { return };
+        let is_by_number =
+            matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationRight);
+        let Some(at) = cx.trace().set_by(Fact::Mode(Role::Compensation)) else { return };
+        // Only a zero that stands in the text: a missing `D` has its own rule, a turret's `T0100` takes all offsets away.
+        let is_zero = |word: &gcheck_program::Word| word.letter.ascii() == b'D' && word.number() == Some(0.0);
+        let Some(range) = cx.find_word(at, is_zero).filter(|_| is_by_number) else { return };
+        let name = cx.name_of(code);
+        report.add(
+            cx.finding(&META, range, format!("cutter compensation with no offset (`{name} D0`)"))
+                .label("offset zero is no size")
+                .help(format!("name the tool's offset with `{name}`, or take the compensation out")),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_zero_is_marked() {
+        check_rule(&RULE, "haas-mill", "G20 G42 D0\nG1 X1. F5.\nG40 X0.\nM30\n", &expect![[r#"
+            1 | G20 G42 D0
+              |         ^^ warning[compensation-offset-missing] cutter compensation with no offset (`G42 D0`)
+        "#]]);
+    }
+
+    #[test]
+    fn a_number_from_a_variable_may_be_anything() {
+        check_rule(&RULE, "haas-mill", "G20 G42 D#500\nG1 X1. F5.\nG40 X0.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,139 @@
+//! Cutter compensation that begins on an arc.
+
+use gcheck_controls::{CompensationStyle, Effect};
+use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
+
+use super::compensation_left_on::is_on;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// The first move under cutter compensation (`G41`, `G42`) is an arc, on a control that begins it on a straight move only.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, or moves to a place beside the arc that nobody meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G0 X0. Y0.
+    /// G41 D1 G2 X10. Y0. I5. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G0 X0. Y0.
+    /// G41 D1 G1 X-5. F100.
+    /// G2 X10. Y0. I5.
+    /// M30
+    /// ```
+    rule "compensation-on-in-arc" in "compensation" {
+        summary: "cutter compensation begins on an arc",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::RAPIDS).union(Watch::FAULTS),
+            make: || Box::new(CompensationOnInArc { begun: None }),
+        },
+    }
+}
+
+struct CompensationOnInArc {
+    /// Compensation is on and nothing has moved since.
+    begun: Option<At>,
+}
+
+impl PathRule for CompensationOnInArc {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if begins(cx) {
+            self.begun = Some(cx.origin().at);
+        } else if cx.has_effect(|effect| effect == Effect::CompensationOff) {
+            self.begun = None;
+        }
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.moves(cx, event, report);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.moves(cx, event, report);
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault == Fault::Compensation(CompensationFault::EntryIsArc) {
+            let begun = self.begun.take().unwrap_or_else(|| cx.origin().at);
+            tell(cx, begun, report);
+        }
+    }
+}
+
+impl CompensationOnInArc {
+    fn moves(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if self.begun.is_none() || stands_in_plane(cx, event) {
+            return;
+        }
+        let Some(begun) = self.begun.take() else { return };
+        let is_straight_only = cx.model.semantics().compensation.style == CompensationStyle::Intersection;
+        if is_straight_only && matches!(event, Event::Arc(arc) if !arc.expanded) {
+            tell(cx, begun, report);
+        }
+    }
+}
+
+/// Does the block switch compensation on that was off before it?
+pub(super) fn begins(cx: &PathCx<'_>) -> bool {
+    let was_on = cx.state().effect(Role::Compensation, cx.model).is_none_or(is_on);
+    !was_on && cx.has_effect(is_on)
+}
+
+/// A move that leaves the compensated plane alone.
+pub(super) fn stands_in_plane(cx: &PathCx<'_>, event: &Event) -> bool {
+    let Event::Travel(travel) = event else { return false };
+    let Some(plane) = cx.state().plane(cx.model) else { return false };
+    let ([a, b, _], [to_a, to_b, _]) = (plane.to_local(travel.from.xyz()), plane.to_local(travel.programmed.xyz()));
+    let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
+    same(a.0, to_a.0) && same(b.0, to_b.0)
+}
+
+fn tell(cx: &PathCx<'_>, begun: At, report: &mut Report<'_>) {
+    let code = cx.find_word(begun, |word| is_on(cx.model.effect(word.code)));
+    let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
+    let name = cx.code_name(Role::Compensation).unwrap_or_default();
+    let mut finding = cx
+        .finding(&META, cx.effect_range(is_arc), format!("cutter compensation begins on an arc (`{name}`)"))
+        .label("the first move under compensation")
+        .help(format!("put a straight move, longer than the tool's radius, between `{name}` and the arc"));
+    if let Some(range) = code {
+        finding = finding.also(range, "compensation is switched on here");
+    }
+    // Sure where the control's own list of alarms has it.
+    let is_listed = cx.scene.control().alarm(META.id).is_some();
+    report.add(if is_listed { finding } else { finding.at_most(Severity::Warning) });
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn an_arc_in_a_later_block_is_the_first_move_all_the_same() {
+        check_rule(&RULE, "haas-mill", "G20 G0 X0. Y0.\nG41 D1\nG1 Z-.1 F5.\nG3 X1. Y0. I.5\nM30\n", &expect![[r#"
+            4 | G3 X1. Y0. I.5
+              | ^^ warning[compensation-on-in-arc] cutter compensation begins on an arc (`G41`)
+        "#]]);
+    }
+
+    #[test]
+    fn switched_off_again_it_never_began() {
+        check_rule(&RULE, "haas-mill", "G20 G0 X0. Y0.\nG41 D1\nG40\nG3 X1. Y0. I.5 F5.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_control_that_enters_on_arcs_may() {
+        check_rule(&RULE, "linuxcnc", "G21 G0 X0 Y0\nG41 D1 G3 X10 Y0 I5 F100\nM2\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,149 @@
+//! A lead-in shorter than the tool's radius.
+
+use gcheck_engine::{Abstract, At, CompensationFault, Domain, Event, Fault, Role};
+use gcheck_geometry::Plane;
+
+use super::compensation_left_on::is_on;
+use super::compensation_on_in_arc::{begins, stands_in_plane};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// The first move under cutter compensation is not longer than the tool's radius.
+    ///
+    /// The rule speaks only where the tool's size is known: from a configured tool table, from `G10`, or from the block itself
+    /// (`G41.1 D6`).
+    ///
+    /// ## Why it matters
+    /// The tool has no room to swing to its side of the path: it cuts into the contour where it should only approach it. Some
+    /// controls stop with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G17 G0 X0 Y0
+    /// G41.1 D20 G1 X5 F100
+    /// Y50
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G17 G0 X0 Y0
+    /// G41.1 D20 G1 X15 F100
+    /// Y50
+    /// G40 X0
+    /// M2
+    /// ```
+    rule "lead-in-too-short" in "compensation" {
+        summary: "lead-in not longer than the tool's radius",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::RAPIDS).union(Watch::FAULTS),
+            make: || Box::new(LeadInTooShort { begun: None }),
+        },
+    }
+}
+
+struct LeadInTooShort {
+    begun: Option<At>,
+}
+
+impl PathRule for LeadInTooShort {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if begins(cx) {
+            self.begun = Some(cx.origin().at);
+        }
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.moves(cx, event, report);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.moves(cx, event, report);
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if let Fault::Compensation(CompensationFault::EntryTooShort { needed, got }) = fault {
+            let begun = self.begun.take();
+            tell(cx, begun, *got, *needed, true, report);
+        }
+    }
+}
+
+impl LeadInTooShort {
+    fn moves(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if self.begun.is_none() || stands_in_plane(cx, event) {
+            return;
+        }
+        let begun = self.begun.take();
+        let Event::Travel(travel) = event else { return };
+        let (Some(radius), Some(plane)) = (radius(cx), cx.state().plane(cx.model)) else { return };
+        let point = |plane: Plane, position: &gcheck_engine::Position| {
+            let [a, b, _] = plane.to_local(position.xyz());
+            (a.0, b.0)
+        };
+        let ((a, b), (to_a, to_b)) = (point(plane, &travel.from), point(plane, &travel.programmed));
+        let length = (to_a - a).hypot(to_b - b);
+        if length < radius {
+            tell(cx, begun, length, radius, false, report);
+        }
+    }
+}
+
+/// The radius that the offset number stands for, millimetres.
+fn radius(cx: &PathCx<'_>) -> Option<f64> {
+    let number = crate::schemes::whole(Abstract::known(cx.state().d())?)?;
+    let tool = cx.state().tables().tool(number)?;
+    Some(tool.diameter.0 / 2.0).filter(|radius| radius.is_finite())
+}
+
+fn tell(cx: &PathCx<'_>, begun: Option<At>, length: f64, radius: f64, is_refused: bool, report: &mut Report<'_>) {
+    let name = cx.code_name(Role::Compensation).unwrap_or_default();
+    let mut finding = cx
+        .finding(&META, cx.range(), format!("the lead-in is not longer than the tool's radius (`{name}`)"))
+        .label(format!("{length:.3} mm long, and the tool's radius is {radius:.3} mm"))
+        .help("begin the lead-in farther from the contour");
+    if let Some(range) = begun.and_then(|at| cx.find_word(at, |word| is_on(cx.model.effect(word.code)))) {
+        finding = finding.also(range, "compensation is switched on here");
+    }
+    if is_refused {
+        report.add(finding.note("this control refuses such an entry"));
+    } else {
+        report.add(finding.at_most(Severity::Warning));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::rules::generated::machine::tool_not_in_table;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn the_size_may_come_from_the_table() {
+        // Tools of 10 mm.
+        let world = World::of_examples(&tool_not_in_table::META);
+        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[r#"
+            2 | G41 D1 G1 X3. F100.
+              | ^^^^^^^^^^^^^^^^^^^ warning[lead-in-too-short] the lead-in is not longer than the tool's radius (`G41`)
+        "#]]);
+        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0.\nG41 D1 G1 X6. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[""]]);
+    }
+
+    #[test]
+    fn the_size_may_come_from_the_program() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G0 X0. Y0.\nG10 L12 P1 R8.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n",
+            &expect![[r#"
+                3 | G41 D1 G1 X3. F100.
+                  | ^^^^^^^^^^^^^^^^^^^ warning[lead-in-too-short] the lead-in is not longer than the tool's radius (`G41`)
+            "#]],
+        );
+    }
+}

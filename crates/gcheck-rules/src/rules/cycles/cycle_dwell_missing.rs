@@ -1,0 +1,85 @@
+//! A drilling cycle with a dwell that has none.
+
+use gcheck_controls::{Effect, Letter, Need};
+
+use super::cycle_words_lost::{Series, cycle_range};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A canned cycle that differs from the plain one by its dwell is begun without `P`.
+    ///
+    /// ## Why it matters
+    /// The tool does not dwell: `G82` drills as `G81` does, and the floor of the spot face keeps the mark of the feed.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G90 G0 X0 Y0 Z10.
+    /// G82 Z-5. R2. F100.
+    /// G80
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G0 X0 Y0 Z10.
+    /// G82 Z-5. R2. P500 F100.
+    /// X10.
+    /// G80
+    /// M30
+    /// ```
+    rule "cycle-dwell-missing" in "cycles" {
+        summary: "canned cycle with a dwell that has none",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(CycleDwellMissing::default()) },
+    }
+}
+
+#[derive(Default)]
+struct CycleDwellMissing {
+    series: Series,
+    told: bool,
+}
+
+impl PathRule for CycleDwellMissing {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Some(code) = self.series.block(cx).and_then(|ix| cx.scene.control().code_at(ix)) else { return };
+        let p = Letter::of('P');
+        let dwells = matches!(code.effect(), Effect::CycleDrillDwell | Effect::CycleBoreDwell);
+        let entry = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(p));
+        // Where the word is needed another rule asks for it.
+        let optional = entry.is_some_and(|word| matches!(word.need, Need::Optional | Need::Conditional));
+        if !dwells || !optional || cx.origin().letters.contains(p) || self.told {
+            return;
+        }
+        self.told = true;
+        let name = code.number();
+        report.add(
+            cx.finding(&META, cycle_range(cx), format!("canned cycle with dwell without a time (`{name}` without `P`)"))
+                .label("the tool does not dwell at the bottom")
+                .help("give the time with `P`, or use the cycle without dwell"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0 Y0 Z1.\nG82 Z-.5 R.1 P#100 F10.\nG80\nG89 Z-.5 R.1\nG80\nM30\n",
+            &expect![[r#"
+                4 | G89 Z-.5 R.1
+                  | ^^^ info[cycle-dwell-missing] canned cycle with dwell without a time (`G89` without `P`)
+            "#]],
+        );
+    }
+}

@@ -1,0 +1,105 @@
+//! A canned cycle under inverse-time feed.
+
+use std::collections::BTreeSet;
+
+use gcheck_engine::{At, CycleFault, Fact, Fault, FeedMode, Role};
+
+use super::cycle_words_lost::{cycle_range, is_cycle};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A canned cycle is called while feeds are inverse times (`G93`).
+    ///
+    /// ## Why it matters
+    /// `F` is the time of one move there, and a cycle makes many. The control stops with an alarm, or feeds at no speed that
+    /// anybody meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G93
+    /// G81 X10 Z-5 R2 F10
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G93 G1 X5 F10
+    /// G94
+    /// G81 X10 Z-5 R2 F10
+    /// M2
+    /// ```
+    rule "cycle-in-inverse-time" in "cycles" {
+        summary: "canned cycle under inverse-time feed",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::BLOCKS),
+            make: || Box::new(CycleInInverseTime::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct CycleInInverseTime {
+    /// Blocks that chose inverse time: one finding for each.
+    told: BTreeSet<Option<At>>,
+}
+
+impl PathRule for CycleInInverseTime {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault == Fault::Cycle(CycleFault::InverseTime) {
+            self.tell(cx, Severity::Error, report);
+        }
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // Controls that refuse it say so when the cycle is to run.
+        if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(is_cycle) {
+            return;
+        }
+        let changes = cx.has_effect(|effect| Role::of(effect) == Some(Role::FeedMode));
+        if !changes && cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
+            self.tell(cx, Severity::Warning, report);
+        }
+    }
+}
+
+impl CycleInInverseTime {
+    fn tell(&mut self, cx: &PathCx<'_>, severity: Severity, report: &mut Report<'_>) {
+        let fact = Fact::Mode(Role::FeedMode);
+        if !self.told.insert(cx.trace().set_by(fact)) {
+            return;
+        }
+        let name = cx.code_name(Role::FeedMode).unwrap_or_default();
+        let finding = cx
+            .finding(&META, cycle_range(cx), format!("canned cycle under inverse-time feed (`{name}`)"))
+            .label("`F` is the time of one move, and a cycle makes many")
+            .help("go back to feed per minute (`G94`) before the cycle")
+            .at_most(severity);
+        report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_cycle_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0 Y0 Z1.\nG93 G1 X1. F10.\nG81 X2. Z-.5 R.1 F5.\nG80\nG94\nG81 X2. Z-.5 R.1\nG80\nM30\n",
+            &expect![[r#"
+                3 | G81 X2. Z-.5 R.1 F5.
+                  | ^^^ warning[cycle-in-inverse-time] canned cycle under inverse-time feed (`G93`)
+            "#]],
+        );
+    }
+}

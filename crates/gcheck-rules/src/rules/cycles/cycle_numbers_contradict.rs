@@ -1,0 +1,78 @@
+//! A cycle whose numbers do not fit together.
+
+use gcheck_engine::{CycleFault, Fault};
+
+use super::cycle_words_lost::cycle_code;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// The numbers of a cycle describe nothing that can be cut: a pocket smaller than its first circle, pecks without end.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm at the cycle.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G20 G90 G54 G0 X0 Y0 Z.1
+    /// T1 M6
+    /// G1 Z-.1 F10.
+    /// G12 I.5 K.3 Q.1 D1 F20.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G20 G90 G54 G0 X0 Y0 Z.1
+    /// T1 M6
+    /// G1 Z-.1 F10.
+    /// G12 I.3 K.5 Q.1 D1 F20.
+    /// M30
+    /// ```
+    rule "cycle-numbers-contradict" in "cycles" {
+        summary: "cycle whose numbers do not fit together",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(CycleNumbersContradict) },
+    }
+}
+
+struct CycleNumbersContradict;
+
+impl PathRule for CycleNumbersContradict {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let what = match *fault {
+            Fault::Cycle(CycleFault::Geometry) => "numbers of a cycle do not fit together",
+            Fault::Cycle(CycleFault::Plane) => "cycle in a plane that it does not work in",
+            _ => return,
+        };
+        let Some(code) = cycle_code(cx) else { return };
+        let (name, entry) = (code.number(), code.entry());
+        let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
+        report.add(
+            cx.finding(&META, range, format!("{what} (`{name}`)"))
+                .label(entry.title.clone())
+                .note(format!("what each word of `{name}` means  [{}]", entry.source))
+                .help("check the words of the cycle against each other")
+                .at_most(Severity::Warning),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0 Y0 Z.1\nG1 Z-.1 F10.\nG13 I.5 K.3 Q.1 D1 F20.\nG13 I#1 K.3 Q.1 D1\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

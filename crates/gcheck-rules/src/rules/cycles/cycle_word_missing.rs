@@ -1,0 +1,99 @@
+//! A canned cycle without a word that nothing gave.
+
+use gcheck_controls::{Letter, Need};
+use gcheck_engine::{CycleFault, Event, Fault};
+
+use super::cycle_words_lost::{Series, cycle_code, is_cycle};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+
+declare_rule! {
+    /// A canned cycle runs without a word that it needs, and no block of the cycle gave it.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, the tool above the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G81 X10 Y10 R2 F100
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G0 X0 Y0 Z10
+    /// G81 X10 Y10 Z-5 R2 F100
+    /// X20
+    /// M2
+    /// ```
+    rule "cycle-word-missing" in "cycles" {
+        summary: "canned cycle without a word that it needs",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::FAULTS),
+            make: || Box::new(CycleWordMissing::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct CycleWordMissing {
+    series: Series,
+}
+
+impl PathRule for CycleWordMissing {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.series.block(cx);
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.series.changed(cx, event);
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::Cycle(CycleFault::Missing(letter)) = *fault else { return };
+        let Some(code) = cycle_code(cx) else { return };
+        // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
+        let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
+        let needed = word.is_some_and(|word| word.need == Need::Conditional);
+        let stands = cx.origin().letters.contains(letter);
+        let was_given = is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));
+        // Words of a cycle that the caller began are known to the caller.
+        if !needed || stands || was_given || !cx.is_on_every_path() || cx.is_called_only() {
+            return;
+        }
+        let (name, entry) = (code.number(), code.entry());
+        let is = word.map_or("", |word| word.is.as_str());
+        let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
+        report.add(
+            cx.finding(&META, range, format!("canned cycle without `{letter}` (`{name}`)"))
+                .label(if is.is_empty() { format!("`{letter}` is missing") } else { format!("`{letter}` is missing: {is}") })
+                .note(format!("`{name}` ({}) needs `{letter}` in its first block  [{}]", entry.title, entry.source))
+                .help(format!("give `{letter}` in the block that begins the cycle"))
+                .at_most(limit(entry.confidence)),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z10\nG81 X10 R2 F100\nG80\nG82 X20 Z-5 R2\nM2\n",
+            &expect![[r#"
+                2 | G81 X10 R2 F100
+                  | ^^^ error[cycle-word-missing] canned cycle without `Z` (`G81`)
+            "#]],
+        );
+    }
+}

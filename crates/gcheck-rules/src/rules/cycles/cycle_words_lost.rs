@@ -1,0 +1,266 @@
+//! A canned cycle that relies on words which the end of the cycle before took away.
+
+use std::collections::BTreeMap;
+
+use gcheck_controls::{Code, CodeIx, Effect, Letter, LetterSet};
+use gcheck_engine::{At, CycleFault, Event, Fault, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+
+declare_rule! {
+    /// A canned cycle is begun anew without a word that it needs, and an earlier cycle had the word: the end of that cycle
+    /// (`G80`, `G0`, `G1`) took it away.
+    ///
+    /// ## Why it matters
+    /// `R`, `Z` and `Q` stay from hole to hole only while the cycle goes on. The control stops with an alarm, or drills in one
+    /// stroke what was to be pecked.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G90 G0 X0 Y0 Z10.
+    /// G99 G83 X0 Y0 Z-20. R2. Q3. F100.
+    /// G80
+    /// G99 G83 X50. Z-20. R2.
+    /// G80
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G0 X0 Y0 Z10.
+    /// G81 X0 Y0 Z-20. R2. F100.
+    /// G80
+    /// G81 X50.
+    /// G80
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G0 X0 Y0 Z10.
+    /// G99 G83 X0 Y0 Z-20. R2. Q3. F100.
+    /// X50.
+    /// G98 X80. Z-10.
+    /// G80
+    /// M30
+    /// ```
+    rule "cycle-words-lost" in "cycles" {
+        summary: "canned cycle that relies on words of an earlier one",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::FAULTS),
+            make: || Box::new(CycleWordsLost::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct CycleWordsLost {
+    series: Series,
+}
+
+impl PathRule for CycleWordsLost {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let begins = self.series.block(cx);
+        let Some(code) = begins.and_then(|ix| cx.scene.control().code_at(ix)) else { return };
+        // Pecks that are not given are one stroke to the bottom where they are no fault.
+        let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
+        let q = Letter::of('Q');
+        let given = cx.origin().letters;
+        if pecks && !cx.model.semantics().cycles.rise_to_r && !given.intersects(LetterSet::of("QIJK")) {
+            self.tell(cx, code, q, report);
+        }
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        self.series.changed(cx, event);
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::Cycle(CycleFault::Missing(letter)) = *fault else { return };
+        if let Some(code) = cycle_code(cx).filter(|code| is_cycle(code.effect())) {
+            self.tell(cx, code, letter, report);
+        }
+    }
+}
+
+impl CycleWordsLost {
+    fn tell(&self, cx: &PathCx<'_>, code: Code<'_>, letter: Letter, report: &mut Report<'_>) {
+        if !cx.is_on_every_path() || self.series.given.contains_key(&letter) {
+            return;
+        }
+        let Some(lost) = self.series.lost.get(&letter) else { return };
+        let name = code.number();
+        let mut finding = cx
+            .finding(&META, cycle_range(cx), format!("canned cycle without `{letter}`, which ended with an earlier one"))
+            .label(format!("`{name}` begins anew without `{letter}`"))
+            .help(format!("give `{letter}` again in the first block of the cycle"))
+            .at_most(limit(cx.model.semantics().confidence));
+        if let Some(range) = cx.range_of(lost.given) {
+            finding = finding.also(range, format!("`{letter}` was given here"));
+        }
+        if let Some(range) = cx.range_of(lost.ended) {
+            finding = finding.also(range, "and ended with its cycle here");
+        }
+        report.add(finding);
+    }
+}
+
+/// Bytes of the code that names the cycle; the block when none does.
+pub(crate) fn cycle_range(cx: &PathCx<'_>) -> std::ops::Range<u32> {
+    cx.effect_range(is_cycle)
+}
+
+/// Is it a canned cycle that stays on?
+pub(crate) fn is_cycle(effect: Effect) -> bool {
+    Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel
+}
+
+/// The operation of several moves that the block makes: one of its own, or the canned cycle in effect.
+pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
+    let control = cx.scene.control();
+    let own = cx.codes().into_iter().find(|ix| is_operation(cx.model.effect(*ix)));
+    let active = || cx.state().active_cycle(cx.model).filter(|ix| ix.is_some());
+    control.code_at(own.or_else(active)?)
+}
+
+/// Does it make several moves from the words of one block?
+fn is_operation(effect: Effect) -> bool {
+    use Effect as E;
+    matches!(
+        effect,
+        E::CircularPocketClockwise
+            | E::CircularPocketCounterClockwise
+            | E::GeneralPocket
+            | E::BoltCircle
+            | E::BoltArc
+            | E::BoltLine
+            | E::TurningPass
+            | E::ThreadingPass
+            | E::FacingPass
+            | E::ThreadCycle
+            | E::FinishProfile
+            | E::RoughAlongZ
+            | E::RoughAlongX
+            | E::RepeatPattern
+            | E::GrooveFace
+            | E::GrooveDiameter
+    )
+}
+
+/// Words of canned cycles, series by series.
+#[derive(Default)]
+pub(crate) struct Series {
+    /// Words given since the cycle began, with the block that gave them last.
+    pub(crate) given: BTreeMap<Letter, At>,
+    /// Words of earlier series.
+    lost: BTreeMap<Letter, Lost>,
+}
+
+/// A word that ended with its series.
+#[derive(Clone, Copy)]
+struct Lost {
+    given: At,
+    ended: At,
+}
+
+/// Words that stay while a cycle goes on.
+const STAYING: LetterSet = LetterSet::of("XYZRQPIJKE");
+
+impl Series {
+    /// A block is about to be executed. Answers the cycle that it begins anew.
+    pub(crate) fn block(&mut self, cx: &PathCx<'_>) -> Option<CodeIx> {
+        let named = cx.codes().into_iter().find(|ix| is_cycle(cx.model.effect(*ix)));
+        let active = cx.state().active_cycle(cx.model);
+        let begins = named.filter(|_| active == Some(CodeIx::NONE));
+        if begins.is_some() {
+            self.end(cx.origin().at);
+        }
+        if named.is_some() || active.is_some_and(CodeIx::is_some) {
+            let at = cx.origin().at;
+            self.given.extend(cx.origin().letters.and(STAYING).iter().map(|letter| (letter, at)));
+        }
+        begins
+    }
+
+    /// Something happened that may end the series.
+    pub(crate) fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
+        let Event::Modal(code) = event else { return };
+        let ends = match cx.model.role(*code) {
+            Some(Role::Motion) => cx.model.semantics().cycles.motion_ends_cycle,
+            Some(Role::Cycle) => cx.model.effect(*code) == Effect::CycleCancel,
+            _ => false,
+        };
+        if ends {
+            self.end(cx.origin().at);
+        }
+    }
+
+    fn end(&mut self, ended: At) {
+        for (letter, given) in std::mem::take(&mut self.given) {
+            self.lost.insert(letter, Lost { given, ended });
+        }
+    }
+
+    /// Was the word given in a series that is over?
+    pub(crate) fn lost(&self, letter: Letter) -> bool {
+        self.lost.contains_key(&letter)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn the_code_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G0 X0 Y0 Z10.\nG83 Z-20. R2. Q3. F100.\nX10.\nG80\nX20.\nG83 Z-20. R2.\nG81 X5. Z-2.\nG0 X1.\nG82 X5.\nM30\n",
+            &expect![[r#"
+                6 | G83 Z-20. R2.
+                  | ^^^ warning[cycle-words-lost] canned cycle without `Q`, which ended with an earlier one
+                9 | G82 X5.
+                  | ^^^ warning[cycle-words-lost] canned cycle without `R`, which ended with an earlier one
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_show_where_the_word_was_and_where_it_ended() {
+        let program = "G21 G90 G0 X0 Y0 Z10.\nG83 Z-20. R2. Q3. F100.\nG80\nG83 Z-20. R2.\nG80\nM30\n";
+        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        expect![[r#"
+            canned cycle without `Q`, which ended with an earlier one
+              here: `G83` begins anew without `Q`
+              there: `Q` was given here
+              there: and ended with its cycle here
+              help: give `Q` again in the first block of the cycle
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn other_words_may_give_the_pecks() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G0 X0 Y0 Z10.\nG83 Z-20. R2. Q3. F100.\nG80\nG83 Z-20. R2. I5. J1. K1.\nG80\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_word_of_unknown_value_is_given() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G0 X0 Y0 Z10.\nG83 Z-20. R2. Q3. F100.\nG80\nG83 Z#101 R#102 Q#103\nX5.\nG80\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

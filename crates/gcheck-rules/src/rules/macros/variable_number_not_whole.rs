@@ -1,0 +1,80 @@
+//! A computed variable number that names no variable.
+
+use gcheck_engine::{Fault, FrameKind};
+
+use crate::meta::declare_rule;
+use crate::usage::is_called_from_elsewhere;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The number of a variable is computed (`#[…]`) and comes to no whole number from zero up.
+    ///
+    /// ## Why it matters
+    /// There is no such variable: the control stops, or reads another one than meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// #1=3
+    /// #2=#[100+#1/2]
+    /// M30
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// #1=5
+    /// #[#1-6]=1
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// #1=4
+    /// #2=#[100+#1/2]
+    /// #3=#[100+#500/2]
+    /// M30
+    /// ```
+    rule "variable-number-not-whole" in "macros" {
+        summary: "computed variable number that names no variable",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(VariableNumberNotWhole) },
+    }
+}
+
+struct VariableNumberNotWhole;
+
+impl PathRule for VariableNumberNotWhole {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::VariableNumber {
+            return;
+        }
+        let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
+        if is_main && is_called_from_elsewhere(cx.survey) {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.range(), "computed number names no variable (`#[…]`)")
+            .label("comes to a fraction, or below zero, here")
+            .help("check what the number is computed from, or make it whole with `FIX` or `ROUND`");
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_is_marked() {
+        check_rule(&RULE, "haas-mill", "O1\n#1= 0.5\n#[100 + #1]= 3\nM30\n", &expect![[r#"
+            3 | #[100 + #1]= 3
+              | ^^^^^^^^^^^^^^ warning[variable-number-not-whole] computed number names no variable (`#[…]`)
+        "#]]);
+    }
+
+    #[test]
+    fn a_caller_gives_the_numbers_of_a_subprogram() {
+        check_rule(&RULE, "haas-mill", "O9000\n#2= #[#1 - 1]\nM99\n", &expect![[""]]);
+    }
+}

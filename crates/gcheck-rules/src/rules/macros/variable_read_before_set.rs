@@ -1,0 +1,233 @@
+//! A local variable that is read before anything set it.
+
+use std::collections::HashSet;
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::FrameKind;
+use gcheck_program::{BinaryOp, ExprIx, Op, Place, StatementKind, Value};
+
+use crate::meta::declare_rule;
+use crate::usage::is_called_from_elsewhere;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A local variable is used that no block on the way here has set: neither the program nor, in a macro, the call.
+    ///
+    /// ## Why it matters
+    /// It holds nothing. In arithmetic nothing counts as zero, and a word with it is passed over: `G1 Z#3` does not move Z.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// #1=10.
+    /// G0 X#1 Y#2
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// O0001
+    /// G65 P9100 X1.
+    /// M30
+    /// O9100
+    /// #30= #24 + #26
+    /// G0 Z#30
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// A test for nothing, arguments handed on, and a program that is called from elsewhere.
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// IF [#2 EQ #0] THEN #2=5.
+    /// G65 P9100 X#2 Y#3
+    /// M30
+    /// O9100
+    /// G0 X#24 Y#25
+    /// M99
+    /// ```
+    /// ```nc,quiet,fanuc-mill
+    /// O9100
+    /// G0 X#24 Y#25
+    /// M99
+    /// ```
+    rule "variable-read-before-set" in "macros" {
+        summary: "variable read before it is set",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::READS, make: || Box::new(VariableReadBeforeSet::default()) },
+    }
+}
+
+#[derive(Default)]
+struct VariableReadBeforeSet {
+    told: HashSet<u32>,
+}
+
+/// How a block uses a variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Use {
+    /// In arithmetic, a comparison or a target.
+    Computed,
+    /// `#5=#5+1`: counts from nothing, as from zero.
+    Counted,
+    /// The value of a word as it stands.
+    Word,
+    /// An argument of a call, or a copy: handed on.
+    HandedOn,
+    /// Compared with nothing.
+    Tested,
+}
+
+impl PathRule for VariableReadBeforeSet {
+    fn vacant_read(&mut self, cx: &PathCx<'_>, variable: u32, report: &mut Report<'_>) {
+        if self.told.contains(&variable) {
+            return;
+        }
+        let [first, last] = cx.model.semantics().locals;
+        if !(first..=last).contains(&variable) {
+            return;
+        }
+        let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
+        if !in_macro && is_called_from_elsewhere(cx.survey) {
+            return;
+        }
+        let Some(place) = cx.place() else { return };
+        let Some((usage, range)) = usage(cx, &place, variable) else { return };
+        let argument = in_macro
+            .then(|| cx.model.semantics().argument_letters.iter().find(|(_, number)| u32::from(**number) == variable))
+            .flatten();
+        let severity = match usage {
+            Use::Tested | Use::HandedOn => return,
+            // A macro that moves the axes it is given drops the others on purpose.
+            Use::Word if in_macro => return,
+            Use::Counted => Severity::Info,
+            Use::Computed | Use::Word => Severity::Warning,
+        };
+        self.told.insert(variable);
+        let message = match argument {
+            Some((letter, _)) => format!("the call gives no `{letter}`, but the macro computes with it (`#{variable}`)"),
+            None => format!("variable `#{variable}` is read before it is set"),
+        };
+        let label = match usage {
+            Use::Word => "holds nothing here: the control passes over the word",
+            _ => "holds nothing here, and counts as zero",
+        };
+        let help = match argument {
+            Some((letter, _)) => format!("give `{letter}` in the call, or test `#{variable}` for `#0` before it is used"),
+            None => format!("set `#{variable}` before this block"),
+        };
+        report.add(cx.finding(&META, range, message).label(label).help(help).at_most(severity));
+    }
+}
+
+/// The gravest use of a variable in a block, with its bytes. `None` when the block reads it in some way that its text does
+/// not show (`#[#1]`).
+fn usage(cx: &PathCx<'_>, place: &Place, variable: u32) -> Option<(Use, Range<u32>)> {
+    let mut found: Option<(Use, Range<u32>)> = None;
+    let mut see = |usage: Use, range: Range<u32>| {
+        let rank = |usage: Use| match usage {
+            Use::Tested | Use::HandedOn => 0,
+            Use::Counted => 1,
+            Use::Word => 2,
+            Use::Computed => 3,
+        };
+        if found.as_ref().is_none_or(|(known, _)| rank(*known) < rank(usage)) {
+            found = Some((usage, place.base + range.start..place.base + range.end));
+        }
+    };
+    let reads = |expr: ExprIx| place.table.ops(place.table.expr(expr)).contains(&Op::Variable(variable));
+    let calls = cx.has_effect(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal));
+    for word in place.table.words(place.block()) {
+        let Value::Expr(expr) = word.value else { continue };
+        if !reads(expr) {
+            continue;
+        }
+        let usage = match place.table.ops(place.table.expr(expr)) {
+            [Op::Variable(_)] if calls => Use::HandedOn,
+            [Op::Variable(_)] | [Op::Variable(_), Op::Negate] => Use::Word,
+            _ => Use::Computed,
+        };
+        see(usage, word.range());
+    }
+    for statement in place.table.statements(place.ix) {
+        for expr in statement.kind.expressions().filter(|expr| reads(*expr)) {
+            let ops = place.table.ops(place.table.expr(expr));
+            let is_condition = matches!(
+                statement.kind,
+                StatementKind::If { .. } | StatementKind::Guard { .. } | StatementKind::Do { .. }
+            );
+            let is_tested = is_condition && ops.contains(&Op::Variable(0));
+            let counts = matches!(&statement.kind, StatementKind::Assign { target: gcheck_program::Target::Variable(to), .. } if *to == variable)
+                && ops.contains(&Op::Binary(BinaryOp::Add));
+            let usage = match ops {
+                _ if is_tested => Use::Tested,
+                [Op::Variable(_)] if !is_condition => Use::HandedOn,
+                _ if counts => Use::Counted,
+                _ => Use::Computed,
+            };
+            see(usage, statement.range.clone());
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_variable_is_told_once_where_it_is_read_first() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG0 X#1\nY[#2*2.]\nIF [#3 GT 5.] GOTO 10\nX#1\nN10 M30\n",
+            &expect![[r#"
+                2 | G0 X#1
+                  |    ^^^ warning[variable-read-before-set] variable `#1` is read before it is set
+                3 | Y[#2*2.]
+                  | ^^^^^^^^ warning[variable-read-before-set] variable `#2` is read before it is set
+                4 | IF [#3 GT 5.] GOTO 10
+                  | ^^^^^^^^^^^^^ warning[variable-read-before-set] variable `#3` is read before it is set
+            "#]],
+        );
+    }
+
+    #[test]
+    fn counting_from_nothing_is_worth_knowing() {
+        check_rule(&RULE, "haas-mill", "O1\n#1= #1 + 1\nG0 X#1\nM30\n", &expect![[r#"
+            2 | #1= #1 + 1
+              | ^^^^^^^^^^ info[variable-read-before-set] variable `#1` is read before it is set
+        "#]]);
+    }
+
+    #[test]
+    fn an_argument_that_the_call_does_not_give() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG65 P2 A1.\nM30\nO2\nIF [#3 EQ #0] THEN #3=1.\n#30=#1/2+#2\nG0 X#30 Y#25\nM99\n",
+            &expect![[r#"
+                6 | #30=#1/2+#2
+                  | ^^^^^^^^^^^ warning[variable-read-before-set] the call gives no `B`, but the macro computes with it (`#2`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn common_variables_hold_what_the_last_program_left() {
+        check_rule(&RULE, "fanuc-mill", "O1\nG0 X#100\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_control_where_unset_variables_are_zero() {
+        check_rule(&RULE, "linuxcnc", "G0 X#1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_variable_that_another_way_may_have_set() {
+        check_rule(&RULE, "fanuc-mill", "O1\nIF [#500 EQ 1] GOTO 10\n#1=5.\nN10 G0 X#1\nM30\n", &expect![[""]]);
+    }
+}

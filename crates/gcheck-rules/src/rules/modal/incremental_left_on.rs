@@ -1,0 +1,212 @@
+//! Increments that nobody switched back to positions.
+
+use std::ops::Range;
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{At, Ending, Event, Fact, Role};
+
+use super::distance_mode_not_stated::is_home;
+use crate::boundary::{Boundary, LeftOn};
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// Increments (`G91`) were left on: the first move of the next tool, or the first move after a subprogram, goes by increments
+    /// although the work before it was in positions; or the program ends in increments and begins without stating positions.
+    ///
+    /// ## Why it matters
+    /// The tool goes by the coordinates of its target instead of to them: through the part, or against the end of travel.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// T1 M6
+    /// G90 G54 G0 X0. Y0.
+    /// G1 X10. F100.
+    /// G91 G28 Z0.
+    /// T2 M6
+    /// G0 X50. Y50.
+    /// M30
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// G54 G0 X0. Y0.
+    /// G91 G28 Z0.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// T1 M6
+    /// G90 G54 G0 X0. Y0.
+    /// G1 X10. F100.
+    /// G91 G28 Z0.
+    /// T2 M6
+    /// G90 G0 X50. Y50.
+    /// G91 G28 Z0.
+    /// M30
+    /// ```
+    rule "incremental-left-on" in "modal" {
+        summary: "increments left on",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS).union(Watch::ENDS),
+            make: || Box::new(IncrementalLeftOn::default()),
+        },
+    }
+}
+
+#[derive(Default)]
+struct IncrementalLeftOn {
+    /// The work before was in positions.
+    was_absolute: bool,
+    /// A tool change with no move since, and what had set the mode then.
+    change: Option<(Range<u32>, Option<At>)>,
+    /// A block of a subprogram that switched from positions to increments, and how deep in calls it stands.
+    in_subprogram: Option<(At, usize)>,
+    /// The program moved before it stated the mode.
+    relies_on_start: bool,
+    has_moved: bool,
+}
+
+impl PathRule for IncrementalLeftOn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let switches_on = cx.has_effect(|effect| effect == Effect::Incremental);
+        if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
+            self.in_subprogram = Some((cx.origin().at, cx.depth()));
+        }
+        match cx.boundary() {
+            Some(Boundary::ToolChange) => {
+                let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
+                self.change = Some((cx.boundary_range(Boundary::ToolChange), set_by));
+            }
+            Some(Boundary::ProgramEnd) => self.end(cx, report),
+            None => {}
+        }
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.moves(cx, report);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.moves(cx, report);
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            self.end(cx, report);
+        }
+    }
+}
+
+impl IncrementalLeftOn {
+    fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
+            return;
+        }
+        let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
+        self.relies_on_start |= !self.has_moved && set_by.is_none();
+        self.has_moved = true;
+        let is_incremental = cx.state().is_incremental(cx.model) == Some(true);
+        let (change, was_absolute) = (self.change.take(), self.was_absolute);
+        self.was_absolute = cx.state().is_incremental(cx.model) == Some(false);
+        if !is_incremental || set_by.is_none() {
+            return;
+        }
+        if let Some((range, at_change)) = change
+            && at_change == set_by
+            && was_absolute
+        {
+            let finding = tell(cx, cx.range(), "the first move after the tool change goes by increments");
+            let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        } else if let Some((at, depth)) = self.in_subprogram
+            && set_by == Some(at)
+            && cx.depth() < depth
+        {
+            self.in_subprogram = None;
+            let finding = tell(cx, cx.range(), "the first move after the subprogram goes by increments");
+            let finding = finding.label("by this much, not to this point");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        }
+    }
+
+    fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if !self.relies_on_start || cx.end_resets(Role::Distance) || cx.is_called_only() {
+            return;
+        }
+        let Some(LeftOn::Surely(_)) = cx.left_on(Role::Distance, |effect| effect == Effect::Incremental) else { return };
+        let range = cx.boundary_range(Boundary::ProgramEnd);
+        let finding = tell(cx, range, "the program ends in increments and begins without stating positions");
+        let finding = finding
+            .label("the next part begins by increments")
+            .assuming("the end of the program keeps the mode")
+            .at_most(Severity::Warning);
+        report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+    }
+}
+
+fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
+    let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
+    let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+    cx.finding(&META, range, format!("{what} (`{incremental}`)")).help(format!("state `{absolute}` before the move"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_first_move_of_the_next_tool_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0.\nG1 X1. F5.\nG91 G28 Z0.\nT2 M6\nG0 X3.\nX4.\nM30\n",
+            &expect![[r#"
+                5 | G0 X3.
+                  | ^^^^^^ warning[incremental-left-on] the first move after the tool change goes by increments (`G91`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_in_increments_stays_in_them() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G91 G0 X1.\nG1 X1. F50.\nT2 M6\nG0 X-1.\nG90\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_subprogram_that_leaves_them_on() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
+            &expect![[r#"
+                3 | G0 X3.
+                  | ^^^^^^ warning[incremental-left-on] the first move after the subprogram goes by increments (`G91`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G91 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn an_end_in_increments_hurts_who_begins_without_positions() {
+        check_rule(&RULE, "fanuc-mill", "G21 G0 X0.\nG91 G28 Z0.\nM30\n", &expect![[r#"
+            3 | M30
+              | ^^^ warning[incremental-left-on] the program ends in increments and begins without stating positions (`G91`)
+        "#]]);
+        check_rule(&RULE, "haas-mill", "G20 G0 X0.\nG91 G28 Z0.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,103 @@
+//! A program that moves without saying in which units.
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{Event, Fact, Role};
+
+use super::distance_mode_not_stated::is_home;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A program moves before it says whether it is in inches (`G20`) or millimetres (`G21`).
+    ///
+    /// ## Why it matters
+    /// The units are those of a setting, or of the last program. Wrong, every distance is 25.4 times too long or too short.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G90 G54 G0 X1. Y2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G20 G90 G54 G0 X1. Y2.
+    /// M30
+    /// ```
+    rule "units-not-stated" in "modal" {
+        summary: "moves before `G20` or `G21` is stated",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::RAPIDS.union(Watch::CUTS),
+            make: || Box::new(UnitsNotStated { is_done: false }),
+        },
+    }
+}
+
+struct UnitsNotStated {
+    is_done: bool,
+}
+
+impl PathRule for UnitsNotStated {
+    fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.first_move(cx, report);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.first_move(cx, report);
+    }
+}
+
+impl UnitsNotStated {
+    fn first_move(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if self.is_done || is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZUVW")) {
+            return;
+        }
+        self.is_done = true;
+        let is_stated = cx.trace().set_by(Fact::Mode(Role::Units)).is_some()
+            || cx.scene.machine.engine.units.is_some()
+            || cx.is_behind_unknown_program();
+        if is_stated || cx.is_called_only() {
+            return;
+        }
+        let (Some(inch), Some(metric)) = (cx.cancel_of(Effect::Inch), cx.cancel_of(Effect::Millimetre)) else { return };
+        report.add(
+            cx.finding(&META, cx.range(), format!("moves before inches or millimetres are stated (`{inch}`, `{metric}`)"))
+                .label("counts in the units that the control has at the moment")
+                .help(format!(
+                    "state `{inch}` or `{metric}` at the head of the program, or configure the machine's units"
+                )),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+    use gcheck_engine::{Machine, Units};
+
+    use super::RULE;
+    use crate::MachineFacts;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn the_first_move_is_marked() {
+        check_rule(&RULE, "fanuc-lathe", "T0101\nG28 U0. W0.\nG0 X1. Z2.\nX2.\nM30\n", &expect![[r#"
+            3 | G0 X1. Z2.
+              | ^^^^^^^^^^ info[units-not-stated] moves before inches or millimetres are stated (`G20`, `G21`)
+        "#]]);
+    }
+
+    #[test]
+    fn configured_units_are_known() {
+        let engine = Machine { units: Some(Units::Mm), ..Machine::default() };
+        let world = World { machine: MachineFacts { engine, ..MachineFacts::default() }, ..World::default() };
+        check_rule_in(&RULE, "fanuc-mill", "G90 G54 G0 X1.\nM30\n", &world, &expect![[""]]);
+    }
+
+    #[test]
+    fn a_subprogram_moves_in_the_units_of_its_caller() {
+        check_rule(&RULE, "haas-mill", "O10\nG0 X1.\nM99\n", &expect![[""]]);
+    }
+}

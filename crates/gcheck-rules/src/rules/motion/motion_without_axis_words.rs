@@ -1,0 +1,93 @@
+//! A move that names no axis.
+
+use gcheck_engine::{Fault, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block is to move, by its code or by the mode in effect, and has none of the axis words that the move needs, on a
+    /// control that refuses it.
+    ///
+    /// Codes whose page asks for one of several words are judged by `word-choice-missing`.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 R5 F100
+    /// R5
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G17 G21 G90 G0 X0 Y0
+    /// G2 X10 R5 F100
+    /// X20 R5
+    /// M2
+    /// ```
+    rule "motion-without-axis-words" in "motion" {
+        summary: "move that names no axis",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(MotionWithoutAxisWords) },
+    }
+}
+
+struct MotionWithoutAxisWords;
+
+impl PathRule for MotionWithoutAxisWords {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::NoAxisWords || is_told(cx) {
+            return;
+        }
+        let mode = cx.code_name(Role::Cycle).filter(|_| cx.state().active_cycle(cx.model).is_some_and(|ix| ix.is_some()));
+        let mode = mode.or_else(|| cx.code_name(Role::Motion)).filter(|name| !name.is_empty());
+        let code = mode.map_or_else(String::new, |mode| format!(" (`{mode}`)"));
+        report.add(
+            cx.finding(&META, cx.range(), format!("move that names no axis{code}"))
+                .label("has words of the move, but no axis word")
+                .help("give the end point, or end the mode before this block"),
+        );
+    }
+}
+
+/// Does a code of the block ask for one of several words, none of which stands? Then that has been reported.
+fn is_told(cx: &PathCx<'_>) -> bool {
+    let letters = cx.origin().letters;
+    let codes = cx.codes();
+    let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+    codes.any(|code| {
+        let mut lists = code.entry().one_of.iter();
+        lists.any(|list| {
+            let mut choice = list.iter().filter_map(|letter| gcheck_controls::Letter::parse(letter));
+            !choice.any(|letter| letters.contains(letter))
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G21 G90 G0 X0 Y0 Z10\nG81 X10 Z-5 R2 F100\nR1\nG80\nM2\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn other_controls_keep_the_word() {
+        check_rule(&RULE, "haas-mill", "G20 G90 G0 X0. Y0. Z1.\nG81 X1. Z-.5 R.1 F10.\nR.2\nG80\nM30\n", &expect![[""]]);
+    }
+}

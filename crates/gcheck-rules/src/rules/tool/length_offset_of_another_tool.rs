@@ -1,0 +1,174 @@
+//! A tool length offset that does not follow the scheme of the program's other tools.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+
+use crate::boundary::is_before;
+use crate::meta::declare_rule;
+use crate::schemes::{Pairs, whole};
+use crate::{FinishCx, PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A tool works with the length offset that, by the scheme of the program's other tools, belongs to another tool: the others
+    /// take `H` equal to `T`, or `T` and a fixed number more, and this one does not.
+    ///
+    /// ## Why it matters
+    /// A tool with the length of another one cuts air, or dives into the part or the fixture by the difference.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G43 H1 Z1.
+    /// G1 Z0.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G43 H21 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G43 H22 Z1.
+    /// G1 Z0.
+    /// M30
+    /// ```
+    /// A second offset of the same tool is meant.
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G43 H2 Z1.
+    /// G1 Z0.
+    /// G43 H42
+    /// G1 Z-1.
+    /// M30
+    /// ```
+    rule "length-offset-of-another-tool" in "tool" {
+        summary: "length offset of another tool",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CUTS.union(Watch::FINISH),
+            make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new() }),
+        },
+    }
+}
+
+struct LengthOffsetOfAnotherTool {
+    pairs: Pairs,
+}
+
+impl PathRule for LengthOffsetOfAnotherTool {
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+        let state = cx.state();
+        let is_on = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
+        let by_t = cx.model.semantics().tools.offset_in_t;
+        if !by_t && !state.effect(Role::Length, cx.model).is_some_and(is_on) {
+            return;
+        }
+        let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.h()));
+        let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
+        let letter = if by_t { 'T' } else { 'H' };
+        self.pairs.add(tool, offset, || {
+            let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
+            let given = given.and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));
+            let word = if by_t { String::new() } else { format!(" (`H{offset}`, `T{tool}`)") };
+            let message = format!("tool {tool} works with length offset {offset}{word}");
+            let change = changed.filter(|_| !by_t).and_then(|at| Some((at, cx.range_of(at)?)));
+            match (given, change) {
+                // Given for the tool before, and never since.
+                (Some((at, given)), Some((change, range))) if is_before(at, change) => cx
+                    .finding(&META, cx.range(), message)
+                    .also(given, "the offset comes from here")
+                    .also(range, format!("tool {tool} comes into the spindle here")),
+                (Some((_, given)), Some((_, range))) => {
+                    cx.finding(&META, given, message).also(range, format!("tool {tool} comes into the spindle here"))
+                }
+                (given, _) => cx.finding(&META, given.map_or_else(|| cx.range(), |(_, range)| range), message),
+            }
+        });
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        for (finding, scheme) in self.pairs.take_odd() {
+            report.add(
+                finding
+                    .label(scheme.label("length offset"))
+                    .note(scheme.note("length offset", 'H'))
+                    .help(format!("use offset {}, or tell why not in a suppression", scheme.expected)),
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_offset_that_breaks_the_scheme_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 H21 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H22 Z1.\nG1 Z0.\nT3 M6\nG43 H22 Z1.\nG1 Z0.\nM30\n",
+            &expect![[r#"
+                8 | G43 H22 Z1.
+                  |     ^^^ warning[length-offset-of-another-tool] tool 3 works with length offset 22 (`H22`, `T3`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_offset_left_on_from_the_last_tool() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG0 Z1.\nG1 Z0.\nM30\n",
+            &expect![[r#"
+                6 | G1 Z0.
+                  | ^^^^^^ warning[length-offset-of-another-tool] tool 2 works with length offset 1 (`H1`, `T2`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn two_tools_fix_no_scheme_but_the_plain_one() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 H21 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H21 Z1.\nG1 Z0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn an_offset_of_no_tool_of_the_program_may_be_meant() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H52 Z1.\nG1 Z0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_turret_names_its_offset_in_t() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T0101\nG1 X1. F.1\nT0202\nG1 X2.\nT0301\nG1 X3.\nM30\n",
+            &expect![[r#"
+                5 | T0301
+                  | ^^^^^ warning[length-offset-of-another-tool] tool 3 works with length offset 1
+            "#]],
+        );
+    }
+}

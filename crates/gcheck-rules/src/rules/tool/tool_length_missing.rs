@@ -1,0 +1,180 @@
+//! A tool that works without its length.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{At, Event, Fact, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// After a tool change a block moves along Z in work coordinates, or cuts, with no tool length compensation in effect.
+    ///
+    /// ## Why it matters
+    /// The control takes the spindle's nose for the tool's tip and drives the tool into the part by its whole length.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G0 G54 X0. Y0.
+    /// Z.1
+    /// G43 H1 Z1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G0 G54 X0. Y0.
+    /// G43 H1 Z.1
+    /// M30
+    /// ```
+    /// Machine coordinates need no length.
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G53 G0 Z0.
+    /// G43 H1 Z.1
+    /// M30
+    /// ```
+    rule "tool-length-missing" in "tool" {
+        summary: "tool works without length compensation",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::RAPIDS),
+            make: || Box::new(ToolLengthMissing { changed: None, is_done: false }),
+        },
+    }
+}
+
+struct ToolLengthMissing {
+    /// The tool change whose tool has not worked yet.
+    changed: Option<At>,
+    /// A program that never compensates is told once.
+    is_done: bool,
+}
+
+impl PathRule for ToolLengthMissing {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if let Event::ToolChange(number) = event {
+            self.changed = (*number != Some(0)).then_some(cx.origin().at);
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        self.judge(cx, event, report);
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if cx.origin().letters.contains(Letter::of('Z')) {
+            self.judge(cx, event, report);
+        }
+    }
+}
+
+impl ToolLengthMissing {
+    fn judge(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let rules = cx.model.semantics().tools;
+        let Some(at) = self.changed else { return };
+        if self.is_done || rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
+            return;
+        }
+        // The tool's first work: told here, or not at all.
+        self.changed = None;
+        let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
+        let Some(code) = cx.state().mode(Role::Length).only().filter(|code| is_off(*code)) else { return };
+        if cx.trace().set_by(Fact::Tool) != Some(at) {
+            return;
+        }
+        let compensates = |effect| {
+            matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFromBlock | Effect::ToolCentrePoint)
+        };
+        let Some(on) = cx.scene.control().codes().find(|code| compensates(code.effect())) else { return };
+        let on = on.number().to_string();
+        let is_ever_used = cx.file_uses(compensates);
+        let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) { "moves" } else { "cuts" };
+        let mut finding = cx
+            .finding(&META, cx.letter_range('Z'), format!("the tool {what} without its length (no `{on}` since the tool change)"))
+            .label("the control takes the spindle's nose for the tool's tip");
+        if let Some(range) = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::ToolChange) {
+            finding = finding.also(range, "tool changed here");
+        }
+        if code.is_some() && cx.trace().set_by(Fact::Mode(Role::Length)).is_some() {
+            finding = cx.resting_on(finding, Fact::Mode(Role::Length), &format!("`{}`", cx.name_of(code)));
+        }
+        let finding = finding.help(format!("give the length with the first move along Z: `{on} H1 Z…`"));
+        if is_ever_used {
+            report.add(finding);
+        } else {
+            self.is_done = true;
+            report.add(
+                finding
+                    .note(format!("the program never uses `{on}`: its tools may be set to one length, or zeroed by hand"))
+                    .at_most(Severity::Info),
+            );
+        }
+    }
+}
+
+/// Moves in machine coordinates, to a reference point or to a probe's touch.
+fn needs_no_length(cx: &PathCx<'_>) -> bool {
+    cx.has_effect(|effect| {
+        matches!(
+            effect,
+            Effect::MachineCoordinates
+                | Effect::ReturnReference(_)
+                | Effect::ReturnFromReference
+                | Effect::ToolChange
+                | Effect::ProbeLength
+                | Effect::Skip
+                | Effect::ProbeToward
+                | Effect::ProbeTowardOptional
+        )
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_move_along_z_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nG49 G28 Z0.\nT2 M6\nG0 X0.\nZ.1\nG1 Z0.\nM30\n",
+            &expect![[r#"
+                7 | Z.1
+                  | ^^^ warning[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_cut_counts_whatever_its_axes() {
+        check_rule(&RULE, "linuxcnc", "G21 G43 H2\nG49\nT1 M6\nG1 X5 F100\nM2\n", &expect![[r#"
+            4 | G1 X5 F100
+              | ^^^^^^^^^^ warning[tool-length-missing] the tool cuts without its length (no `G43` since the tool change)
+        "#]]);
+    }
+
+    #[test]
+    fn a_program_that_never_compensates_is_told_once() {
+        check_rule(&RULE, "linuxcnc", "G21 T1 M6\nG0 Z5\nT2 M6\nG0 Z5\nM2\n", &expect![[r#"
+            2 | G0 Z5
+              |    ^^ info[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
+        "#]]);
+    }
+
+    #[test]
+    fn a_turret_knows_its_tools() {
+        check_rule(&RULE, "fanuc-lathe", "T0101\nG1 X5. Z0. F.1\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn an_empty_spindle_has_no_length() {
+        check_rule(&RULE, "linuxcnc", "G21 G43 H1\nG49\nT0 M6\nG0 Z5\nM2\n", &expect![[""]]);
+    }
+}
