@@ -23,7 +23,9 @@ pub enum Event {
     /// Standing still.
     Dwell(Seconds),
 
-    /// The feed in effect: millimetres a minute, moves a minute or millimetres a turn, as the mode says (NaN unknown).
+    /// The feed in effect: millimetres a turn or a minute, as the mode says (NaN unknown). Under inverse time it is what
+    /// the next move's length makes of the word. A number that a program in inches gives rotary axes alone counts as
+    /// inches here too.
     FeedRate(f64),
     /// The feed mode.
     FeedMode(FeedMode),

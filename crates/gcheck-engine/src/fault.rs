@@ -52,6 +52,16 @@ pub enum Fault {
     Malformed,
     /// Two codes of a group in one block, or two that use the same words.
     Conflict,
+    /// An address stands twice.
+    WordTwice(Letter),
+    /// A word that no code of the block reads.
+    UnreadWord(Letter),
+    /// A word where it cannot stand.
+    Misplaced(Letter),
+    /// More M codes than a block may have.
+    TooManyCodes,
+    /// More characters than a line may have.
+    LineTooLong,
 
     /// A cut without feed.
     NoFeed,

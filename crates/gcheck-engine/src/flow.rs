@@ -209,7 +209,7 @@ pub fn flow<O: FlowObserver>(
     fuel: u64,
     observer: &mut O,
 ) -> FlowResult {
-    let shown = Shown { observer, model, trace: Trace::default(), solo: true, muted: false };
+    let shown = Shown { observer, model, trace: Trace::default(), solo: true, muted: false, also: Vec::new(), stepping: None };
     let mut executor = Executor::new(program, model, machine, options, shown);
     let state = start_state::<Abstract>(model, machine, &mut executor.assumptions);
     let at = At { file: 0, block: 0 };
@@ -279,6 +279,15 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.show_met();
     }
 
+    fn step(&mut self, at: At, state: &mut State<Abstract>) -> Outcome<Abstract> {
+        self.executor.observer.stepping = Some(at);
+        let outcome = self.executor.step(at, state);
+        for also in std::mem::take(&mut self.executor.observer.also) {
+            set_bit(&mut self.result.reached, also);
+        }
+        outcome
+    }
+
     fn take_earliest(&mut self) -> Option<Pending> {
         let mut earliest = 0;
         for (index, item) in self.pending.iter().enumerate() {
@@ -305,7 +314,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             if !self.parted {
                 set_bit(&mut self.result.always, at);
             }
-            match self.executor.step(at, &mut state) {
+            match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(to) => {
                     let back = to.file == at.file && to.block <= at.block;
@@ -384,7 +393,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             }
             self.blocks += 1;
             set_bit(&mut self.result.reached, at);
-            let next = match self.executor.step(at, &mut state) {
+            let next = match self.step(at, &mut state) {
                 Outcome::Next => at.next(),
                 Outcome::Jump(to) => {
                     let trace = self.executor.observer.trace.clone();
@@ -498,7 +507,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 return;
             }
             self.blocks += 1;
-            match self.executor.step(at, &mut state) {
+            match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(_) | Outcome::Fork(_) => return,
                 Outcome::End(ending) => {
@@ -562,6 +571,10 @@ struct Shown<'a, 'o, O: FlowObserver> {
     trace: Trace,
     solo: bool,
     muted: bool,
+    /// Blocks that ran inside the step of another: a cycle's profile.
+    also: Vec<At>,
+    /// The block whose step is under way.
+    stepping: Option<At>,
 }
 
 impl<O: FlowObserver> Shown<'_, '_, O> {
@@ -573,6 +586,9 @@ impl<O: FlowObserver> Shown<'_, '_, O> {
 
 impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
     fn before(&mut self, origin: Origin, state: &State<Abstract>) {
+        if self.stepping != Some(origin.at) {
+            self.also.push(origin.at);
+        }
         if !self.muted {
             let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
             self.observer.before(&cx);

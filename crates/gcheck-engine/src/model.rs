@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 
 use crate::event::Units;
 use crate::position::Axis;
+use crate::step::contract::{BlockContract, CodeContract};
 
 /// What a code's modal group decides, where the engine follows it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -171,6 +172,9 @@ pub(crate) struct CodeModel {
 pub struct Model<'c> {
     control: &'c Control,
     codes: Vec<CodeModel>,
+    /// By code: what it demands of its block.
+    pub(crate) contracts: Vec<CodeContract>,
+    pub(crate) contract: BlockContract,
     pub(crate) feed_rank: Rank,
     pub(crate) speed_rank: Rank,
     pub(crate) tool_rank: Rank,
@@ -241,6 +245,8 @@ impl<'c> Model<'c> {
             .collect();
         let mut model = Self {
             control,
+            contracts: control.codes().map(|code| CodeContract::of(code, control)).collect(),
+            contract: BlockContract::of(control),
             feed_rank: rank("feed"),
             speed_rank: rank("spindle-speed"),
             tool_rank: rank("tool-select"),

@@ -5,6 +5,7 @@
 
 mod arc;
 pub(crate) mod compensation;
+pub(crate) mod contract;
 mod cycle;
 mod flow_control;
 mod lathe;
@@ -22,7 +23,7 @@ mod transform;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, Unpointed, Unset, WordKind};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed, Unset, WordKind};
 use gcheck_program::{
     BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value, Word,
 };
@@ -236,6 +237,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if block.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
             return Outcome::Fault(Fault::Malformed);
         }
+        if block.flags.intersects(FORM)
+            && let Err(fault) = self.check_form(place, table.words(block), block)
+        {
+            return Outcome::Fault(fault);
+        }
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
                 Ok(Statements::Words) => {}
@@ -393,11 +399,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Puts the parts of the block in the control's order and executes them.
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
+        self.check_block(words, state)?;
         let present = self.words.present();
         let codes = self.words.codes();
+        let turns = self.turns_about_centre(state);
         // A block that only moves: nothing to put in order.
         if codes.is_empty() && !present.intersects(LetterSet::of("FST")) {
-            return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) {
+            return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns {
                 self.motion(state)
             } else {
                 Ok(())
@@ -411,7 +419,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 count += 1;
             }
         };
-        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR);
+        let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
+        // Some codes share their axis words with a motion beside them.
+        let mut names_motion = false;
         let mut taken = false;
         let mut macro_call = false;
         for ix in codes {
@@ -430,7 +440,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             taken |= code.takes_axes || owns_axes(code.effect);
             let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
-            moves |= is_motion && code.effect != Effect::CycleCancel;
+            let cancels = code.effect == Effect::CycleCancel;
+            moves |= is_motion && !cancels;
+            names_motion |= is_motion && !cancels;
             add(if is_motion { self.model.motion_rank } else { code.rank }, Action::Code(*ix));
         }
         if !macro_call {
@@ -443,13 +455,15 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     add(rank, action);
                 }
             }
-            if moves && !taken {
+            if moves && (!taken || names_motion && self.refuses_incomplete()) {
                 add(self.model.motion_rank, Action::Motion);
             }
         }
         let actions = actions.get_mut(..count).unwrap_or_default();
         // Stable: codes of one phase act in text order, and a motion code before the motion.
-        actions.sort_by_key(|(rank, _)| *rank);
+        // The end of a cycle goes before the motion that takes its place.
+        let cancels = |action: &Action| matches!(action, Action::Code(ix) if *ix == self.model.cycle_cancel);
+        actions.sort_by_key(|(rank, action)| (*rank, !cancels(action)));
         let actions: Vec<Action> = actions.iter().map(|(_, action)| *action).collect();
         for action in actions {
             match action {
@@ -555,6 +569,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     fn read_variable(&mut self, number: u32, state: &State<D>) -> Step<D::Value> {
         let semantics = self.model.semantics();
+        self.check_number(number)?;
         let [first, last] = semantics.locals;
         if (first..=last).contains(&number) && number > 0 {
             let locals = state.frames.iter().rev().find_map(|frame| frame.locals.as_ref());
@@ -565,15 +580,28 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if number == 0 && semantics.unset == Unset::Vacant {
             return Ok(D::vacant());
         }
-        if state.variables.is_written(number) {
+        let system = self.model.system_variable(number);
+        // A probing move writes its result over what the program wrote.
+        let is_probed = system.is_some_and(|(variable, _, _)| {
+            matches!(variable.holds, SystemValue::ProbePosition | SystemValue::ProbeResult)
+        });
+        if !is_probed && state.variables.is_written(number) {
             return Ok(state.variables.get(number));
         }
-        if let Some((variable, row, column)) = self.model.system_variable(number) {
+        if let Some((variable, row, column)) = system {
             return self.read_system(variable, row, column, state);
         }
         let value = state.variables.get(number);
         self.tell_vacant(number, &value, state);
         Ok(value)
+    }
+
+    /// Variables that a strict control has.
+    fn check_number(&self, number: u32) -> Step {
+        match self.model.semantics().refusals.last_variable {
+            Some(last) if !(1..=last).contains(&number) => Err(Fault::VariableNumber),
+            _ => Ok(()),
+        }
     }
 
     fn tell_vacant(&mut self, number: u32, value: &D::Value, state: &State<D>) {
@@ -606,6 +634,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if let Some(value) = self.machine.parameters.get(&*text) {
             return Ok(D::number(*value));
         }
+        if self.model.control().named_parameter(&text).is_some() {
+            // The control has it; what it holds is not followed. A fresh control has nothing in it.
+            return Ok(if self.machine.fresh { D::number(0.0) } else { D::unknown() });
+        }
         Err(Fault::UnsetParameter)
     }
 
@@ -633,6 +665,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let target = self.assignee(place, table, target, state)?;
                     let value = self.evaluate(place, table, table.expr(*value), state)?;
                     if self.model.semantics().assignments_after_block {
+                        self.check_assignable(&target)?;
                         self.pending.push((target, value));
                     } else if let Some(end) = self.assign(target, value, state)? {
                         return Ok(Statements::Done(end));
@@ -784,6 +817,22 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         })
     }
 
+    /// May the program write it? Asked before the block acts.
+    fn check_assignable(&self, target: &Place2<D>) -> Step {
+        match target {
+            Place2::Name(name) => {
+                let text = self.program.name_text(*name);
+                if self.model.named_variable(&text).is_some() { Err(Fault::ReadOnlyVariable(0)) } else { Ok(()) }
+            }
+            Place2::Number(number) => {
+                self.check_number(*number)?;
+                let writable = *number != 0 && self.model.control().is_writable(*number);
+                if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(*number)) }
+            }
+            Place2::Anywhere(_) => Ok(()),
+        }
+    }
+
     /// Writes a variable. Some variables end the program.
     fn assign(&mut self, target: Place2<D>, value: D::Value, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
         match target {
@@ -869,6 +918,9 @@ enum Action {
 /// Codes of a block, and `F`, `S`, `T` and the motion.
 const MOST_ACTIONS: usize = 28;
 
+/// Blocks whose form may be refused.
+const FORM: BlockFlags = BlockFlags::LABEL.union(BlockFlags::LONG_LINE).union(BlockFlags::BLOCK_DELETE);
+
 /// Polar words: distance and angle from the origin.
 pub(crate) const POLAR: LetterSet = {
     let mut letters = LetterSet::EMPTY;
@@ -939,7 +991,6 @@ fn owns_axes(effect: Effect) -> bool {
             | E::ProbeCentre
             | E::ReturnReference(_)
             | E::ReturnFromReference
-            | E::StoreReference(_)
             | E::WriteOffsets
             | E::LocalShift
             | E::SetPosition

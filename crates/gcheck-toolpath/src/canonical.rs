@@ -187,13 +187,7 @@ impl<W: Write> Canonical<W> {
     fn mode(&mut self, step: &Step<'_>) -> io::Result<()> {
         let (n, units) = (step.n, step.units);
         match step.event {
-            Event::FeedRate(feed) => {
-                let in_program = match step.feed_mode {
-                    FeedMode::InverseTime => *feed,
-                    FeedMode::PerMinute | FeedMode::PerRevolution => *feed / units.in_mm(),
-                };
-                self.number(n, "SET_FEED_RATE", in_program)
-            }
+            Event::FeedRate(feed) => self.number(n, "SET_FEED_RATE", *feed / units.in_mm()),
             Event::FeedMode(mode) => self.word(
                 n,
                 match mode {

@@ -312,12 +312,15 @@ fn sweep([first, second]: [f64; 2], segment: &OffsetSegment, ccw: bool, turns: i
 /// The point in the compensation's own coordinates.
 fn planar(position: &Position, plane: Plane) -> PathPoint {
     let [first, second, normal] = plane.to_local(position.xyz());
-    PathPoint::new(first.0, second.0, normal.0)
+    // The height does not matter to the path in the plane; where it is not known it stays so on the way out.
+    PathPoint::new(first.0, second.0, if normal.is_known() { normal.0 } else { 0.0 })
 }
 
 /// The point with its coordinates in the plane replaced.
 fn above(position: &Position, point: PathPoint, plane: Plane) -> Position {
-    position.with_xyz(plane.to_xyz([Mm(point.first), Mm(point.second), Mm(point.normal)]))
+    let [_, _, height] = plane.to_local(position.xyz());
+    let normal = if height.is_known() { Mm(point.normal) } else { height };
+    position.with_xyz(plane.to_xyz([Mm(point.first), Mm(point.second), normal]))
 }
 
 /// Where the imaginary tip of a lathe tool lies from the centre of its nose, by orientation: units of the radius along Z

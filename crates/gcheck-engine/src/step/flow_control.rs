@@ -81,7 +81,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             .take(256)
             .map(|(_, block)| (At { file: at.file, block }, state.clone()))
             .collect();
-        if targets.is_empty() { Err(Fault::Undecidable) } else { Ok(Outcome::Fork(targets)) }
+        match targets.as_slice() {
+            [] => Err(Fault::Undecidable),
+            [(only, _)] => Ok(Outcome::Jump(*only)),
+            _ => Ok(Outcome::Fork(targets)),
+        }
     }
 
     /// `M96 P… Q…`: on an input that nobody knows.

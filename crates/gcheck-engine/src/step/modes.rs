@@ -20,6 +20,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Carries out one code of the block.
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
         let Some(code) = self.model.code(ix).copied() else { return Ok(()) };
+        let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
+        let needs_none = self.model.contracts.get(ix.index()).is_some_and(|contract| contract.uncompensated);
+        if needs_none && !is_motion && code.effect != Effect::ThreadCycle && self.compensates(state) {
+            return Err(Fault::Compensation(CompensationFault::NotWhileOn));
+        }
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
             self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);

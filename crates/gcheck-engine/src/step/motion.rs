@@ -88,7 +88,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Controls that refuse words and codes that do not fit together.
     pub(super) fn refuses_incomplete(&self) -> bool {
-        self.model.semantics().compensation.freezes_modes
+        self.model.semantics().strict
     }
 
     /// A move whose mode is not known: the named axes end nobody knows where.
@@ -189,9 +189,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.machine_move(kind, state);
         }
         let target = self.target(state)?;
-        let checked = if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) };
+        let checked = Self::held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         self.travel(kind, target, false, state)?;
         checked
+    }
+
+    /// A fault that an analysis of all paths holds back until the move is made, so that it goes on where the program means to be.
+    pub(super) fn held(checked: Step) -> Step<Step> {
+        if D::STOPS_AT_FAULTS { checked.map(Ok) } else { Ok(checked) }
     }
 
     /// Is the feed good for a cut in this block?
@@ -222,7 +227,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    /// Under inverse time every cut has a feed of its own, from its length.
+    /// Under inverse time every cut has a feed of its own, from its length in millimetres.
     pub(super) fn announce_inverse_time(&mut self, length: f64, state: &mut State<D>) {
         if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
             let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length;
@@ -249,7 +254,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
         let target = state.from_machine(&machine);
-        let checked = if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) };
+        let checked = Self::held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not.
         let mut to = state.actual;
         for axis in Axis::ALL {
@@ -267,7 +272,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn travel(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) -> Step {
         if state.compensation.is_some() {
             if kind == TravelKind::Feed {
-                self.announce_inverse_time(straight_length(&state.position, &target), state);
+                self.announce_inverse_time(straight_length(&state.position, &target, self.unit(state)), state);
             }
             return self.compensated_line(kind, target, state);
         }
@@ -293,7 +298,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) {
         if kind == TravelKind::Feed {
-            self.announce_inverse_time(straight_length(&state.actual, &to), state);
+            self.announce_inverse_time(straight_length(&state.actual, &to, self.unit(state)), state);
         }
         let travel = Travel { kind, from: state.actual, programmed, to, expanded };
         state.actual = to;
@@ -309,8 +314,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         });
         let Some(lead) = lead else {
             let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
+            let missing = Self::held(Err(Fault::MissingWord(Letter::of(missing))))?;
             self.travel(TravelKind::Thread, target, false, state)?;
-            return Err(Fault::MissingWord(Letter::of(missing)));
+            return missing;
         };
         if self.refuses_incomplete() && Self::spindle_turns(state) == Some(false) {
             return Err(Fault::SpindleStopped);
@@ -338,6 +344,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.compensates(state) {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
+        let others = self.words.present().intersects(LetterSet::of("ZABCUVW"));
+        if self.refuses_incomplete() && others {
+            return Err(Fault::Conflict);
+        }
+        self.check_xy_plane(state)?;
         let target = self.target(state)?;
         self.check_feed(state)?;
         let offset = |letter: char| self.length(Letter::of(letter), state);
@@ -347,9 +358,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let end = [target.raw(Axis::X), target.raw(Axis::Y)];
         let points = if effect == Effect::SplineQuadratic {
             let (Some(i), Some(j)) = (i, j) else { return Err(Fault::MissingWord(Letter::of('I'))) };
-            if i == 0.0 && j == 0.0 {
-                return Err(Fault::WordRange(Letter::of('I')));
-            }
             vec![start, [start[0] + i, start[1] + j], end]
         } else {
             let (Some(p), Some(q)) = (p, q) else { return Err(Fault::MissingWord(Letter::of('P'))) };
@@ -369,6 +377,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.position = target;
         self.emit(state, Event::Curve(curve));
         Ok(())
+    }
+
+    /// Curves are drawn in XY only.
+    fn check_xy_plane(&self, state: &State<D>) -> Step {
+        let plane = state.mode(Role::Plane).only();
+        let other = plane.filter(|ix| !matches!(self.model.effect(*ix), Effect::PlaneXy | Effect::None));
+        match (other, state.mode(Role::Motion).only()) {
+            (Some(other), Some(motion)) if self.refuses_incomplete() => Err(Fault::NotNow(motion, Some(other))),
+            _ => Ok(()),
+        }
     }
 
     /// A control point of a NURBS block.
@@ -411,15 +429,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-/// Length of a straight move in millimetres; of a move of rotary axes alone, degrees.
-fn straight_length(from: &Position, to: &Position) -> f64 {
+/// Length of a straight move in millimetres; of a move of rotary axes alone, degrees that count as the program's unit of
+/// length does.
+fn straight_length(from: &Position, to: &Position, unit: f64) -> f64 {
     let norm = |axes: [Axis; 3]| axes.map(|axis| to.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt();
     let linear = norm([Axis::X, Axis::Y, Axis::Z]);
     if linear != 0.0 {
         return linear;
     }
     let secondary = norm([Axis::U, Axis::V, Axis::W]);
-    if secondary == 0.0 { norm([Axis::A, Axis::B, Axis::C]) } else { secondary }
+    if secondary == 0.0 { norm([Axis::A, Axis::B, Axis::C]) * unit } else { secondary }
 }
 
 /// A Bézier curve as chords within a hundredth of a millimetre.

@@ -20,8 +20,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.compensates(state) {
             return Err(Fault::Probe);
         }
-        if D::known(&state.feed) == Some(0.0) || state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
+        let mode = state.feed_mode(self.model);
+        if D::known(&state.feed) == Some(0.0) || mode == Some(FeedMode::InverseTime) {
             return Err(Fault::NoFeed);
+        }
+        if mode == Some(FeedMode::PerRevolution) && self.refuses_incomplete() {
+            return Err(Fault::Probe);
         }
         let distance = [Axis::X, Axis::Y, Axis::Z]
             .into_iter()

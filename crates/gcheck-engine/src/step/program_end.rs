@@ -200,21 +200,31 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if was.flood != saved.flood {
             self.coolant(Coolant::Flood, saved.flood == Truth::True, state);
         }
-        for (kind, old, new) in [
-            (Override::Feed, was.feed_override, saved.feed_override),
-            (Override::Speed, was.speed_override, saved.speed_override),
-            (Override::Adaptive, was.adaptive, saved.adaptive),
-            (Override::FeedStop, was.feed_hold, saved.feed_hold),
-        ] {
-            if old != new {
-                self.emit(state, Event::Override { kind, on: new == Truth::True });
-            }
-        }
-        state.feed_override = saved.feed_override;
-        state.speed_override = saved.speed_override;
-        state.adaptive = saved.adaptive;
-        state.feed_hold = saved.feed_hold;
+        self.restore_overrides(&was, saved, state);
         self.origin.n = number;
+    }
+
+    /// What the interpreter makes of saved switches (observed): a feed override that was on comes back as `M48` does, for
+    /// both; one that was off brings the speed's. The speed override itself, adaptive feed and feed stop that were off
+    /// stay as they are.
+    fn restore_overrides(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
+        let comes_on = |old: Truth, new: Truth| old != new && new == Truth::True;
+        if comes_on(was.feed_override, saved.feed_override) {
+            state.feed_override = Truth::True;
+            self.emit(state, Event::Override { kind: Override::Feed, on: true });
+        }
+        if was.feed_override != saved.feed_override {
+            state.speed_override = Truth::True;
+            self.emit(state, Event::Override { kind: Override::Speed, on: true });
+        }
+        if comes_on(was.adaptive, saved.adaptive) {
+            state.adaptive = Truth::True;
+            self.emit(state, Event::Override { kind: Override::Adaptive, on: true });
+        }
+        if comes_on(was.feed_hold, saved.feed_hold) {
+            state.feed_hold = Truth::True;
+            self.emit(state, Event::Override { kind: Override::FeedStop, on: true });
+        }
     }
 }
 

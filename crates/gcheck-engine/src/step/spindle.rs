@@ -79,12 +79,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let angle = self.words.number(Letter::of('R')).unwrap_or(0.0);
         let way = match self.count(Letter::of('P'))? {
             Some(Count::Known(way @ 0..=2)) => way as u8,
-            Some(Count::Known(_)) if self.model.semantics().compensation.freezes_modes => {
+            Some(Count::Known(_)) if self.refuses_incomplete() => {
                 return Err(Fault::WordRange(Letter::of('P')));
             }
             _ => 0,
         };
-        if !(0.0..=360.0).contains(&angle) && self.model.semantics().compensation.freezes_modes {
+        if !(0.0..=360.0).contains(&angle) && self.refuses_incomplete() {
             return Err(Fault::WordRange(Letter::of('R')));
         }
         state.spindle = Some(Spindle::Stopped);
@@ -119,7 +119,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Ok(())
             }
             // Elsewhere a dwell without time is an exact stop.
-            None if self.model.semantics().compensation.freezes_modes => Err(Fault::NoDwellTime),
+            None if self.refuses_incomplete() => Err(Fault::NoDwellTime),
             None => Ok(()),
         }
     }

@@ -8,7 +8,7 @@ use gcheck_controls::{CodeNumber, Effect, Letter, SystemValue, SystemVariable, U
 
 use super::{Ending, Executor, Outcome, Step};
 use crate::event::{Event, FeedMode, Spindle, Stop, Units};
-use crate::fault::Fault;
+use crate::fault::{CompensationFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -40,6 +40,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let machine_units = |position: &Position| {
             axis.map_or_else(D::unknown, |axis| number(self.in_table_units(axis, position.raw(axis), state)))
         };
+        // By number the position is that of a move still to come; by name it may be asked all the same.
+        let by_number = variable.first.is_some() && variable.holds == V::WorkPosition;
+        if by_number && self.refuses_incomplete() && self.compensates(state) {
+            return Err(Fault::Compensation(CompensationFault::NotWhileOn));
+        }
         Ok(match variable.holds {
             V::WorkPosition | V::EndPosition => coordinate(&state.actual),
             V::MachinePosition => coordinate(&state.machine()),

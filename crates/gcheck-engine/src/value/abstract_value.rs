@@ -242,6 +242,8 @@ fn gather(results: impl Iterator<Item = Result<f64, ValueFault>>) -> Result<Abst
 impl Domain for Abstract {
     type Value = AbstractValue;
 
+    const STOPS_AT_FAULTS: bool = false;
+
     fn number(value: f64) -> AbstractValue {
         AbstractValue::numbers([value], false)
     }

@@ -20,6 +20,7 @@ pub(crate) mod compensation {
     pub(crate) mod diameter_offset_of_another_tool;
     pub(crate) mod lead_in_too_short;
     pub(crate) mod maybe_compensation_left_on;
+    pub(crate) mod refused_under_compensation;
 }
 
 pub(crate) mod cycles {
@@ -34,6 +35,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod turning_profile_not_usable;
 }
 
 pub(crate) mod flow {
@@ -85,8 +87,11 @@ pub(crate) mod modal {
     pub(crate) mod distance_mode_not_stated;
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
+    pub(crate) mod modal_change_in_skipped_block;
     pub(crate) mod restart_with_changed_mode;
+    pub(crate) mod saved_modes_missing;
     pub(crate) mod too_many_m_codes;
+    pub(crate) mod tool_section_not_restart_safe;
     pub(crate) mod two_codes_of_one_group;
     pub(crate) mod units_not_stated;
 }
@@ -186,6 +191,7 @@ pub(crate) mod tool {
 
 pub(crate) mod words {
     pub(crate) mod arc_without_centre;
+    pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod lasting_word_never_given;
     pub(crate) mod missing_decimal_point;
@@ -221,6 +227,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &compensation::diameter_offset_of_another_tool::RULE,
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
+    &compensation::refused_under_compensation::RULE,
     &cycles::cycle_dwell_missing::RULE,
     &cycles::cycle_in_inverse_time::RULE,
     &cycles::cycle_left_on::RULE,
@@ -232,6 +239,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::turning_profile_not_usable::RULE,
     &flow::alarm_reached::RULE,
     &flow::calls_nested_too_deep::RULE,
     &flow::endless_loop::RULE,
@@ -271,8 +279,11 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::distance_mode_not_stated::RULE,
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,
+    &modal::modal_change_in_skipped_block::RULE,
     &modal::restart_with_changed_mode::RULE,
+    &modal::saved_modes_missing::RULE,
     &modal::too_many_m_codes::RULE,
+    &modal::tool_section_not_restart_safe::RULE,
     &modal::two_codes_of_one_group::RULE,
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
@@ -348,6 +359,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &tool::tool_change_without_t::RULE,
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
+    &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::lasting_word_never_given::RULE,
     &words::missing_decimal_point::RULE,

@@ -56,7 +56,7 @@ fn a_configuration_extends_another() {
             "control = \"haas-mill\"\n[rules]\nunknown-code = \"warning\"\nmissing-decimal-point = \"off\"\n",
         ),
         ("jobs/gcheck.toml", "extend = \"../base/shop.toml\"\n[rules]\nunknown-code = \"info\"\n"),
-        ("jobs/part.nc", "%\nO0001\nG999\nG0 X1\nM30\n%\n"),
+        ("jobs/part.nc", "%\nO0001 G90\nG999\nG0 X1\nM30\n%\n"),
     ]);
     assert_eq!(controls(&shop, "."), ["jobs/part.nc haas-mill"]);
     let run = shop.gcheck("check --output-format concise --quiet");
@@ -133,7 +133,7 @@ fn rules_are_ignored_per_file() {
 
 #[test]
 fn rules_are_selected_and_weighed() {
-    let both = "%\nO0001\nG999\nG0 X1\nM30\n%\n";
+    let both = "%\nO0001 G90\nG999\nG0 X1\nM30\n%\n";
     check_part(both, "control = \"haas-mill\"", &["unknown-code", "missing-decimal-point"]);
     check_part(both, "control = \"haas-mill\"\n[rules]\nselect = [\"unknown-code\"]\n", &["unknown-code"]);
     check_part(
@@ -165,7 +165,7 @@ fn options_select_over_the_configuration() {
             "gcheck.toml",
             "control = \"haas-mill\"\n[rules]\nselect = [\"unknown-code\"]\nunknown-code = \"info\"\n",
         ),
-        ("part.nc", "%\nO0001\nG999\nG0 X1\nM30\n%\n"),
+        ("part.nc", "%\nO0001 G90\nG999\nG0 X1\nM30\n%\n"),
     ]);
     let rules = |arguments: &str| {
         shop.gcheck(&format!("check {arguments} --output-format concise --quiet")).findings()
@@ -185,7 +185,7 @@ fn options_select_over_the_configuration() {
 
 #[test]
 fn codes_of_the_shop_are_known() {
-    let program = "%\nO0001\nM451\nG999 X1.\nM30\n%\n";
+    let program = "%\nO0001 G90\nM451\nG999 X1.\nM30\n%\n";
     check_part(program, "control = \"haas-mill\"", &["unknown-code", "unknown-code"]);
     check_part(
         program,

@@ -9,7 +9,7 @@ use serde_json::Value;
 use crate::shop::{Shop, WARNED};
 
 /// A program with an error, a warning with an assumption, and letters that count as one column each.
-const PART: &str = "%\r\nO0001 (PÄRT)\r\nG0 (Ä) X1\r\nG999\r\nM30\r\n%\r\n";
+const PART: &str = "%\r\nO0001 G90 (PÄRT)\r\nG0 (Ä) X1\r\nG999\r\nM30\r\n%\r\n";
 
 fn shop() -> Shop {
     Shop::with(&[("jobs/part.nc", PART), ("jobs/other.nc", WARNED)])
@@ -187,7 +187,7 @@ fn sarif_is_valid() {
         return;
     }
     let shop = shop();
-    shop.file("jobs/strange name, ä.nc", "%\nO0001\nG999 (\u{7f})\nX1 X1\n%\n");
+    shop.file("jobs/strange name, ä.nc", "%\nO0001 G90\nG999 (\u{7f})\nX1 X1\n%\n");
     assert_eq!(shop.gcheck("check --control haas-mill --output-format sarif -o out.sarif").code, 1);
     let mut command = Command::new(validator);
     command.args(["validate", "out.sarif"]).current_dir(shop.path(""));

@@ -16,7 +16,7 @@ pub(crate) const GOOD: &str = "%\nO0001 (GOOD)\nG21 G90 G17 G40 G80\nG0 X1. Y2.\
 /// A program with one finding, an error: no control has `G999`.
 pub(crate) const BAD: &str = "%\nO0001 (BAD)\nG999\nM30\n%\n";
 /// A program with one finding on a Haas mill, a warning: `X1` is a ten-thousandth.
-pub(crate) const WARNED: &str = "%\nO0001 (WARNED)\nG0 X1\nM30\n%\n";
+pub(crate) const WARNED: &str = "%\nO0001 G90 (WARNED)\nG0 X1\nM30\n%\n";
 /// A program with one finding, an info: it has no number.
 pub(crate) const INFORMED: &str = "%\nG0 X1.\nM30\n%\n";
 

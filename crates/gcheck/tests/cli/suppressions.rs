@@ -4,7 +4,7 @@ use crate::shop::Shop;
 
 /// The findings of a program on a Haas mill, without messages, and the exit code.
 fn check_program(lines: &[&str], arguments: &str, findings: &[&str]) {
-    let program = format!("%\nO0001 (PART)\n{}\nM30\n%\n", lines.join("\n"));
+    let program = format!("%\nO0001 G90 (PART)\n{}\nM30\n%\n", lines.join("\n"));
     let shop = Shop::with(&[("part.nc", &program)]);
     let run = shop
         .gcheck(&format!("check part.nc --control haas-mill --output-format concise --quiet {arguments}"));

@@ -16,8 +16,8 @@ declare_rule! {
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
-    /// G21 G90 G17 G0 X-30 Y0
-    /// G41.1 D20 G1 X0 F100
+    /// G21 G90 G17 G0 X-30 Y0 Z5
+    /// G42.1 D20 G1 X0 F100
     /// Y50
     /// G2 X5 Y50 I2.5
     /// G1 Y0
@@ -26,8 +26,8 @@ declare_rule! {
     /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
-    /// G21 G90 G17 G0 X-30 Y0
-    /// G41.1 D4 G1 X0 F100
+    /// G21 G90 G17 G0 X-30 Y0 Z5
+    /// G42.1 D4 G1 X0 F100
     /// Y50
     /// G2 X5 Y50 I2.5
     /// G1 Y0
@@ -74,7 +74,7 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "G21 G90 G0 X-30. Y0.\nG42 D1 G1 X0. F100.\nY50.\nG2 X5. Y50. I2.5\nG1 Y0.\nG40 X60.\nM30\n",
+            "G21 G90 G0 X-30. Y0. Z5.\nG42 D1 G1 X0. F100.\nY50.\nG2 X5. Y50. I2.5\nG1 Y0.\nG40 X60.\nM30\n",
             &expect![[""]],
         );
     }
@@ -84,7 +84,7 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "G21 G90 G0 X-30. Y0.\nG10 L12 P1 R8.\nG42 D1 G1 X0. F100.\nX30.\nY4.\nX0.\nG40 X-30.\nM30\n",
+            "G21 G90 G0 X-30. Y0. Z5.\nG10 L12 P1 R8.\nG41 D1 G1 X0. F100.\nX30.\nY4.\nX0.\nG40 X-30.\nM30\n",
             &expect![[""]],
         );
     }

@@ -118,7 +118,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G41 D1 G1 X1. Y0. F5.\nY2.\nG40\nG1 Z1.\nG2 X2. I.5\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | G2 X2. I.5
+                  | ^^ warning[compensation-off-in-arc] cutter compensation ends on an arc (`G40`)
+            "#]],
         );
     }
 

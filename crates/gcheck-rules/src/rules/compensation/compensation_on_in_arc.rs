@@ -1,7 +1,7 @@
 //! Cutter compensation that begins on an arc.
 
-use gcheck_controls::{CompensationStyle, Effect};
-use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
+use gcheck_controls::{CompensationStyle, Effect, Letter};
+use gcheck_engine::{At, Axis, CompensationFault, Event, Fault, Role};
 
 use super::compensation_left_on::is_on;
 use crate::meta::declare_rule;
@@ -89,11 +89,18 @@ pub(super) fn begins(cx: &PathCx<'_>) -> bool {
 
 /// A move that leaves the compensated plane alone.
 pub(super) fn stands_in_plane(cx: &PathCx<'_>, event: &Event) -> bool {
-    let Event::Travel(travel) = event else { return false };
+    if !matches!(event, Event::Travel(_)) {
+        return false;
+    }
     let Some(plane) = cx.state().plane(cx.model) else { return false };
-    let ([a, b, _], [to_a, to_b, _]) = (plane.to_local(travel.from.xyz()), plane.to_local(travel.programmed.xyz()));
-    let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-    same(a.0, to_a.0) && same(b.0, to_b.0)
+    let (first, second, _) = plane.axes();
+    // By its words: under compensation by a tool of unknown size the path itself is not known.
+    let in_plane = [first, second].into_iter().filter_map(|index| Axis::ALL.get(index)).any(|axis| {
+        let names = |letter: Letter| cx.origin().letters.contains(letter);
+        let increment = cx.model.semantics().increments.iter().find(|(_, of)| Letter::parse(of) == Some(axis.letter()));
+        names(axis.letter()) || increment.and_then(|(letter, _)| Letter::parse(letter)).is_some_and(names)
+    });
+    !in_plane
 }
 
 fn tell(cx: &PathCx<'_>, begun: At, report: &mut Report<'_>) {

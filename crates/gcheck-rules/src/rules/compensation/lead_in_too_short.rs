@@ -20,14 +20,14 @@ declare_rule! {
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
-    /// G21 G90 G17 G0 X0 Y0
+    /// G21 G90 G17 G0 X0 Y0 Z5
     /// G41.1 D20 G1 X5 F100
     /// Y50
     /// M2
     /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
-    /// G21 G90 G17 G0 X0 Y0
+    /// G21 G90 G17 G0 X0 Y0 Z5
     /// G41.1 D20 G1 X15 F100
     /// Y50
     /// G40 X0
@@ -127,11 +127,11 @@ mod tests {
     fn the_size_may_come_from_the_table() {
         // Tools of 10 mm.
         let world = World::of_examples(&tool_not_in_table::META);
-        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[r#"
+        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[r#"
             2 | G41 D1 G1 X3. F100.
               | ^^^^^^^^^^^^^^^^^^^ warning[lead-in-too-short] the lead-in is not longer than the tool's radius (`G41`)
         "#]]);
-        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0.\nG41 D1 G1 X6. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[""]]);
+        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X6. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[""]]);
     }
 
     #[test]
@@ -139,7 +139,7 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "G21 G90 G0 X0. Y0.\nG10 L12 P1 R8.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n",
+            "G21 G90 G0 X0. Y0. Z5.\nG10 L12 P1 R8.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n",
             &expect![[r#"
                 3 | G41 D1 G1 X3. F100.
                   | ^^^^^^^^^^^^^^^^^^^ warning[lead-in-too-short] the lead-in is not longer than the tool's radius (`G41`)

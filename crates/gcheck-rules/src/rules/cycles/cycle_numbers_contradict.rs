@@ -7,26 +7,26 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The numbers of a cycle describe nothing that can be cut: a pocket smaller than its first circle, pecks without end.
+    /// The numbers of a cycle describe nothing that can be cut: a pocket smaller than its first circle, a thread less
+    /// deep than its first cut.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the cycle.
     ///
     /// ## Reported
-    /// ```nc,reported,haas-mill
-    /// G20 G90 G54 G0 X0 Y0 Z.1
-    /// T1 M6
-    /// G1 Z-.1 F10.
-    /// G12 I.5 K.3 Q.1 D1 F20.
-    /// M30
+    /// The full depth is less than the first cut.
+    /// ```nc,reported,linuxcnc
+    /// G18 G21 G90 G0 X20 Z5
+    /// S200 M3
+    /// G76 P1.5 Z-20 I-1 J0.5 K0.3 Q29
+    /// M2
     /// ```
     /// ## Not reported
-    /// ```nc,quiet,haas-mill
-    /// G20 G90 G54 G0 X0 Y0 Z.1
-    /// T1 M6
-    /// G1 Z-.1 F10.
-    /// G12 I.3 K.5 Q.1 D1 F20.
-    /// M30
+    /// ```nc,quiet,linuxcnc
+    /// G18 G21 G90 G0 X20 Z5
+    /// S200 M3
+    /// G76 P1.5 Z-20 I-1 J0.3 K0.9 Q29
+    /// M2
     /// ```
     rule "cycle-numbers-contradict" in "cycles" {
         summary: "cycle whose numbers do not fit together",
@@ -70,8 +70,21 @@ mod tests {
     fn the_code_is_marked() {
         check_rule(
             &RULE,
+            "linuxcnc",
+            "G18 G21 G90 G0 X20 Z5\nS200 M3\nG76 P1.5 Z-20 I-1 J0.5 K0.3 Q29\nG76 P1.5 Z-20 I-1 J#1 K0.3 Q29\nM2\n",
+            &expect![[r#"
+                3 | G76 P1.5 Z-20 I-1 J0.5 K0.3 Q29
+                  | ^^^ warning[cycle-numbers-contradict] numbers of a cycle do not fit together (`G76`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_tool_of_unknown_size_may_fit() {
+        check_rule(
+            &RULE,
             "haas-mill",
-            "G20 G90 G54 G0 X0 Y0 Z.1\nG1 Z-.1 F10.\nG13 I.5 K.3 Q.1 D1 F20.\nG13 I#1 K.3 Q.1 D1\nM30\n",
+            "G20 G90 G54 G0 X0 Y0 Z.1\nG1 Z-.1 F10.\nG13 I.1 K.3 Q.1 D1 F20.\nM30\n",
             &expect![[""]],
         );
     }

@@ -63,8 +63,7 @@ struct LoopConditionUnchanged {
 }
 
 impl PathRule for LoopConditionUnchanged {
-    fn endless(&mut self, cx: &PathCx<'_>, head: At, _: &mut Report<'_>) {
-        let _ = cx;
+    fn endless(&mut self, _: &PathCx<'_>, head: At, _: &mut Report<'_>) {
         self.endless.insert(head.block);
     }
 
@@ -257,10 +256,7 @@ mod tests {
 
     #[test]
     fn a_loop_that_repeats_itself_is_told_elsewhere() {
-        check_rule(&RULE, "fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[r#"
-            2 | WHILE [#1 LT 5] DO1
-              | ^^^^^^^^^^^^^^^^^^^ warning[loop-condition-unchanged] loop does not change what its condition asks for
-        "#]]);
+        check_rule(&RULE, "fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![""]);
     }
 
     #[test]

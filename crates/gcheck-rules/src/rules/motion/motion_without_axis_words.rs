@@ -1,4 +1,4 @@
-//! A move that names no axis.
+//! A move without the axis words it needs.
 
 use gcheck_engine::{Fault, Role};
 
@@ -6,8 +6,8 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A block is to move, by its code or by the mode in effect, and has none of the axis words that the move needs, on a
-    /// control that refuses it.
+    /// A block is to move by the mode in effect, and has none of the axis words that the move needs: an arc by radius without an
+    /// axis of its plane, a cycle without a point. The control refuses it.
     ///
     /// Codes whose page asks for one of several words are judged by `word-choice-missing`.
     ///
@@ -18,7 +18,7 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// G17 G21 G90 G0 X0 Y0
     /// G2 X10 R5 F100
-    /// R5
+    /// Z-1 R5
     /// M2
     /// ```
     /// ## Not reported
@@ -29,7 +29,7 @@ declare_rule! {
     /// M2
     /// ```
     rule "motion-without-axis-words" in "motion" {
-        summary: "move that names no axis",
+        summary: "move without the axis words it needs",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -48,8 +48,8 @@ impl PathRule for MotionWithoutAxisWords {
         let mode = mode.or_else(|| cx.code_name(Role::Motion)).filter(|name| !name.is_empty());
         let code = mode.map_or_else(String::new, |mode| format!(" (`{mode}`)"));
         report.add(
-            cx.finding(&META, cx.range(), format!("move that names no axis{code}"))
-                .label("has words of the move, but no axis word")
+            cx.finding(&META, cx.range(), format!("move without the axis words it needs{code}"))
+                .label("has words of the move, but no point")
                 .help("give the end point, or end the mode before this block"),
         );
     }
@@ -81,8 +81,11 @@ mod tests {
         check_rule(
             &RULE,
             "linuxcnc",
-            "G17 G21 G90 G0 X0 Y0 Z10\nG81 X10 Z-5 R2 F100\nR1\nG80\nM2\n",
-            &expect![[""]],
+            "G17 G21 G90 G0 X0 Y0 Z10\nG2 X10 R5 F100\nZ-1 R5\nG1 Z0\nM2\n",
+            &expect![[r#"
+                3 | Z-1 R5
+                  | ^^^^^^ error[motion-without-axis-words] move without the axis words it needs (`G2`)
+            "#]],
         );
     }
 

@@ -1,0 +1,600 @@
+//! What a control refuses of a block before anything of it acts: words and codes that do not fit together.
+//!
+//! Knows: which words a code reads and needs, which codes exclude each other, from data prepared once for a control. Must not
+//! know: what codes do, beyond the modes that decide which motion reads the block's words.
+//!
+//! Only a run refuses. An analysis of all paths goes on behind a mistake, and what a block says by itself is judged by the rules
+//! of its text; so it takes every block as it stands.
+
+use gcheck_controls::{
+    BlockRules, Code, CodeIx, CodeNumber, Confidence, Control, Effect, GroupIx, Handling, Letter, LetterSet, Need,
+    WordEntry, WordKind,
+};
+use gcheck_program::{Block, BlockFlags, Place, Value, Word};
+
+use super::{Executor, POLAR, Step};
+use crate::fault::{CycleFault, Fault};
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::state::State;
+use crate::value::Domain;
+
+/// What is said about the value of one address.
+#[derive(Debug, Clone, Copy)]
+struct ValueRange {
+    letter: Letter,
+    whole: bool,
+    min: f64,
+    max: f64,
+    above: f64,
+}
+
+impl ValueRange {
+    /// `None` when every value is good.
+    fn new(letter: Letter, kind: WordKind, [min, max, above]: [Option<f64>; 3]) -> Option<Self> {
+        let range = Self {
+            letter,
+            whole: matches!(kind, WordKind::Integer | WordKind::Program),
+            min: min.unwrap_or(f64::NEG_INFINITY),
+            max: max.unwrap_or(f64::INFINITY),
+            above: above.unwrap_or(f64::NEG_INFINITY),
+        };
+        let limits = range.whole || min.is_some() || max.is_some() || above.is_some();
+        limits.then_some(range)
+    }
+
+    /// Is the value good? One that is not known is.
+    fn takes(&self, value: f64) -> bool {
+        value.is_nan()
+            || (self.min..=self.max).contains(&value)
+                && (value > self.above || self.above.is_infinite())
+                && (!self.whole || is_whole(value))
+    }
+}
+
+/// Whole, as far as the interpreter's own arithmetic lets a number be.
+fn is_whole(value: f64) -> bool {
+    (value - value.round()).abs() <= 1e-4
+}
+
+/// What one code demands of its block, before the block acts.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct CodeContract {
+    /// Addresses that it reads.
+    reads: LetterSet,
+    /// It reads any address.
+    reads_all: bool,
+    required: LetterSet,
+    /// Of each set one address must stand.
+    one_of: Vec<LetterSet>,
+    /// Of each list only one set may stand.
+    apart: Vec<Vec<LetterSet>>,
+    forbidden: LetterSet,
+    ranges: Vec<ValueRange>,
+    /// Codes that must not stand in the block.
+    conflicts: Vec<CodeIx>,
+    /// Groups, as bits, of which no code may stand in the block.
+    conflict_groups: u64,
+    /// Another code of the group must not stand in the block.
+    exclusive: bool,
+    first_only: bool,
+    is_m: bool,
+    /// Cutter compensation must be off when the code acts.
+    pub(crate) uncompensated: bool,
+}
+
+/// What holds for every block of a control.
+#[derive(Debug, Clone)]
+pub(crate) struct BlockContract {
+    strict: bool,
+    two_of_a_group: bool,
+    code_twice: bool,
+    word_twice: bool,
+    unread_word: bool,
+    /// Nothing at all is refused.
+    idle: bool,
+    /// Addresses that make a block without codes worth a look.
+    watched: LetterSet,
+    /// Addresses that need somebody to read them.
+    bound: LetterSet,
+    /// Addresses that need nobody to read them beside one of these.
+    beside: Vec<(Letter, LetterSet)>,
+    ranges: Vec<ValueRange>,
+    /// Flags that make a block without codes worth a look.
+    trouble: BlockFlags,
+    m_codes: usize,
+    /// Axes that only a machine's configuration gives.
+    absent_axes: LetterSet,
+    /// Spindles of a machine that nobody described.
+    spindles: Option<f64>,
+    block_delete_first: bool,
+    block_delete_plain: bool,
+}
+
+/// The addresses of a text like `"IJ@"`.
+fn letters(text: &str) -> LetterSet {
+    let mut buffer = [0; 4];
+    text.chars().filter_map(|c| Letter::parse(c.encode_utf8(&mut buffer))).collect()
+}
+
+fn listed(list: &std::collections::BTreeMap<String, String>, code: &str) -> LetterSet {
+    list.get(code).map_or(LetterSet::EMPTY, |text| letters(text))
+}
+
+/// Every address.
+fn every_letter() -> impl Iterator<Item = Letter> {
+    let corners = [Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A];
+    (0..=u8::MAX).filter_map(Letter::new).chain((0..=u8::MAX).filter_map(Letter::sign)).chain(corners)
+}
+
+impl CodeContract {
+    /// What data says of a code, on a control that refuses; nothing on others.
+    pub(crate) fn of(code: Code<'_>, control: &Control) -> Self {
+        let entry = code.entry();
+        let semantics = control.semantics();
+        let rules = &semantics.refusals;
+        let reads_all = entry.any_words || code.is_user();
+        let mut contract = Self {
+            reads: code.reads().without(listed(&rules.newer_words, &entry.code)),
+            reads_all,
+            exclusive: code.group().exclusive,
+            is_m: code.number().letter() == b'M',
+            ..Self::default()
+        };
+        if !semantics.strict {
+            return contract;
+        }
+        let late = listed(&rules.late_words, &entry.code);
+        let late_values = listed(&rules.late_values, &entry.code).or(late);
+        let sure = |word: &&WordEntry| word.confidence.is_none_or(|confidence| confidence != Confidence::Assumed);
+        for word in entry.words.iter().filter(sure) {
+            let Some(letter) = Letter::parse(&word.letter) else { continue };
+            if word.need == Need::Required && !late.contains(letter) {
+                contract.required.insert(letter);
+            }
+            if !late_values.contains(letter) {
+                contract.ranges.extend(ValueRange::new(letter, word.kind, [word.min, word.max, word.above]));
+            }
+        }
+        let is_early = |set: &LetterSet| !set.intersects(late);
+        let set = |items: &[String]| -> LetterSet { items.iter().filter_map(|item| Letter::parse(item)).collect() };
+        contract.one_of = entry.one_of.iter().map(|items| set(items)).filter(is_early).collect();
+        for items in &entry.not_together {
+            let sets: Vec<LetterSet> = items.iter().map(|item| letters(item)).collect();
+            if sets.iter().all(is_early) {
+                contract.apart.push(sets);
+            }
+        }
+        contract.forbidden = set(&entry.forbidden);
+        for item in &entry.conflicts {
+            match item.strip_prefix('@') {
+                Some(group) => {
+                    let group = control.group_by_id(group).map_or(u32::MAX, |ix| ix.index() as u32);
+                    contract.conflict_groups |= 1_u64.checked_shl(group).unwrap_or(0);
+                }
+                None => {
+                    let ix = CodeNumber::parse(item).map(|number| control.code_ix(number));
+                    contract.conflicts.extend(ix.filter(|ix| ix.is_some()));
+                }
+            }
+        }
+        contract.first_only = rules.first_only.contains(&entry.code);
+        contract.uncompensated = entry.requires.iter().any(|item| {
+            let code = CodeNumber::parse(item).and_then(|number| control.code(number));
+            code.is_some_and(|code| code.effect() == Effect::CompensationOff)
+        });
+        contract
+    }
+}
+
+impl BlockContract {
+    /// What data says of a control's blocks. Only what a manual says is refused.
+    pub(crate) fn of(control: &Control) -> Self {
+        let BlockRules { two_of_a_group, code_twice, word_twice, unread_word, confidence, .. } = control.block_rules();
+        let is_refused = |handling: &Handling| *handling == Handling::Refused && *confidence == Confidence::Manual;
+        let semantics = control.semantics();
+        let rules = &semantics.refusals;
+        let strict = semantics.strict;
+        let beside: Vec<(Letter, LetterSet)> =
+            rules.beside.iter().filter_map(|(letter, with)| Some((Letter::parse(letter)?, letters(with)))).collect();
+        let mut bound = LetterSet::EMPTY;
+        let mut ranges = Vec::new();
+        for letter in every_letter() {
+            let Some(entry) = control.letter(letter) else { continue };
+            if !entry.free && !entry.axis || beside.iter().any(|(other, _)| *other == letter) {
+                bound.insert(letter);
+            }
+            // Codes are judged as codes, and spindles below.
+            let is_code = matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O') && !letter.is_corner();
+            if strict && !is_code && letter != Letter::DOLLAR {
+                ranges.extend(ValueRange::new(letter, entry.kind, [entry.min, entry.max, None]));
+            }
+        }
+        if !is_refused(unread_word) {
+            bound = LetterSet::EMPTY;
+        }
+        let absent_axes = match &rules.axes {
+            Some(axes) if strict => control.axes().without(letters(axes)),
+            _ => LetterSet::EMPTY,
+        };
+        let ranged: LetterSet = ranges.iter().map(|range: &ValueRange| range.letter).collect();
+        let syntax = control.syntax();
+        let sure_of_delete = strict && syntax.block_delete_confidence == Some(Confidence::Manual);
+        let mut trouble = BlockFlags::empty();
+        trouble.set(BlockFlags::REPEATED, is_refused(word_twice));
+        trouble.set(BlockFlags::UNKNOWN_ADDRESS, strict);
+        let refuses = [two_of_a_group, code_twice, word_twice, unread_word].into_iter().any(is_refused);
+        Self {
+            strict,
+            two_of_a_group: is_refused(two_of_a_group),
+            code_twice: is_refused(code_twice),
+            word_twice: is_refused(word_twice),
+            unread_word: is_refused(unread_word),
+            idle: !strict && !refuses,
+            watched: bound.or(ranged).or(absent_axes).or(POLAR),
+            bound,
+            beside,
+            ranges,
+            trouble,
+            m_codes: control.limits().m_codes_per_block.map_or(usize::MAX, usize::from),
+            absent_axes,
+            spindles: rules.spindles.filter(|_| strict).map(f64::from),
+            block_delete_first: sure_of_delete && !syntax.block_delete_inside,
+            block_delete_plain: sure_of_delete && !syntax.block_delete_levels,
+        }
+    }
+}
+
+/// Which motion the words of a block belong to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Acting {
+    /// None.
+    Nothing,
+    /// One that the block names.
+    Named(CodeIx),
+    /// The one in effect.
+    InEffect(CodeIx),
+}
+
+impl Acting {
+    fn code(self) -> Option<CodeIx> {
+        match self {
+            Self::Nothing => None,
+            Self::Named(ix) | Self::InEffect(ix) => Some(ix),
+        }
+    }
+}
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Refuses a block for how it is written: where its number and its `/` stand, how long it is.
+    pub(super) fn check_form(&self, place: &Place, words: &[Word], block: &Block) -> Step {
+        let rules = &self.model.contract;
+        if !D::STOPS_AT_FAULTS || !rules.strict {
+            return Ok(());
+        }
+        if block.flags.contains(BlockFlags::LONG_LINE) {
+            return Err(Fault::LineTooLong);
+        }
+        if block.flags.contains(BlockFlags::BLOCK_DELETE) {
+            let text = self.block_text(place, block).trim_ascii_start();
+            let behind = text.strip_prefix(b"/").map(<[u8]>::trim_ascii_start);
+            let is_first = behind.is_some();
+            let has_level = behind.is_some_and(|rest| rest.first().is_some_and(u8::is_ascii_digit));
+            let is_second = behind.is_some_and(|rest| rest.first() == Some(&b'/'));
+            if rules.block_delete_first && (!is_first || is_second) || rules.block_delete_plain && has_level {
+                return Err(Fault::Malformed);
+            }
+        }
+        if block.flags.contains(BlockFlags::LABEL) {
+            self.check_label(place, words, block)?;
+        }
+        Ok(())
+    }
+
+    /// The number of a block stands in front of everything but `/`, as digits without a sign.
+    fn check_label(&self, place: &Place, words: &[Word], block: &Block) -> Step {
+        let letter = Letter::of('N');
+        let Some(word) = words.iter().find(|word| word.letter == letter) else { return Ok(()) };
+        let start = word.range().start;
+        if start != block.range.start {
+            let length = start.saturating_sub(block.range.start) as usize;
+            let before = self.block_text(place, block).get(..length).unwrap_or_default().trim_ascii();
+            if !before.is_empty() && before != b"/" {
+                return Err(Fault::Misplaced(letter));
+            }
+        }
+        match word.value {
+            Value::Number(_) if !word.shape.minus => Ok(()),
+            _ => Err(Fault::WordRange(letter)),
+        }
+    }
+
+    fn block_text(&self, place: &Place, block: &Block) -> &[u8] {
+        let text = match &self.cursor {
+            Some(cursor) => cursor.file.loaded.text().as_bytes(),
+            None => &[],
+        };
+        let (start, end) = (place.base + block.range.start, place.base + block.range.end);
+        text.get(start as usize..end as usize).unwrap_or_default()
+    }
+
+    /// Refuses a block whose words and codes do not fit together, before anything of it acts.
+    pub(super) fn check_block(&self, words: &[Word], state: &State<D>) -> Step {
+        let rules = &self.model.contract;
+        if !D::STOPS_AT_FAULTS || rules.idle {
+            return Ok(());
+        }
+        let codes = self.words.codes();
+        let present = self.words.present();
+        let flags = self.origin.flags;
+        // A block that only moves pays for this one test.
+        if codes.is_empty() && !present.intersects(rules.watched) && !flags.intersects(rules.trouble) {
+            if rules.strict && present.intersects(self.model.axis_letters) {
+                let acting = self.acting_motion(state);
+                self.check_motion(acting, state)?;
+                return self.check_words(acting);
+            }
+            return Ok(());
+        }
+        if rules.word_twice && flags.contains(BlockFlags::REPEATED) && !self.any_reads_all() {
+            self.check_repeated(words)?;
+        }
+        if flags.intersects(rules.trouble.intersection(BlockFlags::UNKNOWN_ADDRESS)) {
+            return Err(Fault::Malformed);
+        }
+        self.check_codes(words)?;
+        if rules.strict {
+            self.check_machine()?;
+            for range in &rules.ranges {
+                self.check_range(range)?;
+            }
+        }
+        let acting = self.acting_motion(state);
+        if rules.unread_word {
+            self.check_all_read(acting)?;
+        }
+        if rules.strict {
+            self.check_motion(acting, state)?;
+            self.check_words(acting)?;
+        }
+        Ok(())
+    }
+
+    fn contract_of(&self, ix: CodeIx) -> Option<&CodeContract> {
+        self.model.contracts.get(ix.index())
+    }
+
+    fn any_reads_all(&self) -> bool {
+        self.words.codes().iter().any(|ix| self.contract_of(*ix).is_some_and(|contract| contract.reads_all))
+    }
+
+    fn check_repeated(&self, words: &[Word]) -> Step {
+        let mut seen = LetterSet::EMPTY;
+        let control = self.model.control();
+        for word in words {
+            let repeats = !seen.insert(word.letter);
+            if repeats && !control.letter(word.letter).is_some_and(|entry| entry.repeatable) {
+                return Err(Fault::WordTwice(word.letter));
+            }
+        }
+        Ok(())
+    }
+
+    /// Codes against each other.
+    fn check_codes(&self, words: &[Word]) -> Step {
+        let rules = &self.model.contract;
+        let codes = self.words.codes();
+        let mut m_codes = 0;
+        for (index, ix) in codes.iter().enumerate() {
+            let (Some(code), Some(contract)) = (self.model.code(*ix), self.contract_of(*ix)) else { continue };
+            m_codes += usize::from(contract.is_m);
+            if contract.first_only && !opens_block(words, *ix) {
+                return Err(Fault::UnknownCode);
+            }
+            if code.effect == Effect::UserCommand && self.machine.fresh && rules.strict {
+                // A program in the machine's folder, and nobody said that it is there.
+                return Err(Fault::UnknownCode);
+            }
+            for (other_index, other) in codes.iter().enumerate() {
+                if other_index == index {
+                    continue;
+                }
+                let Some(other_code) = self.model.code(*other) else { continue };
+                let same_group = contract.exclusive && other_code.group == code.group;
+                let refused = if other == ix { rules.code_twice } else { rules.two_of_a_group };
+                if same_group && refused || contract.excludes(*other, other_code.group) {
+                    return Err(Fault::Conflict);
+                }
+            }
+        }
+        if rules.strict && m_codes > rules.m_codes {
+            return Err(Fault::TooManyCodes);
+        }
+        Ok(())
+    }
+
+    /// Axes and spindles that a machine has only when somebody says so.
+    fn check_machine(&self) -> Step {
+        let rules = &self.model.contract;
+        if !self.machine.fresh {
+            return Ok(());
+        }
+        if self.machine.axes.is_none()
+            && let Some(letter) = self.words.present().and(rules.absent_axes).iter().next()
+        {
+            return Err(Fault::NoSuchAxis(letter));
+        }
+        if let (Some(spindles), Some(number)) = (rules.spindles, self.words.number(Letter::DOLLAR))
+            && (number <= -2.0 || number >= spindles)
+        {
+            return Err(Fault::WordRange(Letter::DOLLAR));
+        }
+        Ok(())
+    }
+
+    fn check_range(&self, range: &ValueRange) -> Step {
+        match self.words.number(range.letter) {
+            Some(value) if !range.takes(value) => Err(Fault::WordRange(range.letter)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The motion that the block's words belong to.
+    fn acting_motion(&self, state: &State<D>) -> Acting {
+        let mut cancels = false;
+        let mut takes_axes = false;
+        for ix in self.words.codes() {
+            let Some(code) = self.model.code(*ix) else { continue };
+            match code.role {
+                Some(Role::Cycle) if code.effect == Effect::CycleCancel => cancels = true,
+                Some(Role::Motion | Role::Cycle) => return Acting::Named(*ix),
+                _ => {}
+            }
+            let reads_all = self.contract_of(*ix).is_some_and(|contract| contract.reads_all);
+            takes_axes |= code.takes_axes || super::owns_axes(code.effect) || reads_all;
+        }
+        let present = self.words.present();
+        if takes_axes || cancels {
+            return Acting::Nothing;
+        }
+        let named = present.intersects(self.model.axis_letters) || present.intersects(POLAR);
+        if !named && !self.turns_about_centre(state) {
+            return Acting::Nothing;
+        }
+        match state.active_cycle(self.model) {
+            Some(cycle) if cycle.is_some() => return Acting::InEffect(cycle),
+            _ => {}
+        }
+        state.mode(Role::Motion).only().filter(|ix| ix.is_some()).map_or(Acting::Nothing, Acting::InEffect)
+    }
+
+    /// A centre without an end, while arcs are the mode: a full circle, on strict controls.
+    pub(super) fn turns_about_centre(&self, state: &State<D>) -> bool {
+        self.model.contract.strict
+            && self.words.present().intersects(LetterSet::of("IJK"))
+            && state.active_cycle(self.model).is_some_and(|cycle| !cycle.is_some())
+            && state
+                .mode(Role::Motion)
+                .only()
+                .is_some_and(|ix| matches!(self.model.effect(ix), Effect::ArcClockwise | Effect::ArcCounterClockwise))
+    }
+
+    /// Every word is read by a code of the block, or by the motion.
+    fn check_all_read(&self, acting: Acting) -> Step {
+        let rules = &self.model.contract;
+        let present = self.words.present();
+        let mut unread = present.and(rules.bound);
+        for ix in self.words.codes().iter().copied().chain(acting.code()) {
+            let Some(contract) = self.contract_of(ix) else { continue };
+            if contract.reads_all {
+                return Ok(());
+            }
+            unread = unread.without(contract.reads);
+        }
+        let is_beside = |letter: &Letter| {
+            rules.beside.iter().any(|(other, with)| other == letter && present.intersects(*with))
+        };
+        match unread.iter().find(|letter| !is_beside(letter)) {
+            Some(letter) => Err(Fault::UnreadWord(letter)),
+            None => Ok(()),
+        }
+    }
+
+    /// Axis words need a motion, and some motions cannot have some words.
+    fn check_motion(&self, acting: Acting, state: &State<D>) -> Step {
+        let present = self.words.present();
+        let codes = self.words.codes();
+        let has = |effect: Effect| codes.iter().any(|ix| self.model.effect(*ix) == effect);
+        let polar = present.intersects(POLAR);
+        let mut taken = false;
+        for ix in codes {
+            let Some(code) = self.model.code(*ix) else { continue };
+            let reads_all = self.contract_of(*ix).is_some_and(|contract| contract.reads_all);
+            taken |= code.takes_axes || super::owns_axes(code.effect) || reads_all;
+        }
+        if acting == Acting::Nothing {
+            if (polar || present.intersects(self.model.axis_letters)) && !taken {
+                return Err(Fault::NoMotionMode);
+            }
+            if polar {
+                return Err(Fault::Conflict);
+            }
+        }
+        if polar && present.intersects(LetterSet::of("XY")) {
+            return Err(Fault::Conflict);
+        }
+        if has(Effect::MachineCoordinates) {
+            let straight = acting.code().map(|ix| self.model.effect(ix));
+            if !matches!(straight, Some(Effect::Rapid | Effect::Linear)) {
+                return Err(Fault::NoMotionMode);
+            }
+            let incremental = if has(Effect::Absolute) {
+                false
+            } else {
+                has(Effect::Incremental) || state.is_incremental(self.model) == Some(true)
+            };
+            if incremental || polar {
+                return Err(Fault::Conflict);
+            }
+        }
+        let role = acting.code().and_then(|ix| self.model.role(ix));
+        if role == Some(Role::Cycle) && present.intersects(LetterSet::of("ABC")) {
+            return Err(Fault::Cycle(CycleFault::Rotary));
+        }
+        Ok(())
+    }
+
+    /// What each code, and the motion, says of its words.
+    fn check_words(&self, acting: Acting) -> Step {
+        let in_effect = match acting {
+            Acting::InEffect(ix) => Some(ix),
+            _ => None,
+        };
+        for ix in self.words.codes().iter().copied().chain(in_effect) {
+            let Some(contract) = self.contract_of(ix) else { continue };
+            self.check_words_of(ix, contract)?;
+            if self.model.effect(ix) == Effect::WriteOffsets {
+                self.check_write_offsets()?;
+            }
+        }
+        Ok(())
+    }
+
+    fn check_words_of(&self, ix: CodeIx, contract: &CodeContract) -> Step {
+        let present = self.words.present();
+        // An alternative of axis words is what people miss first.
+        for set in &contract.one_of {
+            if !present.intersects(*set) {
+                let missing = set.iter().next().unwrap_or(Letter::of('X'));
+                let moves = set.intersects(self.model.axis_letters);
+                return Err(if moves { Fault::NoAxisWords } else { Fault::MissingWord(missing) });
+            }
+        }
+        if let Some(missing) = contract.required.without(present).iter().next() {
+            let dwells = self.model.effect(ix) == Effect::Dwell;
+            return Err(if dwells { Fault::NoDwellTime } else { Fault::MissingWord(missing) });
+        }
+        for sets in &contract.apart {
+            if sets.iter().filter(|set| present.intersects(**set)).count() > 1 {
+                return Err(Fault::Conflict);
+            }
+        }
+        if let Some(letter) = present.and(contract.forbidden).iter().next() {
+            return Err(Fault::UnreadWord(letter));
+        }
+        contract.ranges.iter().try_for_each(|range| self.check_range(range))
+    }
+}
+
+impl CodeContract {
+    fn excludes(&self, other: CodeIx, group: GroupIx) -> bool {
+        let bit = 1_u64.checked_shl(group.index() as u32).unwrap_or(0);
+        self.conflict_groups & bit != 0 || self.conflicts.contains(&other)
+    }
+}
+
+/// Does the code stand in front of all other words of its block but the number?
+fn opens_block(words: &[Word], ix: CodeIx) -> bool {
+    let mut codes = words.iter().filter(|word| word.letter != Letter::of('N'));
+    codes.next().is_some_and(|word| word.code == ix) && codes.all(|word| word.code != ix)
+}

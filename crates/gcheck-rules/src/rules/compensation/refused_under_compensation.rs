@@ -1,0 +1,99 @@
+//! Something that the control does not do while cutter compensation is on.
+
+use gcheck_engine::{CompensationFault, Fact, Fault, Role};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block asks for something that the control does not do while cutter compensation is on, switches compensation on
+    /// twice, or in a plane in which it does not work.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm, with the tool at the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G17 F100
+    /// G41.1 D6 G1 X10
+    /// G1 Y10
+    /// G28
+    /// M2
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G17 F100
+    /// G41.1 D6 G1 X10
+    /// G41.1 D6 Y10
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 G17 F100
+    /// G41.1 D6 G1 X10
+    /// G1 Y10
+    /// G40 X20
+    /// G28
+    /// M2
+    /// ```
+    rule "refused-under-compensation" in "compensation" {
+        summary: "refused while cutter compensation is on",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(RefusedUnderCompensation) },
+    }
+}
+
+struct RefusedUnderCompensation;
+
+impl PathRule for RefusedUnderCompensation {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::Compensation(fault) = fault else { return };
+        let (message, label, help) = match fault {
+            CompensationFault::NotWhileOn => (
+                "the control does not do this while cutter compensation is on",
+                "refused with compensation on",
+                "switch compensation off (`G40`) with a move away from the part before this block",
+            ),
+            CompensationFault::AlreadyOn => (
+                "cutter compensation is on already",
+                "switched on a second time",
+                "switch compensation off (`G40`) before it is switched on again",
+            ),
+            CompensationFault::Plane => (
+                "cutter compensation does not work in this plane",
+                "switched on in a plane in which it does not work",
+                "select `G17` (`G18` on a lathe) before compensation is switched on",
+            ),
+            // Rules of their own speak of these.
+            CompensationFault::EntryTooShort { .. }
+            | CompensationFault::EntryIsArc
+            | CompensationFault::ExitIsArc
+            | CompensationFault::Gouge => return,
+        };
+        let finding = cx.finding(&META, cx.range(), message).label(label).help(help);
+        let code = cx.code_name(Role::Compensation).map_or_else(|| "compensation".to_owned(), |c| format!("`{c}`"));
+        report.add(match fault {
+            CompensationFault::Plane => finding,
+            _ => cx.resting_on(finding, Fact::Mode(Role::Compensation), &code),
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_is_marked() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn other_planes() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G19 F100\nG41.1 D6 G1 Y10\nM2\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,184 @@
+//! A tool's part of the program that cannot be started from its tool change.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{Event, Role};
+
+use crate::boundary::Boundary;
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// What a tool does relies on modes that were set before its tool change: positions or increments, work offset, feed, speed,
+    /// spindle.
+    ///
+    /// ## Why it matters
+    /// After a broken tool the operator starts again at the tool change. What an earlier part of the program set is not set
+    /// then. The rule is for shops that restart so; it is off by default.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G90 G54
+    /// T1 M6
+    /// S1000 M3
+    /// G1 X10. F100.
+    /// T2 M6
+    /// S2000 M3
+    /// G1 X20.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G90 G54
+    /// T1 M6
+    /// S1000 M3
+    /// G1 X10. F100.
+    /// T2 M6
+    /// G90 G54 S2000 M3
+    /// G1 X20. F150.
+    /// M30
+    /// ```
+    rule "tool-section-not-restart-safe" in "modal" {
+        summary: "tool section relies on modes set before its tool change",
+        severity: Hint,
+        tier: Path,
+        recommended: false,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::CUTS),
+            make: || Box::new(ToolSectionNotRestartSafe { section: None, sections: 0 }),
+        },
+    }
+}
+
+/// A tool's part of the program, before its first cut.
+struct Section {
+    finding: Finding,
+    /// What was stated since the tool change.
+    stated: Vec<Needed>,
+}
+
+/// What a section needs to be told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Needed {
+    Distance,
+    WorkOffset,
+    Feed,
+    Speed,
+    Spindle,
+}
+
+struct ToolSectionNotRestartSafe {
+    section: Option<Section>,
+    sections: usize,
+}
+
+impl PathRule for ToolSectionNotRestartSafe {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if cx.boundary() != Some(Boundary::ToolChange) {
+            return;
+        }
+        self.sections += 1;
+        self.section = None;
+        // The first tool's part begins with the program.
+        if self.sections > 1 {
+            let range = cx.boundary_range(Boundary::ToolChange);
+            let mut stated = Vec::new();
+            // `G90 G54 T2 M6`: stated in the block that the operator starts from.
+            for code in cx.codes() {
+                stated.extend(cx.model.role(code).and_then(of_role));
+            }
+            let letters = cx.origin().letters;
+            stated.extend(letters.contains(Letter::of('S')).then_some(Needed::Speed));
+            stated.extend(letters.contains(Letter::of('F')).then_some(Needed::Feed));
+            self.section = Some(Section { finding: cx.finding(&META, range, String::new()), stated });
+        }
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let Some(section) = &mut self.section else { return };
+        let stated = match event {
+            Event::FeedRate(_) => Some(Needed::Feed),
+            Event::SpindleSpeed(_) => Some(Needed::Speed),
+            Event::Spindle(spindle) => (*spindle != gcheck_engine::Spindle::Stopped).then_some(Needed::Spindle),
+            Event::WorkOffset { .. } => Some(Needed::WorkOffset),
+            _ => None,
+        };
+        section.stated.extend(stated);
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let Some(section) = self.section.take() else { return };
+        let set_now = |role: Role| {
+            let set_by = cx.trace().set_by(gcheck_engine::Fact::Mode(role));
+            set_by.and_then(|at| cx.range_of(at)).is_some_and(|range| range.start >= section.finding.range.start)
+        };
+        let mut missing = Vec::new();
+        for (needed, role, word) in [
+            (Needed::Distance, Some(Role::Distance), cx.cancel_of(Effect::Absolute)),
+            (Needed::WorkOffset, Some(Role::WorkOffset), cx.cancel_of(Effect::WorkOffset(1))),
+            (Needed::Feed, None, Some("F".to_owned())),
+            (Needed::Speed, None, Some("S".to_owned())),
+            (Needed::Spindle, None, cx.cancel_of(Effect::SpindleClockwise)),
+        ] {
+            let Some(word) = word else { continue };
+            let is_stated = section.stated.contains(&needed) || role.is_some_and(set_now);
+            // Turrets find the part by the tool's own offset.
+            let is_needed = needed != Needed::WorkOffset || !cx.model.semantics().tools.change_by_t;
+            if is_needed && !is_stated {
+                missing.push(format!("`{word}`"));
+            }
+        }
+        if missing.is_empty() || cx.is_behind_unknown_program() {
+            return;
+        }
+        let mut finding = section.finding;
+        finding.message = format!("the tool's part relies on what was set before it ({})", missing.join(", "));
+        report.add(
+            finding
+                .label("a restart from here does not set it")
+                .also(cx.range(), "its first cut")
+                .help(format!("state {} again behind the tool change", missing.join(", "))),
+        );
+    }
+}
+
+fn of_role(role: Role) -> Option<Needed> {
+    match role {
+        Role::Distance => Some(Needed::Distance),
+        Role::WorkOffset => Some(Needed::WorkOffset),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn what_is_missing_is_listed() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54\nT1 M6\nS500 M3\nG1 X1. F5.\nT2 M6\nG1 X2.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_first_tool_begins_with_the_program() {
+        check_rule(&RULE, "haas-mill", "G20 G90 G54 S500 M3\nT1 M6\nG1 X1. F5.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_turret_states_speed_and_feed() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21\nT0101\nG97 S500 M3\nG1 X1. F.1\nT0202\nG1 X2.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

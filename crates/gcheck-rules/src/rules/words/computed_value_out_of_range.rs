@@ -1,0 +1,91 @@
+//! A computed value that its code cannot use.
+
+use gcheck_engine::{Fault, FrameKind};
+use gcheck_program::Value;
+
+use crate::meta::declare_rule;
+use crate::usage::is_called_from_elsewhere;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A word's value is computed, and comes to one that the code cannot use: a fraction or a negative number where a
+    /// count stands, a feed or speed below zero.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm at the block, or reads another value than meant.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// O0001
+    /// #1=5
+    /// M98 P[#1/2]
+    /// M30
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// #1=-100
+    /// G1 X1 F#1
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// O0001
+    /// #1=4
+    /// M98 P[#1/2]
+    /// G1 X1. F#500
+    /// M30
+    /// O0002
+    /// M99
+    /// ```
+    rule "computed-value-out-of-range" in "words" {
+        summary: "computed value that its code cannot use",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ComputedValueOutOfRange) },
+    }
+}
+
+struct ComputedValueOutOfRange;
+
+impl PathRule for ComputedValueOutOfRange {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::WordRange(letter) = fault else { return };
+        let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
+        if is_main && is_called_from_elsewhere(cx.survey) {
+            return;
+        }
+        // A number as it stands is judged without executing the block.
+        let range = cx.find_word(cx.origin().at, |word| {
+            word.letter == *letter && matches!(word.value, Value::Expr(_))
+        });
+        let Some(range) = range else { return };
+        let name = char::from(letter.ascii());
+        let mut finding = cx
+            .finding(&META, range, format!("computed value of `{name}` cannot be used here"))
+            .label("comes to a fraction, or out of the range of its code")
+            .help("check what the value is computed from");
+        if cx.scene.control_is_guessed {
+            finding = finding.at_most(Severity::Warning);
+        }
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_word_is_marked() {
+        check_rule(&RULE, "haas-mill", "O1\n#1= 2.5\nM98 P#1\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "#1=-5\nM3 S#1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_number_as_it_stands_is_told_elsewhere() {
+        check_rule(&RULE, "linuxcnc", "M3 S-5\nM2\n", &expect![[""]]);
+    }
+}
