@@ -62,6 +62,8 @@ pub enum Fault {
     TooManyCodes,
     /// More characters than a line may have.
     LineTooLong,
+    /// A curve with fewer control points than its order needs.
+    TooFewPoints,
 
     /// A cut without feed.
     NoFeed,

@@ -211,6 +211,7 @@ pub fn flow<O: FlowObserver>(
 ) -> FlowResult {
     let shown = Shown { observer, model, trace: Trace::default(), solo: true, muted: false, also: Vec::new(), stepping: None };
     let mut executor = Executor::new(program, model, machine, options, shown);
+    executor.lenient = true;
     let state = start_state::<Abstract>(model, machine, &mut executor.assumptions);
     let at = At { file: 0, block: 0 };
     let mut flow = Flow {

@@ -122,7 +122,11 @@ impl<'a> Program<'a> {
         if let Some(known) = self.numbers.borrow().get(&number) {
             return *known;
         }
-        let found = self.library.by_number(number).map(|source| {
+        // Where O-words are labels, a file is found by its name, whatever labels stand in it.
+        let by_name = self.dialect.control().syntax().o_words;
+        let source =
+            if by_name { self.library.by_name(&number.to_string()) } else { self.library.by_number(number) };
+        let found = source.map(|source| {
             let file = self.load(source);
             // A file may be named by the number without holding it.
             in_file(file).unwrap_or(At { file, block: 0 })

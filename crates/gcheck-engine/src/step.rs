@@ -27,6 +27,7 @@ use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed,
 use gcheck_program::{
     BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value, Word,
 };
+use rustc_hash::FxHashMap;
 
 use crate::assumption::Assumption;
 use crate::event::{Event, Units};
@@ -111,10 +112,16 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     flow: Option<Flow<D>>,
     /// `G53`, `G9` and the like: what holds for this block only.
     machine_coordinates: bool,
+    /// Goes on behind what the control refuses, as an analysis does that looks for more than one mistake.
+    pub(crate) lenient: bool,
+    /// What was refused in the block under way.
+    refused: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
     passes_exactly: bool,
     /// The last `RETURN` or `ENDSUB` gave a value.
     returned: bool,
+    /// Subroutines passed over, and whether another is defined inside.
+    nested: FxHashMap<At, bool>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Place2<D>, D::Value)>,
 }
@@ -179,8 +186,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             },
             flow: None,
             machine_coordinates: false,
+            lenient: false,
+            refused: None,
             passes_exactly: false,
             returned: false,
+            nested: FxHashMap::default(),
             pending: Vec::new(),
         }
     }
@@ -234,14 +244,29 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn run_block(&mut self, place: &Place, table: &BlockTable, block: &Block, state: &mut State<D>) -> Outcome<D> {
+        let mut refused = None;
         if block.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
-            return Outcome::Fault(Fault::Malformed);
-        }
-        if block.flags.intersects(FORM)
+            refused = Some(Fault::Malformed);
+        } else if block.flags.intersects(FORM)
             && let Err(fault) = self.check_form(place, table.words(block), block)
         {
-            return Outcome::Fault(fault);
+            refused = Some(fault);
         }
+        if let Some(fault) = refused {
+            if !self.lenient {
+                return Outcome::Fault(fault);
+            }
+            self.refused = Some(fault);
+        }
+        let outcome = self.run_parts(place, table, block, state);
+        match (self.refused.take(), outcome) {
+            // The first thing wrong with a block is what the control stops for; what the block means to do is done all the same.
+            (Some(fault), Outcome::Next | Outcome::Fault(_)) => Outcome::Fault(fault),
+            (_, outcome) => outcome,
+        }
+    }
+
+    fn run_parts(&mut self, place: &Place, table: &BlockTable, block: &Block, state: &mut State<D>) -> Outcome<D> {
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
                 Ok(Statements::Words) => {}
@@ -331,9 +356,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             let code_letter = matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
             match word.value {
-                Value::Number(number) if code_letter => {
-                    let _ = number;
-                    return Err(Fault::UnknownCode);
+                Value::Number(_) if code_letter => {
+                    // The machine's builder adds M codes of his own, where the control lets him.
+                    let may_be_builders = word.letter.ascii() == b'M' && self.model.control().code_list().builder_m_codes;
+                    if !may_be_builders {
+                        self.refuse(Fault::UnknownCode)?;
+                    }
                 }
                 Value::Number(number) => {
                     let pointed = word.shape.point;
@@ -354,9 +382,21 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                         }
                     }
                 }
-                Value::Missing => return Err(Fault::MissingValue(word.letter)),
+                Value::Missing => {
+                    self.refuse(Fault::MissingValue(word.letter))?;
+                    self.words.put(word.letter, D::unknown(), true);
+                }
             }
         }
+        Ok(())
+    }
+
+    /// Something about the block is refused. A run stops there; an analysis goes on with what else the block means.
+    pub(crate) fn refuse(&mut self, fault: Fault) -> Step {
+        if !self.lenient {
+            return Err(fault);
+        }
+        self.refused.get_or_insert(fault);
         Ok(())
     }
 
@@ -399,7 +439,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Puts the parts of the block in the control's order and executes them.
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
-        self.check_block(words, state)?;
+        if let Err(fault) = self.check_block(words, state) {
+            self.refuse(fault)?;
+        }
         let present = self.words.present();
         let codes = self.words.codes();
         let turns = self.turns_about_centre(state);
@@ -503,6 +545,26 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         Ok(Some(Count::Known(whole as u32)))
     }
 
+    /// As [`Self::count`]; on strict controls, which do not mind decimals in some counts, rounded.
+    fn rounded(&self, letter: Letter) -> Step<Option<Count>> {
+        self.near_count(letter, f64::round)
+    }
+
+    /// As [`Self::rounded`], without its decimals.
+    fn truncated(&self, letter: Letter) -> Step<Option<Count>> {
+        self.near_count(letter, f64::trunc)
+    }
+
+    fn near_count(&self, letter: Letter, nearest: impl Fn(f64) -> f64) -> Step<Option<Count>> {
+        match self.words.number(letter).map(nearest) {
+            #[expect(clippy::cast_sign_loss, reason = "range checked in the pattern's guard")]
+            Some(number) if self.refuses_incomplete() && (0.0..=f64::from(u32::MAX)).contains(&number) => {
+                Ok(Some(Count::Known(number as u32)))
+            }
+            _ => self.count(letter),
+        }
+    }
+
     // ---- expressions ----
 
     fn evaluate(&mut self, place: &Place, table: &BlockTable, expr: &Expr, state: &State<D>) -> Step<D::Value> {
@@ -521,14 +583,19 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         for (index, op) in ops.iter().enumerate() {
             let result = match op {
                 // `EXISTS[#<name>]` asks whether reading it would be a fault.
-                Op::Named { .. } | Op::Variable(_)
+                Op::Named { .. } | Op::Variable(_) | Op::Indirect
                     if matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _))) =>
                 {
                     let exists = match op {
-                        Op::Named { start, end } => self.read_named(place, (*start, *end), state).is_ok(),
-                        _ => true,
+                        Op::Named { start, end } => Some(self.read_named(place, (*start, *end), state).is_ok()),
+                        Op::Variable(number) => Some(self.check_number(*number).is_ok()),
+                        _ => {
+                            let number = self.stack.pop().unwrap_or_else(D::unknown);
+                            let number = D::known(&number);
+                            number.map(|n| variable_number(n).is_ok_and(|n| self.check_number(n).is_ok()))
+                        }
                     };
-                    Ok(D::number(f64::from(u8::from(exists))))
+                    Ok(exists.map_or_else(D::unknown, |exists| D::number(f64::from(u8::from(exists)))))
                 }
                 Op::Number(number) => Ok(D::number(*number)),
                 Op::Variable(number) => self.read_variable(*number, state),

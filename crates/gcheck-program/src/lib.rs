@@ -11,6 +11,7 @@ mod loaded;
 mod lower;
 mod number;
 mod outline;
+mod plain;
 mod statement;
 mod survey;
 

@@ -14,6 +14,7 @@ use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_i
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::expression::{BinaryOp, Expr, ExprIx, Function, Op, is_well_formed};
 use crate::number::{self, NumberShape};
+use crate::plain::{self, PlainWord};
 use crate::statement::{OKeyword, OLabel, Statement, StatementKind, Target};
 
 /// A control as the lowering asks it: facts about addresses in arrays, code look-up by number.
@@ -116,6 +117,18 @@ impl<'c> Dialect<'c> {
     /// Does the code name a label or a program in one of its words?
     pub(crate) fn refers(&self, code: CodeIx) -> bool {
         self.refers.get(code.index()).copied().unwrap_or(false)
+    }
+
+    /// The code that a word names; none for a word that is no `G` or `M`.
+    fn code_of(&self, letter: Letter, number: f64, shape: NumberShape) -> CodeIx {
+        if letter != Letter::of('G') && letter != Letter::of('M') {
+            return CodeIx::NONE;
+        }
+        let number = match (shape.decimals, shape.minus) {
+            (0 | 1, false) => CodeNumber::from_value(letter.ascii(), number),
+            _ => None,
+        };
+        number.map_or(CodeIx::NONE, |n| self.control.code_ix(n))
     }
 
     fn letter(&self, letter: Letter) -> &LetterFacts {
@@ -257,13 +270,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
 
     fn push_word(&mut self, range: Range<u32>, letter: Letter, value: Value, shape: NumberShape) {
         let code = match value {
-            Value::Number(number) if matches!(letter.ascii(), b'G' | b'M') && !letter.is_corner() => {
-                let number = match (shape.decimals, shape.minus) {
-                    (0 | 1, false) => CodeNumber::from_value(letter.ascii(), number),
-                    _ => None,
-                };
-                number.map_or(CodeIx::NONE, |n| self.dialect.control.code_ix(n))
-            }
+            Value::Number(number) => self.dialect.code_of(letter, number, shape),
             _ => CodeIx::NONE,
         };
         self.table.words.push(Word { letter, value, shape, code, start: range.start, end: range.end });
@@ -373,9 +380,13 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let operator = BinaryOp::parse(self.slice(range));
         if let Some(open) = self.open.last_mut()
             && matches!(open.kind, SyntaxKind::BINARY | SyntaxKind::UNARY)
-            && open.operator.is_none()
         {
-            open.operator = operator;
+            if open.operator.is_none() {
+                open.operator = operator;
+            } else if kind == SyntaxKind::STAR && open.operator == Some(BinaryOp::Multiply) {
+                // `* *`
+                open.operator = Some(BinaryOp::Power);
+            }
         }
         debug_assert!(operator.is_some() || kind == SyntaxKind::SLASH, "{kind:?} is an operator");
     }
@@ -390,6 +401,11 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let range = open.start..self.end.max(open.start);
         let mut flags = self.block_flags;
         flags.set(BlockFlags::ERROR, errors);
+        self.push_block(range, flags, words);
+        debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
+    }
+
+    fn push_block(&mut self, range: Range<u32>, mut flags: BlockFlags, words: Range<u32>) {
         // Bytes are at least as many as characters: only a line that may be too long is counted.
         if range.end - range.start > self.dialect.line_length {
             let text = self.text.get(range.start as usize..range.end as usize).unwrap_or_default();
@@ -403,7 +419,32 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             delete: self.block_delete,
             words,
         });
-        debug_assert_eq!(ix.index() + 1, self.table.blocks.len(), "one block a BLOCK node");
+    }
+
+    /// The line that begins at `start`, if it is plain: where the next one begins.
+    fn plain_line(&mut self, start: usize) -> Option<usize> {
+        let first = self.table.words.len();
+        let (dialect, words) = (self.dialect, &mut self.table.words);
+        let (mut end, mut has_lower) = (start as u32, false);
+        let next = plain::line(self.text.as_bytes(), start, |word| {
+            let PlainWord { letter, value, shape, start, end: behind, is_lower } = word;
+            let code = dialect.code_of(letter, value, shape);
+            words.push(Word { letter, value: Value::Number(value), shape, code, start, end: behind });
+            end = behind;
+            has_lower |= is_lower;
+        });
+        let Some(next) = next else {
+            words.truncate(first);
+            return None;
+        };
+        let words = first as u32..words.len() as u32;
+        if !words.is_empty() {
+            self.block_delete = 0;
+            let mut flags = BlockFlags::empty();
+            flags.set(BlockFlags::LOWER_CASE, has_lower && !dialect.lower_case);
+            self.push_block(start as u32..end, flags, words);
+        }
+        Some(next)
     }
 
     /// One pass over the words of a finished block.
@@ -582,7 +623,8 @@ impl Sink for LowerSink<'_, '_> {
             | SyntaxKind::UNARY
             | SyntaxKind::INDIRECT
             | SyntaxKind::FUNCTION_CALL
-            | SyntaxKind::GROUP => self.finish_operation(&open),
+            | SyntaxKind::GROUP
+            | SyntaxKind::DIVIDED_NUMBER => self.finish_operation(&open),
             _ => self.finish_statement(open),
         }
     }
@@ -628,6 +670,15 @@ impl Sink for LowerSink<'_, '_> {
         self.meaningful_token(kind, range);
     }
 
+    fn lines_without_tokens(&mut self, from: u32) -> u32 {
+        let mut start = from as usize;
+        while let Some(next) = self.plain_line(start) {
+            start = next;
+        }
+        self.next_token = start as u32;
+        self.next_token
+    }
+
     fn error(&mut self, error: SyntaxError) {
         if self.open.is_empty() {
             self.late_errors.push(error);
@@ -652,6 +703,12 @@ impl LowerSink<'_, '_> {
                 }
             }
             SyntaxKind::INDIRECT => self.table.ops.push(Op::Indirect),
+            SyntaxKind::DIVIDED_NUMBER => {
+                // Its pieces were taken for numbers of their own.
+                self.table.ops.truncate(open.ops);
+                let (value, _) = number::parse(self.slice(&(open.start..self.end)));
+                self.table.ops.push(Op::Number(value));
+            }
             SyntaxKind::FUNCTION_CALL => {
                 if let Some(function) = open.function {
                     self.table.ops.push(Op::Call(function, open.arguments));

@@ -81,6 +81,18 @@ fn short(text: &[u8]) -> (f64, NumberShape) {
     (if minus { -value } else { value }, shape)
 }
 
+/// Numbers of so many digits are read exactly by arithmetic on machine words: 10^15 is below 2^53.
+pub(crate) const EXACT_DIGITS: usize = 15;
+
+/// The value of at most [`EXACT_DIGITS`] digits, `decimals` of them behind the point.
+#[inline]
+pub(crate) fn of_digits(digits: u64, decimals: usize) -> f64 {
+    // Both operands are exact, so the quotient is the correctly rounded value of the decimal.
+    #[expect(clippy::cast_precision_loss, reason = "below 2^53")]
+    let value = digits as f64;
+    value / POWERS.get(decimals).copied().unwrap_or(1.0)
+}
+
 /// More digits than arithmetic on machine words holds: the standard library's exact algorithm.
 fn long(text: &[u8]) -> f64 {
     let digits: String =

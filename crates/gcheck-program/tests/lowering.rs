@@ -234,7 +234,7 @@ fn o_words() {
             "o100 call [1] [#<_x>+2]" BlockFlags(STATEMENT)
               "o100 call [1] [#<_x>+2]": Number(100) CALL ["1", "#<_x> 2 add"]
             "o[#1] call" BlockFlags(STATEMENT)
-              "o[#1] call": Computed CALL []
+              "o[#1] call": Computed CALL ["#1"]
             "o<my sub> endsub [5]" BlockFlags(STATEMENT)
               "o<my sub> endsub [5]": Name("mysub") ENDSUB ["5"]
             "o2 repeat [3]" BlockFlags(STATEMENT)
@@ -243,6 +243,34 @@ fn o_words() {
               "#<a b> = [#5 ** 2]": #<a b> := #5 2 power
         "##]],
     );
+}
+
+#[test]
+fn blanks_do_not_count_in_numbers_and_arguments() {
+    check(
+        "linuxcnc",
+        "g 0 x 1 . 5 y - 2 z . 5\nX1 . 5 Y[1 0 + . 5] Z[2 * * 3]\no1 call [1] (between) [2 .] (behind)\nX1 . 5 . 5\n",
+        &expect![[r#"
+            "g 0 x 1 . 5 y - 2 z . 5" BlockFlags(CODE)
+              G = 0  G0
+              X = 1.5 (1 decimals)
+              Y = -2
+              Z = 0.5 (1 decimals)
+            "X1 . 5 Y[1 0 + . 5] Z[2 * * 3]" BlockFlags(EXPRESSION)
+              X = 1.5 (1 decimals)
+              Y = 10 0.5 add
+              Z = 2 3 power
+            "o1 call [1] (between) [2 .] (behind)" BlockFlags(STATEMENT | COMMENT)
+              "o1 call [1] (between) [2 .]": Number(1) CALL ["1", "2"]
+            "X1 . 5 . 5" BlockFlags(ERROR)
+              X = 15.5 (1 decimals)
+              ! MalformedNumber "X1 . 5 . 5"
+        "#]],
+    );
+    check("haas-mill", "X1 . 5\n", &expect![[r#"
+        "X1 . 5" BlockFlags(0x0)
+          X = 1.5 (1 decimals)
+    "#]]);
 }
 
 #[test]

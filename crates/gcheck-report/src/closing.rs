@@ -50,6 +50,35 @@ pub fn summary_line(summary: &Summary) -> String {
     line
 }
 
+/// Assumptions shown when one file was checked.
+const SHOWN: usize = 12;
+
+/// What the verdicts rest on, a line each with what would settle it; of many files only how many there are. Empty when they
+/// rest on nothing.
+pub fn assumptions(summary: &Summary) -> String {
+    let all = &summary.assumptions;
+    if all.is_empty() {
+        return String::new();
+    }
+    let mut text = String::new();
+    if summary.files > 1 {
+        let these = count(all.len(), "assumption", "assumptions");
+        let _ = writeln!(text, "the verdicts rest on {these} about the machines; `--output-format json` lists them");
+        return text;
+    }
+    let _ = writeln!(text, "the verdict assumes:");
+    for assumed in all.iter().take(SHOWN) {
+        let _ = match &assumed.pin {
+            Some(pin) => writeln!(text, "  {}; to settle it: {pin}", assumed.text),
+            None => writeln!(text, "  {}", assumed.text),
+        };
+    }
+    if all.len() > SHOWN {
+        let _ = writeln!(text, "  and {} more", number(all.len() - SHOWN));
+    }
+    text
+}
+
 /// Findings per rule, the most frequent first: count, id, what the rule is about. Empty without findings.
 pub fn statistics(report: &Report) -> String {
     let mut rules: BTreeMap<&str, (usize, &str)> = BTreeMap::new();

@@ -20,10 +20,10 @@ mod style;
 #[cfg(test)]
 mod testing;
 
-pub use closing::{statistics, summary_line};
+pub use closing::{assumptions, statistics, summary_line};
 pub use control::{ControlChoice, ControlSource, control_lines};
 pub use fingerprint::{Fingerprint, Fingerprinter};
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
-pub use report::{FileReport, RelatedFile, Report, Summary};
+pub use report::{Assumed, FileReport, RelatedFile, Report, Summary};
 pub use style::Colour;

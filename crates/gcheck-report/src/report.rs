@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use gcheck_rules::{Finding, RuleMeta, Severity};
+use gcheck_rules::{Described, Finding, RuleMeta, Severity};
 use gcheck_syntax::SourceText;
 use serde::Serialize;
 
@@ -32,6 +32,8 @@ pub struct FileReport {
     pub baseline: usize,
     /// The analysis ended before the program did.
     pub out_of_fuel: bool,
+    /// What the verdict rests on that nobody told us.
+    pub assumptions: Vec<Described>,
 }
 
 /// A file that labels point to and that was not itself checked, e.g. a subprogram from a library.
@@ -66,6 +68,7 @@ pub(crate) struct File {
     suppressed: usize,
     baseline: usize,
     pub(crate) out_of_fuel: bool,
+    assumptions: Vec<Described>,
 }
 
 /// Sums over all files.
@@ -91,6 +94,19 @@ pub struct Summary {
     pub baseline: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
+    /// What the verdicts rest on that nobody told us, each once, with how many files rest on it.
+    pub assumptions: Vec<Assumed>,
+}
+
+/// Something taken for granted.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Assumed {
+    /// One sentence without an end.
+    pub text: String,
+    /// The line of `gcheck.toml` that would settle it.
+    pub pin: Option<String>,
+    /// Files whose verdict rests on it.
+    pub files: usize,
 }
 
 impl Report {
@@ -122,6 +138,16 @@ impl Report {
             sum.lines += file.lines;
             sum.suppressed += file.suppressed;
             sum.baseline += file.baseline;
+            for assumption in &file.assumptions {
+                match sum.assumptions.iter_mut().find(|a| a.text == assumption.text) {
+                    Some(known) => known.files += 1,
+                    None => sum.assumptions.push(Assumed {
+                        text: assumption.text.clone(),
+                        pin: assumption.pin.clone(),
+                        files: 1,
+                    }),
+                }
+            }
             if file.out_of_fuel {
                 sum.out_of_fuel.push(file.path.clone());
             }
@@ -137,6 +163,7 @@ impl Report {
                 }
             }
         }
+        sum.assumptions.sort_by(|a, b| b.files.cmp(&a.files).then_with(|| a.text.cmp(&b.text)));
         sum
     }
 
@@ -178,6 +205,7 @@ impl File {
             suppressed,
             baseline,
             out_of_fuel,
+            assumptions,
         } = file;
         findings.sort_by(|a, b| {
             let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
@@ -193,6 +221,7 @@ impl File {
             suppressed,
             baseline,
             out_of_fuel,
+            assumptions,
         }
     }
 

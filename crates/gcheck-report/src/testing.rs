@@ -52,6 +52,7 @@ pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport
         suppressed: 0,
         baseline: 0,
         out_of_fuel: false,
+        assumptions: Vec::new(),
     }
 }
 

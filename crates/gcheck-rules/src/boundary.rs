@@ -103,15 +103,15 @@ impl PathCx<'_> {
     pub(crate) fn left_at_end(
         &self,
         rule: &'static RuleMeta,
-        role: Role,
+        of: Role,
         is_on: impl Fn(Effect) -> bool,
         what: &str,
     ) -> Option<Finding> {
-        if self.end_resets(role) {
+        if self.end_resets(of) {
             return None;
         }
-        let Some(LeftOn::Surely(code)) = self.left_on(role, is_on) else { return None };
-        let fact = Fact::Mode(role);
+        let Some(LeftOn::Surely(code)) = self.left_on(of, is_on) else { return None };
+        let fact = Fact::Mode(of);
         // As it was at the start: the program neither switched it on nor can be blamed.
         self.trace().set_by(fact)?;
         let name = self.name_of(code);

@@ -78,6 +78,8 @@ pub struct MachineFacts {
     pub axes: Option<LetterSet>,
     /// The control's settings by number, values as its page words them.
     pub settings: BTreeMap<String, String>,
+    /// Somebody told the units of the machine's programs: `engine.units` is more than what the control starts with.
+    pub units_are_told: bool,
     /// Offsets, tools, travel and the rest that executing a program asks for.
     pub engine: gcheck_engine::Machine,
 }

@@ -38,11 +38,19 @@ impl Scheme {
 
     /// The scheme: "3 other tools of the program have the length offset of their own number".
     pub(crate) fn note(&self, what: &str, letter: char) -> String {
-        let tools = if self.followers == 1 { "the program's other tool has".to_owned() } else { format!("{} other tools of the program have", self.followers) };
+        let tools = if self.followers == 1 {
+            "the program's other tool has".to_owned()
+        } else {
+            format!("{} other tools of the program have", self.followers)
+        };
         match self.step {
             0 => format!("{tools} the {what} of the tool's own number ({letter} = T)"),
-            step if step > 0 => format!("{tools} the {what} of the tool's number and {step} ({letter} = T + {step})"),
-            step => format!("{tools} the {what} of the tool's number less {} ({letter} = T - {})", -step, -step),
+            step if step > 0 => {
+                format!("{tools} the {what} of the tool's number and {step} ({letter} = T + {step})")
+            }
+            step => {
+                format!("{tools} the {what} of the tool's number less {} ({letter} = T - {})", -step, -step)
+            }
         }
     }
 }
@@ -75,13 +83,19 @@ impl Pairs {
             .filter(|pair| pair.step() != step && !follows(pair.tool))
             .map(|pair| {
                 let owner = i64::from(pair.offset) - step;
-                (pair.tool, pair.offset, Scheme { step, expected: i64::from(pair.tool) + step, owner, followers })
+                (
+                    pair.tool,
+                    pair.offset,
+                    Scheme { step, expected: i64::from(pair.tool) + step, owner, followers },
+                )
             })
             .filter(|(_, _, scheme)| is_used(scheme.owner))
             .collect();
         let mut found = Vec::new();
         for pair in std::mem::take(&mut self.pairs) {
-            if let Some((.., scheme)) = odd.iter().find(|(tool, offset, _)| (*tool, *offset) == (pair.tool, pair.offset)) {
+            if let Some((.., scheme)) =
+                odd.iter().find(|(tool, offset, _)| (*tool, *offset) == (pair.tool, pair.offset))
+            {
                 found.push((pair.finding, *scheme));
             }
         }
@@ -99,7 +113,8 @@ impl Pairs {
             }
         }
         let (step, count) = steps.iter().copied().max_by_key(|(step, count)| (*count, *step == 0))?;
-        let rivals = steps.iter().filter(|(other, rival)| *other != step && *rival >= count && *other == 0).count();
+        let rivals =
+            steps.iter().filter(|(other, rival)| *other != step && *rival >= count && *other == 0).count();
         let tied = steps.iter().filter(|(other, rival)| *other != step && *rival == count).count();
         let is_fixed = if step == 0 { count >= 1 } else { count >= 2 && tied == 0 && rivals == 0 };
         is_fixed.then_some((step, count))

@@ -33,6 +33,13 @@ pub trait Sink {
     fn token(&mut self, kind: SyntaxKind, range: Range<u32>);
     /// A mistake.
     fn error(&mut self, error: SyntaxError);
+
+    /// Reads whole lines by itself, from the start of the line at `from` on, and returns where the next line begins that the
+    /// grammar is to read. For a sink that reads the plainest lines faster than tokens are made; what it makes of them must be
+    /// what it would have made of their tokens.
+    fn lines_without_tokens(&mut self, from: u32) -> u32 {
+        from
+    }
 }
 
 /// Parses whole lines into a sink; never fails.
@@ -43,6 +50,9 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
     let mut tokens: Vec<Lexeme> = Vec::with_capacity(64);
     let mut start = 0;
     loop {
+        let next = sink.lines_without_tokens(start);
+        lexer.pass_over(next - start);
+        start = next;
         tokens.clear();
         let mut plain = true;
         for (token, end) in lexer.by_ref() {
@@ -135,6 +145,50 @@ impl<S: Sink> Parser<'_, S> {
     fn current_text(&self) -> &[u8] {
         let range = self.tokens.get(self.at).map(|l| l.start as usize..l.end as usize);
         range.and_then(|r| self.text.get(r)).unwrap_or_default()
+    }
+
+    /// Where the token stands that follows `skip` tokens further on, blanks not counted.
+    fn index_past_blanks(&self, skip: usize) -> usize {
+        let rest = self.tokens.get(self.at + skip..).unwrap_or_default();
+        let blanks = rest.iter().take_while(|l| l.token == Token::Whitespace).count();
+        self.at + skip + blanks
+    }
+
+    /// A decimal point that touches no digit.
+    fn is_point(&self, at: usize) -> bool {
+        self.tokens.get(at).is_some_and(|l| {
+            l.token == Token::Unknown && self.text.get(l.start as usize..l.end as usize) == Some(b".")
+        })
+    }
+
+    fn is_number(&self, at: usize) -> bool {
+        self.tokens.get(at).is_some_and(|l| l.token == Token::Number)
+    }
+
+    /// Does the number whose first piece is `skip - 1` tokens ahead go on behind blanks: `1 0`, `1 . 5`?
+    fn number_goes_on(&self, skip: usize) -> bool {
+        if !self.profile.blanks_in_numbers || !self.has_blank_or_point(self.at + skip) {
+            return false;
+        }
+        let next = self.index_past_blanks(skip);
+        self.is_number(next) || self.is_point(next)
+    }
+
+    fn has_blank_or_point(&self, at: usize) -> bool {
+        self.tokens.get(at).is_some_and(|l| matches!(l.token, Token::Whitespace | Token::Unknown))
+    }
+
+    /// `. 5`: a number that begins with a point, a blank behind it.
+    fn starts_with_point(&self, at: usize) -> bool {
+        self.profile.blanks_in_numbers
+            && self.is_point(at)
+            && self.tokens.get(at + 1).is_some_and(|l| l.token == Token::Whitespace)
+            && self.is_number(at + 2)
+    }
+
+    /// Does the current token start a value?
+    fn at_operand(&self) -> bool {
+        self.current().is_some_and(starts_operand) || self.starts_with_point(self.at)
     }
 
     fn is_address_o(&self) -> bool {
@@ -434,7 +488,7 @@ fn word<S: Sink>(p: &mut Parser<'_, S>) {
     }
     // `X1. 5` is one number where blanks are allowed in numbers; `X1.2.3` is none anywhere.
     let next_is_number = p.tokens.get(p.at + 1).is_some_and(|l| l.token == Token::Number);
-    if p.profile.blanks_in_numbers && !next_is_number && p.peek_past_blanks(1) == Some(Token::Number) {
+    if !next_is_number && p.number_goes_on(1) {
         p.sink.start_node(SyntaxKind::ADDRESS);
         number_with_blanks(p);
         p.sink.finish_node();
@@ -448,7 +502,11 @@ fn word<S: Sink>(p: &mut Parser<'_, S>) {
 fn number_with_blanks<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
     p.bump();
-    while p.peek_past_blanks(0) == Some(Token::Number) {
+    loop {
+        let next = p.index_past_blanks(0);
+        if !p.is_number(next) && !p.is_point(next) {
+            break;
+        }
         p.skip_blanks();
         p.bump();
     }
@@ -501,6 +559,11 @@ fn address<S: Sink>(p: &mut Parser<'_, S>) {
         Some(token) if starts_operand(token) => {
             p.skip_blanks();
             unary(p);
+            true
+        }
+        Some(Token::Unknown) if p.starts_with_point(p.index_past_blanks(0)) => {
+            p.skip_blanks();
+            number_with_blanks(p);
             true
         }
         _ => false,
@@ -571,7 +634,7 @@ fn assignment<S: Sink>(p: &mut Parser<'_, S>) {
         p.skip_blanks();
         p.bump();
         p.skip_blanks();
-        if p.current().is_some_and(starts_operand) {
+        if p.at_operand() {
             let value = p.offset();
             let is_bare = expression(p);
             if is_bare && !p.profile.bare_expressions {
@@ -760,8 +823,11 @@ fn o_tail<S: Sink>(p: &mut Parser<'_, S>, start: u32) {
     match keyword {
         Some(Token::If | Token::ElseIf | Token::While | Token::Repeat) => required_condition(p),
         Some(Token::Call) => {
-            while p.peek_past_blanks(0) == Some(Token::LBracket) {
-                p.skip_blanks();
+            // A comment may stand between two arguments.
+            while let Some(blanks) = blanks_before_argument(p) {
+                for _ in 0..blanks {
+                    comment_or_blank(p);
+                }
                 group(p);
             }
         }
@@ -771,6 +837,14 @@ fn o_tail<S: Sink>(p: &mut Parser<'_, S>, start: u32) {
         }
         _ => {}
     }
+}
+
+/// How many blanks and comments stand in front of the next argument of a call, if there is one.
+fn blanks_before_argument<S: Sink>(p: &Parser<'_, S>) -> Option<usize> {
+    let rest = p.tokens.get(p.at..)?;
+    let is_blank = |token: Token| matches!(token, Token::Whitespace | Token::Comment(CommentEnd::Closed));
+    let blanks = rest.iter().take_while(|l| is_blank(l.token)).count();
+    rest.get(blanks).filter(|l| l.token == Token::LBracket).map(|_| blanks)
 }
 
 /// How tightly an operator binds, or `None` for other tokens.
@@ -797,9 +871,7 @@ fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
     let left = p.sink.checkpoint();
     unary(p);
     let mut any = false;
-    while let Some(power) =
-        p.peek_past_blanks(0).and_then(|t| binding_power(t, p.profile)).filter(|power| *power >= weakest)
-    {
+    while let Some(power) = operator_ahead(p).filter(|power| *power >= weakest) {
         any = true;
         p.sink.start_node_at(left, SyntaxKind::BINARY);
         p.skip_blanks();
@@ -808,10 +880,14 @@ fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
             p.foreign(ForeignForm::PowerOperator, range);
         }
         let operator = p.offset();
+        if is_divided_power(p, p.at) {
+            p.bump();
+            p.skip_blanks();
+        }
         p.bump();
         let operator = operator..p.end_of_previous();
         p.skip_blanks();
-        if p.current().is_some_and(starts_operand) {
+        if p.at_operand() {
             binary(p, power + 1);
         } else {
             p.error(SyntaxErrorKind::MissingOperand, operator);
@@ -819,6 +895,23 @@ fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
         p.sink.finish_node();
     }
     any
+}
+
+/// How tightly the operator binds that comes next, blanks not counted.
+fn operator_ahead<S: Sink>(p: &Parser<'_, S>) -> Option<u8> {
+    let at = p.index_past_blanks(0);
+    let token = p.tokens.get(at)?.token;
+    binding_power(if is_divided_power(p, at) { Token::Power } else { token }, p.profile)
+}
+
+/// `* *`, which is `**` where blanks do not count.
+fn is_divided_power<S: Sink>(p: &Parser<'_, S>, at: usize) -> bool {
+    let token = |at: usize| p.tokens.get(at).map(|l| l.token);
+    token(at) == Some(Token::Star)
+        && p.profile.blanks_in_numbers
+        && p.profile.power_operator
+        && token(at + 1) == Some(Token::Whitespace)
+        && token(at + 2) == Some(Token::Star)
 }
 
 /// Runs `body` one level deeper, or reports the limit and gives up on the block.
@@ -842,7 +935,7 @@ fn unary<S: Sink>(p: &mut Parser<'_, S>) {
             p.sink.start_node(SyntaxKind::UNARY);
             p.bump();
             p.skip_blanks();
-            if p.current().is_some_and(starts_operand) {
+            if p.at_operand() {
                 unary(p);
             } else {
                 p.error(SyntaxErrorKind::MissingOperand, sign..sign + 1);
@@ -856,10 +949,15 @@ fn unary<S: Sink>(p: &mut Parser<'_, S>) {
 
 fn primary<S: Sink>(p: &mut Parser<'_, S>) {
     match p.current() {
-        Some(Token::Number) => p.bump(),
+        Some(Token::Number) if !p.number_goes_on(1) => p.bump(),
         Some(Token::Variable | Token::NamedVariable | Token::Hash) => variable(p),
         Some(Token::LBracket) => group(p),
         Some(Token::Function) => function_call(p),
+        _ if p.at_operand() => {
+            p.sink.start_node(SyntaxKind::DIVIDED_NUMBER);
+            number_with_blanks(p);
+            p.sink.finish_node();
+        }
         _ => p.error_here(SyntaxErrorKind::MissingOperand),
     }
 }
@@ -900,7 +998,7 @@ fn group<S: Sink>(p: &mut Parser<'_, S>) {
         p.sink.start_node(SyntaxKind::GROUP);
         p.bump();
         p.skip_blanks();
-        if p.current().is_some_and(starts_operand) {
+        if p.at_operand() {
             expression(p);
             p.skip_blanks();
             // `ATAN[a,b]`, `POW[a,b]`.

@@ -163,6 +163,8 @@ syntax_kinds! {
     FUNCTION_CALL,
     /// `##1`, `#[#1+2]`.
     INDIRECT,
+    /// `1 0 . 5` in an expression, where blanks in numbers do not count.
+    DIVIDED_NUMBER,
     /// What the grammar could not use; an error says why.
     ERROR,
 }

@@ -287,6 +287,11 @@ impl<'t> Lexer<'t> {
     pub(crate) fn new(text: &'t str, mode: LexerMode) -> Self {
         Self { inner: Token::lexer_with_extras(text, mode) }
     }
+
+    /// Goes on `bytes` further behind the last token; no character is cut in two.
+    pub(crate) fn pass_over(&mut self, bytes: u32) {
+        self.inner.bump(bytes as usize);
+    }
 }
 
 impl Iterator for Lexer<'_> {

@@ -172,6 +172,40 @@ fn what_cannot_be_used_stands_in_error_nodes() {
 }
 
 #[test]
+fn a_number_may_be_divided_by_blanks() {
+    check_tree(SyntaxProfile::NGC, "X 1 . 5 Y[. 5 * * 2]\n", &expect![[r#"
+        CHUNK
+          BLOCK
+            ADDRESS
+              LETTER "X"
+              WHITESPACE " "
+              NUMBER "1"
+              WHITESPACE " "
+              UNKNOWN "."
+              WHITESPACE " "
+              NUMBER "5"
+            WHITESPACE " "
+            ADDRESS
+              LETTER "Y"
+              GROUP
+                L_BRACKET "["
+                BINARY
+                  DIVIDED_NUMBER
+                    UNKNOWN "."
+                    WHITESPACE " "
+                    NUMBER "5"
+                  WHITESPACE " "
+                  STAR "*"
+                  WHITESPACE " "
+                  STAR "*"
+                  WHITESPACE " "
+                  NUMBER "2"
+                R_BRACKET "]"
+            NEWLINE "\n"
+    "#]]);
+}
+
+#[test]
 fn views_name_the_parts_of_a_block() {
     let text = "/2 N10 G1 x[#1] :7 #100=#101+1. (note)\n";
     let chunk = Chunk::cast(parse(text, SyntaxProfile::MACRO_B).syntax()).unwrap();

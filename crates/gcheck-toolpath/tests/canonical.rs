@@ -1,9 +1,9 @@
 //! Every event as canonical functions. The expectations are what the reference interpreter (2.9) printed for the program
 //! that stands above each, without its comments.
 
-mod common;
+mod step_maker;
 
-use common::{Run, barred, point};
+use step_maker::{Run, barred, point};
 use expect_test::{Expect, expect};
 use gcheck_engine::{
     Axis, Coolant, Curve, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry,

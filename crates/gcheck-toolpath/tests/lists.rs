@@ -1,8 +1,8 @@
 //! The move list as JSON lines, CSV and text.
 
-mod common;
+mod step_maker;
 
-use common::{Run, point, timing, xyz};
+use step_maker::{Run, point, timing, xyz};
 use expect_test::expect;
 use gcheck_engine::{
     Axis, Coolant, Curve, CurvePiece, Event, FeedMode, Position, Spindle, Stop, TravelKind, Units,

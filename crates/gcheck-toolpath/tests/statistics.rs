@@ -1,10 +1,10 @@
 //! Times and figures of whole runs.
 
-mod common;
+mod step_maker;
 
 use std::f64::consts::PI;
 
-use common::{Run, point, timing, xyz};
+use step_maker::{Run, point, timing, xyz};
 use expect_test::expect;
 use gcheck_engine::{Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, MmPerMin, Plane, Seconds};

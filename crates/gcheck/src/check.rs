@@ -172,7 +172,7 @@ fn closing_line(report: &Report) -> String {
     if summary.files == 0 {
         return "no programs found\n".to_owned();
     }
-    format!("{}\n", gcheck_report::summary_line(&summary))
+    format!("{}\n{}", gcheck_report::summary_line(&summary), gcheck_report::assumptions(&summary))
 }
 
 /// Says something beside the findings, on standard error.

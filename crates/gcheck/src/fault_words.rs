@@ -77,6 +77,22 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
             .why("they belong to one modal group, or both use the same words")
             .help("put one of them on a block of its own"),
 
+        Fault::WordTwice(letter) => Words::new(format!("`{letter}` stands twice in this block"))
+            .help("keep one of the two, or put the second on a block of its own"),
+        Fault::UnreadWord(letter) => Words::new(format!("no code of this block reads `{letter}`"))
+            .why("neither the codes of the block nor the motion in effect take this word")
+            .help(format!("take `{letter}` away, or write the code that it belongs to")),
+        Fault::Misplaced(letter) => Words::new(format!("`{letter}` stands behind other words"))
+            .help(format!("write `{letter}` at the start of the block")),
+        Fault::TooManyCodes => {
+            Words::new("more M codes than a block may have").help("put some of them on a block of their own")
+        }
+        Fault::TooFewPoints => Words::new("the curve has fewer control points than its order needs")
+            .why("a curve has at least as many points, with its start, as its order `L` says, and three without it"),
+        Fault::LineTooLong => {
+            Words::new("the line is longer than the control reads").help("divide it into several blocks")
+        }
+
         Fault::NoFeed => Words::new("a cut without a feed rate")
             .why("no `F` was given since the program began, or the last change of the feed mode cleared it")
             .help("give `F` on this block or before it"),

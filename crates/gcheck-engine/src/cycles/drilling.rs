@@ -73,8 +73,17 @@ pub fn hole(
 ) -> Result<[Mm; 3], CycleError> {
     known(&[hole.r, hole.bottom])?;
     let mut hole = Tool { hole, rules, sink: Sink::new(from, out) };
-    hole.check(effect)?;
-    hole.approach(effect)?;
+    hole.check_levels()?;
+    if rules.rise_to_r {
+        // The control that asks for every word asks on the way to the hole.
+        hole.rise()?;
+        hole.check_given(effect)?;
+        hole.approach(effect)?;
+        hole.check_pecks(effect)?;
+    } else {
+        hole.check_pecks(effect)?;
+        hole.approach(effect)?;
+    }
     match effect {
         Effect::CycleDrill => {
             hole.feed_to(hole.bottom())?;
@@ -175,9 +184,8 @@ impl Tool<'_, '_> {
         self.hole.dwell.map_or(Ok(()), |time| self.sink.put(Stroke::Dwell(time)))
     }
 
-    /// Words without which the cycle cannot begin.
-    fn check(&self, effect: Effect) -> Result<(), CycleError> {
-        let missing = |letter| Err(CycleFault::Missing(Letter::of(letter)).into());
+    /// Pecks go somewhere.
+    fn check_pecks(&self, effect: Effect) -> Result<(), CycleError> {
         if let Some(peck) = self.hole.peck {
             known(&[peck])?;
         }
@@ -185,9 +193,12 @@ impl Tool<'_, '_> {
         if pecks && self.hole.peck.is_some_and(|peck| peck <= Mm::ZERO) {
             return Err(CycleFault::NotPositive(Letter::of('Q')).into());
         }
-        if !self.rules.rise_to_r {
-            return Ok(());
-        }
+        Ok(())
+    }
+
+    /// Words without which the cycle cannot begin.
+    fn check_given(&self, effect: Effect) -> Result<(), CycleError> {
+        let missing = |letter| Err(CycleFault::Missing(Letter::of(letter)).into());
         match effect {
             Effect::CyclePeck | Effect::CycleChipBreak if self.hole.peck.is_none() => return missing('Q'),
             Effect::CycleDrillDwell
@@ -208,20 +219,30 @@ impl Tool<'_, '_> {
             }
             _ => {}
         }
-        if self.r() < self.bottom() { Err(CycleFault::RBelowBottom.into()) } else { Ok(()) }
+        Ok(())
+    }
+
+    fn check_levels(&self) -> Result<(), CycleError> {
+        let below = self.rules.rise_to_r && self.r() < self.bottom();
+        if below { Err(CycleFault::RBelowBottom.into()) } else { Ok(()) }
+    }
+
+    /// Up to `R` where the tool stands, if it is below.
+    fn rise(&mut self) -> Result<(), CycleError> {
+        if self.hole.first_of_block {
+            if self.hole.initial < self.r() {
+                let [first, second, _] = self.hole.plane.to_local(self.sink.at);
+                self.sink.rapid(self.hole.plane.to_xyz([first, second, self.r()]))?;
+            }
+            self.sink.put(Stroke::ExactPath)?;
+        }
+        Ok(())
     }
 
     /// To the hole's axis, then to `R`.
     fn approach(&mut self, effect: Effect) -> Result<(), CycleError> {
-        let [first, second, mut level] = self.hole.plane.to_local(self.sink.at);
+        let [_, _, mut level] = self.hole.plane.to_local(self.sink.at);
         if self.rules.rise_to_r {
-            if self.hole.first_of_block {
-                if self.hole.initial < self.r() {
-                    level = self.r();
-                    self.sink.rapid(self.hole.plane.to_xyz([first, second, level]))?;
-                }
-                self.sink.put(Stroke::ExactPath)?;
-            }
             // The way over the plane climbs to the level that the hole will be left at.
             let clear = self.clear();
             if level < clear {

@@ -77,10 +77,13 @@ pub(crate) struct CodeContract {
     conflict_groups: u64,
     /// Another code of the group must not stand in the block.
     exclusive: bool,
-    first_only: bool,
+    /// Only where it opens the block is the code read, and then nothing else acts.
+    pub(crate) first_only: bool,
     is_m: bool,
     /// Cutter compensation must be off when the code acts.
     pub(crate) uncompensated: bool,
+    /// The code chooses among spindles.
+    pub(crate) of_spindle: bool,
 }
 
 /// What holds for every block of a control.
@@ -178,6 +181,7 @@ impl CodeContract {
                 }
             }
         }
+        contract.of_spindle = contract.reads.contains(Letter::DOLLAR);
         contract.first_only = rules.first_only.contains(&entry.code);
         contract.uncompensated = entry.requires.iter().any(|item| {
             let code = CodeNumber::parse(item).and_then(|number| control.code(number));
@@ -319,7 +323,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Refuses a block whose words and codes do not fit together, before anything of it acts.
-    pub(super) fn check_block(&self, words: &[Word], state: &State<D>) -> Step {
+    pub(super) fn check_block(&self, place: &Place, words: &[Word], state: &State<D>) -> Step {
         let rules = &self.model.contract;
         if !D::STOPS_AT_FAULTS || rules.idle {
             return Ok(());
@@ -342,9 +346,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if flags.intersects(rules.trouble.intersection(BlockFlags::UNKNOWN_ADDRESS)) {
             return Err(Fault::Malformed);
         }
-        self.check_codes(words)?;
+        self.check_codes(place, words)?;
         if rules.strict {
-            self.check_machine()?;
+            self.check_axes()?;
             for range in &rules.ranges {
                 self.check_range(range)?;
             }
@@ -358,6 +362,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.check_words(acting)?;
         }
         Ok(())
+    }
+
+    /// Does the code stand once, and in front of all else but the number?
+    fn opens_block(&self, place: &Place, words: &[Word], ix: CodeIx) -> bool {
+        let Some(at) = words.iter().position(|word| word.code == ix) else { return true };
+        let before = words.get(..at).unwrap_or_default();
+        let behind = words.get(at + 1..).unwrap_or_default();
+        let start = place.block().range.start;
+        let from = before.last().map_or(start, |word| word.range().end) - start;
+        let to = words.get(at).map_or(start, |word| word.range().start) - start;
+        let text = self.block_text(place, place.block()).get(from as usize..to as usize).unwrap_or_default();
+        let text = text.trim_ascii();
+        before.iter().all(|word| word.letter == Letter::of('N'))
+            && behind.iter().all(|word| word.code != ix)
+            && (text.is_empty() || text == b"/")
     }
 
     fn contract_of(&self, ix: CodeIx) -> Option<&CodeContract> {
@@ -381,14 +400,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Codes against each other.
-    fn check_codes(&self, words: &[Word]) -> Step {
+    fn check_codes(&self, place: &Place, words: &[Word]) -> Step {
         let rules = &self.model.contract;
         let codes = self.words.codes();
         let mut m_codes = 0;
         for (index, ix) in codes.iter().enumerate() {
             let (Some(code), Some(contract)) = (self.model.code(*ix), self.contract_of(*ix)) else { continue };
             m_codes += usize::from(contract.is_m);
-            if contract.first_only && !opens_block(words, *ix) {
+            if contract.first_only && !self.opens_block(place, words, *ix) {
                 return Err(Fault::UnknownCode);
             }
             if code.effect == Effect::UserCommand && self.machine.fresh && rules.strict {
@@ -413,23 +432,25 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    /// Axes and spindles that a machine has only when somebody says so.
-    fn check_machine(&self) -> Step {
+    /// Axes that a machine has only when somebody says so.
+    fn check_axes(&self) -> Step {
         let rules = &self.model.contract;
-        if !self.machine.fresh {
-            return Ok(());
+        let absent = self.words.present().and(rules.absent_axes);
+        match absent.iter().next() {
+            Some(letter) if self.machine.fresh && self.machine.axes.is_none() => Err(Fault::NoSuchAxis(letter)),
+            _ => Ok(()),
         }
-        if self.machine.axes.is_none()
-            && let Some(letter) = self.words.present().and(rules.absent_axes).iter().next()
-        {
-            return Err(Fault::NoSuchAxis(letter));
+    }
+
+    /// A spindle that the machine has, where the word that chooses one is read; -1 means all of them.
+    pub(super) fn check_spindle(&self) -> Step {
+        let Some(spindles) = self.model.contract.spindles else { return Ok(()) };
+        match self.words.number(Letter::DOLLAR) {
+            Some(number) if D::STOPS_AT_FAULTS && self.machine.fresh && (number <= -2.0 || number >= spindles) => {
+                Err(Fault::WordRange(Letter::DOLLAR))
+            }
+            _ => Ok(()),
         }
-        if let (Some(spindles), Some(number)) = (rules.spindles, self.words.number(Letter::DOLLAR))
-            && (number <= -2.0 || number >= spindles)
-        {
-            return Err(Fault::WordRange(Letter::DOLLAR));
-        }
-        Ok(())
     }
 
     fn check_range(&self, range: &ValueRange) -> Step {
@@ -533,7 +554,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             } else {
                 has(Effect::Incremental) || state.is_incremental(self.model) == Some(true)
             };
-            if incremental || polar {
+            if incremental {
                 return Err(Fault::Conflict);
             }
         }
@@ -591,10 +612,4 @@ impl CodeContract {
         let bit = 1_u64.checked_shl(group.index() as u32).unwrap_or(0);
         self.conflict_groups & bit != 0 || self.conflicts.contains(&other)
     }
-}
-
-/// Does the code stand in front of all other words of its block but the number?
-fn opens_block(words: &[Word], ix: CodeIx) -> bool {
-    let mut codes = words.iter().filter(|word| word.letter != Letter::of('N'));
-    codes.next().is_some_and(|word| word.code == ix) && codes.all(|word| word.code != ix)
 }

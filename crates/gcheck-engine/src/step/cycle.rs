@@ -81,17 +81,38 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// Cycles that stop the spindle or turn it round need one that turns, and taps one that turns the right way, where the
+    /// control looks at it.
+    fn check_cycle_spindle(&self, effect: Effect, rules: &gcheck_controls::CycleRules, state: &State<D>) -> Step {
+        let wanted = match effect {
+            Effect::CycleTap => Some(Spindle::Clockwise),
+            Effect::CycleLeftTap => Some(Spindle::CounterClockwise),
+            Effect::CycleBoreStop
+            | Effect::CycleBackBore
+            | Effect::CycleBoreManual
+            | Effect::CycleBoreDwellManual => None,
+            _ => return Ok(()),
+        };
+        let Some(spindle) = state.spindle else { return Ok(()) };
+        if !D::STOPS_AT_FAULTS || !self.refuses_incomplete() || !rules.tap_needs_spindle {
+            return Ok(());
+        }
+        match wanted {
+            _ if spindle == Spindle::Stopped => Err(Fault::SpindleStopped),
+            Some(wanted) if wanted != spindle => Err(Fault::SpindleDirection),
+            _ => Ok(()),
+        }
+    }
+
     /// Keeps the words of the block that stay in effect.
     pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, names_code: bool, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
         let mut words = state.cycle;
-        if names_code && rules.rise_to_r {
-            // A cycle named anew takes nothing but R, Z and what it repeats from the one before.
-            words.ijk = [f64::NAN; 3];
-        }
+        // On strict controls -1 stands for no number.
+        let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
         let put = |letter: char, slot: &mut f64, scale: f64| {
-            if let Some(value) = self.words.number(Letter::of(letter)) {
+            if let Some(value) = self.words.number(Letter::of(letter)).filter(|value| letter != 'Q' || !none(*value)) {
                 *slot = value * scale;
             }
         };
@@ -104,7 +125,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         put('E', &mut words.e, unit);
-        if let Some(p) = self.words.number(Letter::of('P')) {
+        if let Some(p) = self.words.number(Letter::of('P')).filter(|p| !none(*p)) {
             let milliseconds = match self.model.semantics().dwell.get("P") {
                 Some(DwellWord::Milliseconds) => true,
                 Some(DwellWord::SecondsOrMilliseconds) => !self.words.is_pointed(Letter::of('P')),
@@ -228,7 +249,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 break;
             }
         }
-        self.end_exact_path(state);
+        if result.is_ok() || !D::STOPS_AT_FAULTS {
+            self.end_exact_path(state);
+        }
         result
     }
 
@@ -242,6 +265,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let from = state.position.xyz();
         let mut strokes = Vec::new();
+        if let Err(fault) = self.check_cycle_spindle(effect, rules, state) {
+            // The way to the hole is that of any cycle.
+            let _ = hole(Effect::CycleDrill, facts, from, rules, &mut |stroke| strokes.push(stroke));
+            let is_way = |stroke: &Stroke| matches!(stroke, Stroke::Rapid(_) | Stroke::ExactPath);
+            strokes.truncate(strokes.iter().take_while(|stroke| is_way(stroke)).count());
+            self.strokes(&strokes, plane, state)?;
+            return Err(fault);
+        }
         let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
         self.strokes(&strokes, plane, state)?;
         match result {

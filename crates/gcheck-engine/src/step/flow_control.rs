@@ -444,6 +444,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             OKeyword::Sub => match links.end {
                 // The body runs only when it is called.
                 Some(end) if state.frames.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) => {
+                    if self.holds_subroutine(at, end) {
+                        return Err(Fault::LoopMismatch);
+                    }
                     Ok(Outcome::Jump(to(end + 1)))
                 }
                 Some(_) => Ok(Outcome::Next),
@@ -536,6 +539,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             OKeyword::EndIf => {
+                if links.head.is_none() {
+                    return Err(Fault::LoopMismatch);
+                }
                 self.want_branch(None, state);
                 Ok(Outcome::Next)
             }
@@ -622,6 +628,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Ok(Outcome::Jump(to(block)))
             }),
         }
+    }
+
+    /// Is a subroutine defined inside the one that begins here?
+    fn holds_subroutine(&mut self, at: At, end: u32) -> bool {
+        if let Some(holds) = self.nested.get(&at) {
+            return *holds;
+        }
+        let is_sub = |outline: &gcheck_program::Outline, block: u32| {
+            outline.o_word(block).is_some_and(|links| links.keyword == OKeyword::Sub)
+        };
+        let file = self.file(at.file);
+        let holds = file.is_some_and(|file| {
+            let outline = file.loaded.outline();
+            (at.block + 1..end).any(|block| is_sub(outline, block))
+        });
+        self.nested.insert(at, holds);
+        holds
     }
 
     /// The branch of an IF that was jumped to because the condition before it failed.

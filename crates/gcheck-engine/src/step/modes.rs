@@ -67,6 +67,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn switch(&mut self, role: Role, ix: CodeIx, lasts: bool, state: &mut State<D>) {
         match role {
             Role::Motion => {
+                if !matches!(self.model.effect(ix), Effect::NurbsOpen | Effect::SplineCubic) {
+                    state.nurbs = None;
+                }
                 state.set_mode(Role::Motion, ix);
                 if self.model.semantics().cycles.motion_ends_cycle {
                     self.end_cycle(state);
@@ -79,14 +82,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             Role::Cycle => {
-                let running = state.active_cycle(self.model).is_some_and(CodeIx::is_some);
-                if !running {
-                    let sticky = state.cycle;
-                    state.cycle = CycleWords::NONE;
-                    if self.model.cycles_are_motion {
-                        // Words of an earlier series stay known there: `R` may be left out of the next one.
-                        state.cycle = CycleWords { initial: f64::NAN, ..sticky };
+                let running = state.active_cycle(self.model).filter(|cycle| cycle.is_some());
+                match running {
+                    None => state.cycle = CycleWords::NONE,
+                    // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
+                    Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
+                        state.cycle = CycleWords { initial: state.cycle.initial, ..CycleWords::NONE };
                     }
+                    Some(_) => {}
                 }
                 state.set_mode(Role::Cycle, ix);
                 if self.model.cycles_are_motion {

@@ -146,6 +146,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let incremental = state.is_incremental(self.model) == Some(true);
         let (old_radius, old_angle) = (x.hypot(y), y.atan2(x).to_degrees());
         let unit = self.unit(state);
+        if self.refuses_incomplete() && old_radius == 0.0 && !self.words.has(Letter::CARET) {
+            return Err(Fault::MissingWord(Letter::CARET));
+        }
         let radius = self.words.number(Letter::AT).map(|r| r * unit);
         let angle = self.words.number(Letter::CARET);
         if incremental && old_radius == 0.0 && angle.is_some() && !self.words.has(Letter::AT) {
@@ -376,6 +379,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.actual = target;
         state.position = target;
         self.emit(state, Event::Curve(curve));
+        if self.refuses_incomplete() {
+            // A curve is no mode that lasts.
+            state.set_mode(Role::Motion, CodeIx::NONE);
+        }
         Ok(())
     }
 
@@ -392,20 +399,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// A control point of a NURBS block.
     fn nurbs_point(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        let weight = self.words.number(Letter::of('P')).unwrap_or(1.0);
-        if weight <= 0.0 {
-            return Err(Fault::WordRange(Letter::of('P')));
-        }
-        let mut points = match state.nurbs.take() {
-            Some(points) if !self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::NurbsOpen) => {
-                (*points).clone()
-            }
-            _ => {
+        let weight = self.words.number(Letter::of('P'));
+        let open = state.nurbs.take();
+        let opens = open.is_none();
+        // The first entry is the start, with the curve's order instead of a weight.
+        let mut points = match open {
+            Some(points) => (*points).clone(),
+            None => {
                 self.check_feed(state)?;
-                vec![[state.position.raw(Axis::X), state.position.raw(Axis::Y), 1.0]]
+                vec![[state.position.raw(Axis::X), state.position.raw(Axis::Y), LEAST_ORDER]]
             }
         };
-        points.push([target.raw(Axis::X), target.raw(Axis::Y), weight]);
+        if let (Some(order), Some([_, _, slot])) = (self.words.number(Letter::of('L')), points.first_mut()) {
+            *slot = order.max(LEAST_ORDER);
+        }
+        let (x, y) = (self.words.has(Letter::of('X')), self.words.has(Letter::of('Y')));
+        let polar = self.words.present().intersects(super::POLAR);
+        if x || y || polar || !opens {
+            if (!x || !y) && !polar {
+                return Err(Fault::MissingWord(Letter::of(if x { 'Y' } else { 'X' })));
+            }
+            let weight = weight.filter(|_| !opens);
+            if !opens && weight.is_none_or(|weight| weight <= 0.0) {
+                return Err(if weight.is_none() { Fault::MissingWord(Letter::of('P')) } else { Fault::WordRange(Letter::of('P')) });
+            }
+            points.push([target.raw(Axis::X), target.raw(Axis::Y), weight.unwrap_or(1.0)]);
+        }
         state.nurbs = Some(Rc::new(points));
         Ok(())
     }
@@ -413,6 +432,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G5.3`: the curve is cut.
     pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
         let Some(points) = state.nurbs.take() else { return Err(Fault::NoMotionMode) };
+        if points.first().is_some_and(|[_, _, order]| (points.len() as f64) < *order) {
+            return Err(Fault::TooFewPoints);
+        }
         let mut to = state.position;
         if let Some([x, y, _]) = points.last() {
             to.set(Axis::X, *x);
@@ -428,6 +450,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 }
+
+/// A curve by control points is of this order at least.
+const LEAST_ORDER: f64 = 3.0;
 
 /// Length of a straight move in millimetres; of a move of rotary axes alone, degrees that count as the program's unit of
 /// length does.

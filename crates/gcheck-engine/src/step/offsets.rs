@@ -6,13 +6,13 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_geometry::Mm;
 
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::{Event, ToolEntry};
-use crate::fault::Fault;
+use crate::fault::{CompensationFault, Fault};
 use crate::machine::WorkOffset;
 use crate::model::Role;
 use crate::observer::Observer;
@@ -121,6 +121,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G52`.
     pub(super) fn local_shift(&mut self, state: &mut State<D>) -> Step {
         let named = self.named(state);
+        if named.is_empty() && self.refuses_incomplete() {
+            return Err(Fault::NoAxisWords);
+        }
         let shared = self.shifts_are_one();
         self.reframe(state, |state| {
             for (axis, value) in &named {
@@ -275,6 +278,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn add_length(&mut self, state: &mut State<D>) -> Step {
+        let axes = self.words.present().intersects(self.model.axis_letters);
+        match (self.words.has(Letter::of('H')), axes) {
+            (true, true) if self.refuses_incomplete() => return Err(Fault::Conflict),
+            (false, false) if self.refuses_incomplete() => return Err(Fault::NoAxisWords),
+            _ => {}
+        }
         let added = match self.count(Letter::of('H'))? {
             Some(Count::Known(number)) => match state.tables.tool(number) {
                 Some(tool) => tool.offset,
@@ -283,6 +292,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             },
             Some(Count::Unknown) => self.unknown_length(state),
             None => {
+                // The interpreter looks for a tool all the same.
+                if self.refuses_incomplete() && state.tables.complete && D::STOPS_AT_FAULTS {
+                    return Err(Fault::MissingWord(Letter::of('H')));
+                }
                 let mut added = Position::ZERO;
                 for (axis, value) in self.named(state) {
                     added.set(axis, value);
@@ -326,7 +339,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.forget_offsets(state);
             return Ok(());
         };
-        let number = self.count(Letter::of('P'))?;
+        let number = match kind {
+            2 | 20 if self.refuses_incomplete() => self.truncated(Letter::of('P'))?,
+            _ => self.rounded(Letter::of('P'))?,
+        };
         match kind {
             2 => self.write_work_offset(number, false, state),
             20 if self.refuses_incomplete() => self.write_work_offset(number, true, state),
@@ -343,10 +359,36 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.write_work_system(system, false, state);
                 Ok(())
             }
-            1 | 10..=13 => self.write_tool(kind, number, state),
+            0 if self.refuses_incomplete() => self.reload_tools(state),
+            1 | 10 | 11 => self.write_tool(kind, number, state),
+            12 | 13 if !self.refuses_incomplete() => self.write_tool(kind, number, state),
             _ if self.refuses_incomplete() => Err(Fault::WordRange(Letter::of('L'))),
             _ => Ok(()),
         }
+    }
+
+    /// What a strict control asks of `G10` before its block acts: a form that exists, and the number that the form needs.
+    pub(super) fn check_write_offsets(&self) -> Step {
+        let (l, p) = (Letter::of('L'), Letter::of('P'));
+        let Some(Count::Known(kind)) = self.count(l)? else { return Ok(()) };
+        let of_work = matches!(kind, 2 | 20);
+        let number = match kind {
+            0 => return Ok(()),
+            2 | 20 => self.truncated(p)?,
+            1 | 10 | 11 => self.rounded(p)?,
+            _ => return Err(Fault::WordRange(l)),
+        };
+        match number {
+            None => Err(Fault::MissingWord(p)),
+            Some(Count::Known(number)) if of_work && number > 9 || !of_work && number == 0 => Err(Fault::WordRange(p)),
+            _ => Ok(()),
+        }
+    }
+
+    /// `G10 L0`: the table of tools is read again, which a tool in the spindle forbids.
+    fn reload_tools(&mut self, state: &mut State<D>) -> Step {
+        let loaded = D::known(&state.tool).is_some_and(|tool| tool != 0.0);
+        if loaded { Err(Fault::NotNow(self.model.code_with(Effect::WriteOffsets), None)) } else { Ok(()) }
     }
 
     fn forget_offsets(&mut self, state: &mut State<D>) {
@@ -369,8 +411,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None if self.refuses_incomplete() => return Err(Fault::MissingWord(Letter::of('P'))),
             None => state.work,
         };
-        if here && self.words.has(Letter::of('R')) && self.refuses_incomplete() {
+        let of_tools = LetterSet::of(if here { "IJR" } else { "IJ" });
+        if self.words.present().intersects(of_tools) && self.refuses_incomplete() {
             return Err(Fault::Conflict);
+        }
+        if system.is_some() && system == state.work && self.refuses_incomplete() && self.compensates(state) {
+            return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         self.write_work_system(system, here, state);
         Ok(())
@@ -452,14 +498,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let shift = state.shift();
         let fixture = state.tables.offset(9);
         let tool = Rc::make_mut(&mut state.tables).tool_mut(number);
-        for (axis, value) in &named {
-            let value = match kind {
-                1 => *value,
-                // So that the present position reads as programmed, with the offsets in effect or with the last system's.
-                10 => rotate(machine - work.origin, -work.rotation).raw(*axis) - shift.raw(*axis) - value,
-                _ => rotate(machine - fixture.origin, -fixture.rotation).raw(*axis) - value,
-            };
-            tool.offset.set(*axis, value);
+        if kind == 1 {
+            for (axis, value) in &named {
+                tool.offset.set(*axis, *value);
+            }
+        } else {
+            // So that the present position reads as programmed, with the offsets in effect or with the last system's. In
+            // a turned system that is worked out in its own directions.
+            let (frame, shift) = if kind == 10 { (work, shift) } else { (fixture, Position::ZERO) };
+            let here = rotate(machine - frame.origin, -frame.rotation) - shift;
+            let mut turned = rotate(tool.offset, -frame.rotation);
+            for (axis, value) in &named {
+                turned.set(*axis, here.raw(*axis) - value);
+            }
+            tool.offset = rotate(turned, frame.rotation);
         }
         if let Some(radius) = radius {
             tool.diameter = Mm(2.0 * radius);

@@ -214,7 +214,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `M61`.
     pub(super) fn set_tool_number(&mut self, state: &mut State<D>) -> Step {
-        match self.count(Letter::of('Q'))? {
+        match self.rounded(Letter::of('Q'))? {
             Some(Count::Known(number)) => {
                 if state.tables.complete && number != 0 && state.tables.tool(number).is_none() {
                     return Err(Fault::NoSuchTool(number));
@@ -271,7 +271,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn index(&self, letter: Letter) -> Step<u32> {
-        match self.count(letter)? {
+        match self.rounded(letter)? {
             Some(Count::Known(index)) => Ok(index),
             Some(Count::Unknown) => Err(Fault::Undecidable),
             None => Err(Fault::MissingWord(letter)),

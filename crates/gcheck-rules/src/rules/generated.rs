@@ -85,6 +85,7 @@ pub(crate) mod modal {
     pub(crate) mod code_must_stand_alone;
     pub(crate) mod codes_conflict;
     pub(crate) mod distance_mode_not_stated;
+    pub(crate) mod incremental_into_subprogram;
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
     pub(crate) mod modal_change_in_skipped_block;
@@ -277,6 +278,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
     &modal::distance_mode_not_stated::RULE,
+    &modal::incremental_into_subprogram::RULE,
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,
     &modal::modal_change_in_skipped_block::RULE,

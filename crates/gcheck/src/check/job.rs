@@ -10,7 +10,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 use gcheck_controls::{Control, UserCode};
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_rules::{Execution, Job, Scene, Selection, check};
+use gcheck_engine::Model;
+use gcheck_rules::{describe_all, Execution, Job, Scene, Selection, check};
 use gcheck_syntax::SourceText;
 
 use super::read;
@@ -132,5 +133,6 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         suppressed: outcome.suppressed,
         baseline: 0,
         out_of_fuel: outcome.out_of_fuel,
+        assumptions: describe_all(&outcome.ledger, &Model::new(&control)),
     })
 }

@@ -41,6 +41,7 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
         suppressed: 0,
         baseline: 0,
         out_of_fuel: false,
+        assumptions: Vec::new(),
     }]);
     gcheck_report::control_lines(&report).join("\n")
 }

@@ -85,6 +85,11 @@ mod tests {
 
     #[test]
     fn where_the_radius_wins_nothing_is_wrong() {
-        check_rule(&RULE, "fanuc-mill", "G17 G21 G90 G0 X0. Y0.\nG2 X10. I5. R5. F100.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G17 G21 G90 G0 X0. Y0.\nG2 X10. I5. R5. F100.\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -81,7 +81,8 @@ impl PathRule for ArcEndOffCircle {
                 .note("counted from the origin instead of the start of the arc, the centre fits; arcs like this one are told of once")
                 .help("have the centres written as distances from the start of the arc")
         } else {
-            finding.help("check the signs of the centre words, the end point, and where the block before ends")
+            finding
+                .help("check the signs of the centre words, the end point, and where the block before ends")
         };
         report.add(judged(cx, finding));
     }
@@ -89,15 +90,16 @@ impl PathRule for ArcEndOffCircle {
 
 /// Would the arc be one if its centre were counted from the origin?
 fn fits_from_origin(cx: &PathCx<'_>, from: &Position) -> bool {
-    let (Some(place), Some(plane)) = (cx.place(), cx.state().plane(cx.model)) else { return false };
+    let (Some(block), Some(plane)) = (cx.place(), cx.state().plane(cx.model)) else { return false };
     let unit = cx.state().units(cx.model).map_or(f64::NAN, Units::in_mm);
-    let words = place.table.words(place.block());
+    let words = block.table.words(block.block());
     let value = |letter: char| {
         let word = words.iter().find(|word| word.letter == Letter::of(letter));
         word.map_or(Some(0.0), |word| word.number().map(|number| number * unit))
     };
-    let (Some(i), Some(j), Some(k)) = (value('I'), value('J'), value('K')) else { return false };
-    let [first, second, _] = plane.to_local([i, j, k]);
+    let centre = (value('I'), value('J'), value('K'));
+    let (Some(along_x), Some(along_y), Some(along_z)) = centre else { return false };
+    let [first, second, _] = plane.to_local([along_x, along_y, along_z]);
     let distance = |position: &Position| {
         let [a, b, _] = plane.to_local(position.xyz());
         (a.0 - first).hypot(b.0 - second)
@@ -138,13 +140,18 @@ pub(crate) fn length(cx: &PathCx<'_>, mm: f64) -> String {
 /// The finding no more severe than what an arc's geometry rests on: the control's tolerance, and modes that nobody set.
 pub(crate) fn judged(cx: &PathCx<'_>, finding: Finding) -> Finding {
     let finding = finding.at_most(limit(cx.model.semantics().arcs.confidence));
-    [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(finding, |finding, (role, what)| {
-        if cx.trace().set_by(Fact::Mode(role)).is_some() {
-            return finding;
-        }
-        let code = cx.code_name(role).map_or_else(String::new, |code| format!(" (`{code}`)"));
-        finding.at_most(Severity::Warning).assuming(format!("{what}{code} is as the control has it at the start"))
-    })
+    [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(
+        finding,
+        |finding, (role, what)| {
+            if cx.trace().set_by(Fact::Mode(role)).is_some() {
+                return finding;
+            }
+            let code = cx.code_name(role).map_or_else(String::new, |code| format!(" (`{code}`)"));
+            finding
+                .at_most(Severity::Warning)
+                .assuming(format!("{what}{code} is as the control has it at the start"))
+        },
+    )
 }
 
 #[cfg(test)]
@@ -172,20 +179,30 @@ mod tests {
     fn controls_differ_in_what_they_let_pass() {
         let program = "G17 G21 G90 G0 X0. Y0.\nG2 X10.02 Y0. I5. F100.\nM30\n";
         check_rule(&RULE, "linuxcnc", program, &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", &program.replace("10.02", "10.05"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program.replace("10.02", "10.05"),
+            &expect![[r#"
             2 | G2 X10.05 Y0. I5. F100.
               |               ^^^ warning[arc-end-off-circle] arc ends 0.05 mm off its circle
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn centres_from_the_origin_are_told_of_once() {
         let program = "G17 G21 G90 G0 X55. Y-40.\nG1 X55.123 Y-39.556 F100.\n\
             G3 X39.556 Y-55.123 I39.556 J-39.556\nG1 X-39.556\nG2 X-55.123 Y-39.556 I-39.556 J-39.556\nM30\n";
-        check_rule(&RULE, "fanuc-mill", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            program,
+            &expect![[r#"
             3 | G3 X39.556 Y-55.123 I39.556 J-39.556
               |                     ^^^^^^^ warning[arc-end-off-circle] arc ends 4.176 mm off its circle
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -217,6 +234,7 @@ mod tests {
               assuming: the plane (`G17`) is as the control has it at the start
               assuming: absolute or incremental (`G90`) is as the control has it at the start
               help: check the signs of the centre words, the end point, and where the block before ends
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -66,7 +66,11 @@ impl PathRule for ArcModeLeftOn {
             return;
         }
         let mut finding = cx
-            .finding(&META, cx.range(), format!("end point alone while an arc is the kind of motion (`{code}`)"))
+            .finding(
+                &META,
+                cx.range(),
+                format!("end point alone while an arc is the kind of motion (`{code}`)"),
+            )
             .label("neither centre nor radius")
             .help("write `G1` or `G0` if the move is straight, else give the centre or the radius");
         finding = match setting {
@@ -109,10 +113,15 @@ mod tests {
     #[test]
     fn a_setting_may_let_the_control_go_straight() {
         let program = "G17 G21 G90 G0 X0. Y0.\nG2 X10. I5. F100.\nX20.\nM30\n";
-        check_rule(&RULE, "fanuc-mill", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            program,
+            &expect![[r#"
             3 | X20.
               | ^^^^ info[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -75,10 +75,15 @@ mod tests {
 
     #[test]
     fn a_tolerance_that_is_only_assumed_gives_a_warning() {
-        check_rule(&RULE, "haas-mill", "G17 G21 G90 G0 X0 Y0\nG2 X10. Y0 R4. F100.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G17 G21 G90 G0 X0 Y0\nG2 X10. Y0 R4. F100.\nM30\n",
+            &expect![[r#"
             2 | G2 X10. Y0 R4. F100.
               |            ^^^ warning[arc-radius-too-small] arc radius (`R`) does not reach the end point
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -70,6 +70,11 @@ mod tests {
 
     #[test]
     fn elsewhere_the_word_is_none_of_the_arc() {
-        check_rule(&RULE, "haas-mill", "G17 G20 G90 G0 X0. Y0.\nG2 X1. I.5 F10. P[3/2]\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G17 G20 G90 G0 X0. Y0.\nG2 X1. I.5 F10. P[3/2]\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -99,7 +99,11 @@ fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
     };
     let code = cx.code_name(Role::Plane).unwrap_or_default();
     let finding = cx
-        .finding(&META, cx.letter_range(letter), format!("`{letter}` does not belong to an arc in the {name} plane"))
+        .finding(
+            &META,
+            cx.letter_range(letter),
+            format!("`{letter}` does not belong to an arc in the {name} plane"),
+        )
         .label(format!("the active plane is `{code}`"))
         .help("choose the plane of the arc, or take the word out");
     cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("the plane (`{code}`)"))

@@ -85,7 +85,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G90 G0 X-30. Y0. Z5.\nG10 L12 P1 R8.\nG41 D1 G1 X0. F100.\nX30.\nY4.\nX0.\nG40 X-30.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | X0.
+                  | ^^^ warning[compensation-gouge] the tool does not fit into the contour (`G41`)
+            "#]],
         );
     }
 }

@@ -78,10 +78,15 @@ mod tests {
 
     #[test]
     fn the_zero_is_marked() {
-        check_rule(&RULE, "haas-mill", "G20 G42 D0\nG1 X1. F5.\nG40 X0.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G42 D0\nG1 X1. F5.\nG40 X0.\nM30\n",
+            &expect![[r#"
             1 | G20 G42 D0
               |         ^^ warning[compensation-offset-missing] cutter compensation with no offset (`G42 D0`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

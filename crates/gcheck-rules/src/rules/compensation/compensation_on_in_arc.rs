@@ -97,7 +97,8 @@ pub(super) fn stands_in_plane(cx: &PathCx<'_>, event: &Event) -> bool {
     // By its words: under compensation by a tool of unknown size the path itself is not known.
     let in_plane = [first, second].into_iter().filter_map(|index| Axis::ALL.get(index)).any(|axis| {
         let names = |letter: Letter| cx.origin().letters.contains(letter);
-        let increment = cx.model.semantics().increments.iter().find(|(_, of)| Letter::parse(of) == Some(axis.letter()));
+        let increment =
+            cx.model.semantics().increments.iter().find(|(_, of)| Letter::parse(of) == Some(axis.letter()));
         names(axis.letter()) || increment.and_then(|(letter, _)| Letter::parse(letter)).is_some_and(names)
     });
     !in_plane
@@ -128,15 +129,25 @@ mod tests {
 
     #[test]
     fn an_arc_in_a_later_block_is_the_first_move_all_the_same() {
-        check_rule(&RULE, "haas-mill", "G20 G0 X0. Y0.\nG41 D1\nG1 Z-.1 F5.\nG3 X1. Y0. I.5\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G0 X0. Y0.\nG41 D1\nG1 Z-.1 F5.\nG3 X1. Y0. I.5\nM30\n",
+            &expect![[r#"
             4 | G3 X1. Y0. I.5
               | ^^ warning[compensation-on-in-arc] cutter compensation begins on an arc (`G41`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn switched_off_again_it_never_began() {
-        check_rule(&RULE, "haas-mill", "G20 G0 X0. Y0.\nG41 D1\nG40\nG3 X1. Y0. I.5 F5.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G0 X0. Y0.\nG41 D1\nG40\nG3 X1. Y0. I.5 F5.\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

@@ -99,7 +99,14 @@ fn radius(cx: &PathCx<'_>) -> Option<f64> {
     Some(tool.diameter.0 / 2.0).filter(|radius| radius.is_finite())
 }
 
-fn tell(cx: &PathCx<'_>, begun: Option<At>, length: f64, radius: f64, is_refused: bool, report: &mut Report<'_>) {
+fn tell(
+    cx: &PathCx<'_>,
+    begun: Option<At>,
+    length: f64,
+    radius: f64,
+    is_refused: bool,
+    report: &mut Report<'_>,
+) {
     let name = cx.code_name(Role::Compensation).unwrap_or_default();
     let mut finding = cx
         .finding(&META, cx.range(), format!("the lead-in is not longer than the tool's radius (`{name}`)"))
@@ -127,11 +134,23 @@ mod tests {
     fn the_size_may_come_from_the_table() {
         // Tools of 10 mm.
         let world = World::of_examples(&tool_not_in_table::META);
-        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X3. F100.\nY50.\nG40 X-20.\nM30\n",
+            &world,
+            &expect![[r#"
             2 | G41 D1 G1 X3. F100.
               | ^^^^^^^^^^^^^^^^^^^ warning[lead-in-too-short] the lead-in is not longer than the tool's radius (`G41`)
-        "#]]);
-        check_rule_in(&RULE, "fanuc-mill", "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X6. F100.\nY50.\nG40 X-20.\nM30\n", &world, &expect![[""]]);
+        "#]],
+        );
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G0 X0. Y0. Z5.\nG41 D1 G1 X6. F100.\nY50.\nG40 X-20.\nM30\n",
+            &world,
+            &expect![[""]],
+        );
     }
 
     #[test]

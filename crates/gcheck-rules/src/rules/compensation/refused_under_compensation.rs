@@ -72,7 +72,8 @@ impl PathRule for RefusedUnderCompensation {
             | CompensationFault::Gouge => return,
         };
         let finding = cx.finding(&META, cx.range(), message).label(label).help(help);
-        let code = cx.code_name(Role::Compensation).map_or_else(|| "compensation".to_owned(), |c| format!("`{c}`"));
+        let code =
+            cx.code_name(Role::Compensation).map_or_else(|| "compensation".to_owned(), |c| format!("`{c}`"));
         report.add(match fault {
             CompensationFault::Plane => finding,
             _ => cx.resting_on(finding, Fact::Mode(Role::Compensation), &code),
@@ -89,11 +90,27 @@ mod tests {
 
     #[test]
     fn the_block_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n",
+            &expect![[r#"
+            4 | G28
+              | ^^^ error[refused-under-compensation] the control does not do this while cutter compensation is on
+        "#]],
+        );
     }
 
     #[test]
     fn other_planes() {
-        check_rule(&RULE, "linuxcnc", "G21 G90 G19 F100\nG41.1 D6 G1 Y10\nM2\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G19 F100\nG41.1 D6 G1 Y10\nM2\n",
+            &expect![[r#"
+            2 | G41.1 D6 G1 Y10
+              | ^^^^^^^^^^^^^^^ error[refused-under-compensation] cutter compensation does not work in this plane
+        "#]],
+        );
     }
 }

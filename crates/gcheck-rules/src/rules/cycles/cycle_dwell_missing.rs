@@ -56,9 +56,13 @@ impl PathRule for CycleDwellMissing {
         self.told = true;
         let name = code.number();
         report.add(
-            cx.finding(&META, cycle_range(cx), format!("canned cycle with dwell without a time (`{name}` without `P`)"))
-                .label("the tool does not dwell at the bottom")
-                .help("give the time with `P`, or use the cycle without dwell"),
+            cx.finding(
+                &META,
+                cycle_range(cx),
+                format!("canned cycle with dwell without a time (`{name}` without `P`)"),
+            )
+            .label("the tool does not dwell at the bottom")
+            .help("give the time with `P`, or use the cycle without dwell"),
         );
     }
 }

@@ -133,7 +133,8 @@ impl Harm {
 
 /// Does this block do harm to a cycle that is left on, and not end it itself?
 pub(crate) fn place(cx: &PathCx<'_>) -> Option<Harm> {
-    let moves = |effect| Role::of(effect) == Some(Role::Motion) && cx.model.semantics().cycles.motion_ends_cycle;
+    let moves =
+        |effect| Role::of(effect) == Some(Role::Motion) && cx.model.semantics().cycles.motion_ends_cycle;
     if cx.has_effect(moves) {
         return None;
     }
@@ -182,10 +183,15 @@ mod tests {
 
     #[test]
     fn at_the_end_it_is_a_hint_for_the_next_program() {
-        check_rule(&RULE, "fanuc-mill", "G90 G54 G0 X0 Y0\nG81 Z-10. R2. F100.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G54 G0 X0 Y0\nG81 Z-10. R2. F100.\nM30\n",
+            &expect![[r#"
             3 | M30
               | ^^^ info[cycle-left-on] canned cycle is still on at the end of the program (`G81`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -197,6 +203,7 @@ mod tests {
               here: the next block with a position drills a hole
               there: `G81` set here
               help: end the cycle with `G80` before
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

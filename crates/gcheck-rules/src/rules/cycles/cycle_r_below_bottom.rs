@@ -56,7 +56,9 @@ struct CycleRBelowBottom {
 
 impl PathRule for CycleRBelowBottom {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::Cycle(CycleFault::RBelowBottom) || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle))) {
+        if *fault != Fault::Cycle(CycleFault::RBelowBottom)
+            || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle)))
+        {
             return;
         }
         report.add(finding(cx).at_most(limit(cx.model.semantics().confidence)));
@@ -83,7 +85,11 @@ fn finding(cx: &PathCx<'_>) -> Finding {
     let name = cx.code_name(Role::Cycle).unwrap_or_default();
     let above = words.z - words.r;
     let finding = cx
-        .finding(&META, cycle_range(cx), format!("canned cycle with `R` below the bottom of the hole (`{name}`)"))
+        .finding(
+            &META,
+            cycle_range(cx),
+            format!("canned cycle with `R` below the bottom of the hole (`{name}`)"),
+        )
         .help("check the signs of `R` and `Z`");
     if above.is_finite() {
         finding.label(format!("the bottom is {} above the retract plane", length(cx, above)))
@@ -127,6 +133,11 @@ mod tests {
 
     #[test]
     fn a_back_bore_has_its_retract_plane_below() {
-        check_rule(&RULE, "fanuc-mill", "G21 G90 G0 X0 Y0 Z50.\nG87 Z-10. R-30. Q1. F100.\nG80\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G0 X0 Y0 Z50.\nG87 Z-10. R-30. Q1. F100.\nG80\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -99,7 +99,11 @@ impl CycleUnderCompensation {
         }
         let name = cx.code_name(Role::Compensation).unwrap_or_default();
         let finding: Finding = cx
-            .finding(&META, cycle_range(cx), format!("canned cycle while cutter compensation is on (`{name}`)"))
+            .finding(
+                &META,
+                cycle_range(cx),
+                format!("canned cycle while cutter compensation is on (`{name}`)"),
+            )
             .label("the place of the hole cannot be offset")
             .help("switch compensation off (`G40`) before the cycle")
             .at_most(severity);

@@ -70,6 +70,11 @@ mod tests {
 
     #[test]
     fn other_controls_turn_the_axis_first() {
-        check_rule(&RULE, "haas-mill", "G20 G90 G0 X0 Y0 Z1.\nG81 X1. Z-.5 R.1 A90. F10.\nG80\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0 Y0 Z1.\nG81 X1. Z-.5 R.1 A90. F10.\nG80\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -59,7 +59,8 @@ impl PathRule for CycleWordMissing {
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
         let needed = word.is_some_and(|word| word.need == Need::Conditional);
         let stands = cx.origin().letters.contains(letter);
-        let was_given = is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));
+        let was_given =
+            is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));
         // Words of a cycle that the caller began are known to the caller.
         if !needed || stands || was_given || !cx.is_on_every_path() || cx.is_called_only() {
             return;
@@ -69,8 +70,15 @@ impl PathRule for CycleWordMissing {
         let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
         report.add(
             cx.finding(&META, range, format!("canned cycle without `{letter}` (`{name}`)"))
-                .label(if is.is_empty() { format!("`{letter}` is missing") } else { format!("`{letter}` is missing: {is}") })
-                .note(format!("`{name}` ({}) needs `{letter}` in its first block  [{}]", entry.title, entry.source))
+                .label(if is.is_empty() {
+                    format!("`{letter}` is missing")
+                } else {
+                    format!("`{letter}` is missing: {is}")
+                })
+                .note(format!(
+                    "`{name}` ({}) needs `{letter}` in its first block  [{}]",
+                    entry.title, entry.source
+                ))
                 .help(format!("give `{letter}` in the block that begins the cycle"))
                 .at_most(limit(entry.confidence)),
         );

@@ -61,8 +61,10 @@ impl PathRule for CycleWordNotPositive {
         if word.is_some_and(|word| word.number().is_some()) && codes.any(is_judged) {
             return;
         }
-        let range = if word.is_some() { cx.word_range(|word| word.letter == letter) } else { cycle_range(cx) };
-        let name = cx.code_name(gcheck_engine::Role::Cycle).map_or_else(String::new, |name| format!(" (`{name}`)"));
+        let range =
+            if word.is_some() { cx.word_range(|word| word.letter == letter) } else { cycle_range(cx) };
+        let name =
+            cx.code_name(gcheck_engine::Role::Cycle).map_or_else(String::new, |name| format!(" (`{name}`)"));
         report.add(
             cx.finding(&META, range, format!("`{letter}` of a canned cycle is not above zero{name}"))
                 .label(what)

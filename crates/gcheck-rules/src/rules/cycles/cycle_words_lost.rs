@@ -92,7 +92,11 @@ impl CycleWordsLost {
         let Some(lost) = self.series.lost.get(&letter) else { return };
         let name = code.number();
         let mut finding = cx
-            .finding(&META, cycle_range(cx), format!("canned cycle without `{letter}`, which ended with an earlier one"))
+            .finding(
+                &META,
+                cycle_range(cx),
+                format!("canned cycle without `{letter}`, which ended with an earlier one"),
+            )
             .label(format!("`{name}` begins anew without `{letter}`"))
             .help(format!("give `{letter}` again in the first block of the cycle"))
             .at_most(limit(cx.model.semantics().confidence));
@@ -241,7 +245,8 @@ mod tests {
               there: `Q` was given here
               there: and ended with its cycle here
               help: give `Q` again in the first block of the cycle
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

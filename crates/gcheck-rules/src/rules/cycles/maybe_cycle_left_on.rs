@@ -63,7 +63,11 @@ impl PathRule for MaybeCycleLeftOn {
         }
         let name = cx.name_of(code);
         let finding = cx
-            .finding(&META, harm.range(cx), format!("canned cycle may still be on {} (`{name}`)", harm.words()))
+            .finding(
+                &META,
+                harm.range(cx),
+                format!("canned cycle may still be on {} (`{name}`)", harm.words()),
+            )
             .label("on some path the next block with a position drills a hole")
             .help("end the cycle with `G80` where the paths have met again");
         report.add(cx.with_path(finding));

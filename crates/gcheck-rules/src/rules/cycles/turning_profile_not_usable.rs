@@ -79,7 +79,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "G20 G54 T0101\nG0 X2. Z.1\nG71 P20 Q10 D.05 U.02 W.005 F.01\nN10 G0 X1.\nG1 Z-1. F.005\nN20 X2.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G71 P20 Q10 D.05 U.02 W.005 F.01
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-profile-not-usable] profile of the turning cycle cannot be used (`G71`)
+            "#]],
         );
     }
 }

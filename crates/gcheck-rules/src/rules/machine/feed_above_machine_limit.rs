@@ -38,12 +38,18 @@ struct FeedAboveMachineLimit;
 
 impl PathRule for FeedAboveMachineLimit {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Event::FeedRate(rate), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else { return };
+        let (Event::FeedRate(rate), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else {
+            return;
+        };
         if cx.state().feed_mode(cx.model) != Some(FeedMode::PerMinute) {
             return;
         }
         // A feed that is one of several is at least the lowest.
-        let lowest = if rate.is_nan() { Abstract::bounds(cx.state().feed()).map(|(lowest, _)| lowest) } else { Some(*rate) };
+        let lowest = if rate.is_nan() {
+            Abstract::bounds(cx.state().feed()).map(|(lowest, _)| lowest)
+        } else {
+            Some(*rate)
+        };
         let Some(lowest) = lowest else { return };
         if lowest <= highest.0 * (1.0 + 1e-9) {
             return;
@@ -83,7 +89,13 @@ mod tests {
 
     #[test]
     fn inverse_time_is_no_speed() {
-        check_rule_in(&RULE, "haas-mill", "G20\nG93 G1 X1. F90000.\nM30\n", &World::of_examples(&META), &expect![""]);
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G20\nG93 G1 X1. F90000.\nM30\n",
+            &World::of_examples(&META),
+            &expect![""],
+        );
     }
 
     #[test]

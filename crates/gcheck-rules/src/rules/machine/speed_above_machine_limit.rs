@@ -42,7 +42,9 @@ struct SpeedAboveMachineLimit;
 
 impl PathRule for SpeedAboveMachineLimit {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.scene.machine.engine.max_rpm) else { return };
+        let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.scene.machine.engine.max_rpm) else {
+            return;
+        };
         let state = cx.state();
         let mode = state.mode(Role::SpindleMode);
         // `S` and the mode may stand in one block, in either order.
@@ -90,7 +92,13 @@ mod tests {
 
     #[test]
     fn surface_speed_given_in_one_block_is_none() {
-        check_rule_in(&RULE, "fanuc-lathe", "S9000 G96 M3\nG97 S9000\nM30\n", &World::of_examples(&META), &expect![[""]]);
+        check_rule_in(
+            &RULE,
+            "fanuc-lathe",
+            "S9000 G96 M3\nG97 S9000\nM30\n",
+            &World::of_examples(&META),
+            &expect![[""]],
+        );
     }
 
     #[test]

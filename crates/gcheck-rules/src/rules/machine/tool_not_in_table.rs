@@ -49,7 +49,9 @@ impl PathRule for ToolNotInTable {
         let names = |word: &gcheck_program::Word| {
             let letter = matches!(word.letter.ascii(), b'T' | b'H' | b'D' | b'P' | b'Q');
             let value = word.integer();
-            letter && (value == Some(*number) || by_t && value.is_some_and(|v| v / 100 == *number || v % 100 == *number))
+            letter
+                && (value == Some(*number)
+                    || by_t && value.is_some_and(|v| v / 100 == *number || v % 100 == *number))
         };
         let mut known: Vec<u32> = cx.scene.machine.engine.tools.keys().copied().collect();
         known.truncate(12);
@@ -57,7 +59,10 @@ impl PathRule for ToolNotInTable {
         report.add(
             cx.finding(&META, cx.word_range(names), format!("the tool table has no tool {number}"))
                 .label("not in the configured table")
-                .note(format!("the table has {}", if listed.is_empty() { "no tools".to_owned() } else { listed }))
+                .note(format!(
+                    "the table has {}",
+                    if listed.is_empty() { "no tools".to_owned() } else { listed }
+                ))
                 .help("add the tool to the table, or name another one"),
         );
     }
@@ -65,9 +70,9 @@ impl PathRule for ToolNotInTable {
 
 #[cfg(test)]
 mod tests {
-    use expect_test::expect;
     use super::{META, RULE};
     use crate::testing::{World, check_rule, check_rule_in};
+    use expect_test::expect;
 
     #[test]
     fn the_word_is_marked() {
@@ -87,10 +92,16 @@ mod tests {
 
     #[test]
     fn a_turret_names_tool_and_offset_in_one_word() {
-        check_rule_in(&RULE, "fanuc-lathe", "T0707\nM30\n", &World::of_examples(&META), &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "fanuc-lathe",
+            "T0707\nM30\n",
+            &World::of_examples(&META),
+            &expect![[r#"
             1 | T0707
               | ^^^^^ error[tool-not-in-table] the tool table has no tool 7
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -61,16 +61,27 @@ impl DistanceModeNotStated {
             return;
         }
         self.is_done = true;
-        let is_stated = cx.trace().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_behind_unknown_program();
+        let is_stated =
+            cx.trace().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_behind_unknown_program();
         let is_default = |effect| effect == Effect::Absolute;
-        if is_stated || cx.is_called_only() || !cx.control_has(|effect| effect == Effect::Incremental) {
+        if is_stated
+            || cx.is_called_only()
+            || !cx.control_has(|effect| effect == Effect::Incremental)
+            || has_own_letters(cx)
+        {
             return;
         }
-        let (Some(absolute), Some(incremental)) = (cx.cancel_of(Effect::Absolute), cx.cancel_of(Effect::Incremental)) else {
+        let (Some(absolute), Some(incremental)) =
+            (cx.cancel_of(Effect::Absolute), cx.cancel_of(Effect::Incremental))
+        else {
             return;
         };
         let finding = cx
-            .finding(&META, cx.range(), format!("moves before positions or increments are stated (`{absolute}`, `{incremental}`)"))
+            .finding(
+                &META,
+                cx.range(),
+                format!("moves before positions or increments are stated (`{absolute}`, `{incremental}`)"),
+            )
             .label("counts from wherever the last program left the mode")
             .help(format!("state `{absolute}` at the head of the program"));
         // Every program's end brings the positions back: only a program that was stopped leaves increments.
@@ -79,12 +90,20 @@ impl DistanceModeNotStated {
     }
 }
 
+/// Increments have letters of their own (`U`, `W`): nobody needs the mode.
+fn has_own_letters(cx: &PathCx<'_>) -> bool {
+    !cx.model.semantics().increments.is_empty()
+}
+
 /// Moves that mean the same in either mode, or have their own words.
 pub(super) fn is_home(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| {
         matches!(
             effect,
-            Effect::MachineCoordinates | Effect::ReturnReference(_) | Effect::ReturnFromReference | Effect::ToolChange
+            Effect::MachineCoordinates
+                | Effect::ReturnReference(_)
+                | Effect::ReturnFromReference
+                | Effect::ToolChange
         )
     })
 }
@@ -98,23 +117,34 @@ mod tests {
 
     #[test]
     fn the_first_move_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "G21 G54\nG0 X1.\nX2.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G54\nG0 X1.\nX2.\nM30\n",
+            &expect![[r#"
             2 | G0 X1.
               | ^^^^^^ info[distance-mode-not-stated] moves before positions or increments are stated (`G90`, `G91`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_control_whose_programs_end_in_positions_is_safer() {
-        check_rule(&RULE, "haas-mill", "G20 G54\nG0 X1.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G54\nG0 X1.\nM30\n",
+            &expect![[r#"
             2 | G0 X1.
               | ^^^^^^ hint[distance-mode-not-stated] moves before positions or increments are stated (`G90`, `G91`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_lathe_without_the_codes_has_nothing_to_state() {
         check_rule(&RULE, "fanuc-lathe", "T0101\nG0 X1. W2.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "T101\nG0 X1. W2.\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -135,7 +135,10 @@ impl IncrementalLeftOn {
         if !self.relies_on_start || cx.end_resets(Role::Distance) || cx.is_called_only() {
             return;
         }
-        let Some(LeftOn::Surely(_)) = cx.left_on(Role::Distance, |effect| effect == Effect::Incremental) else { return };
+        let Some(LeftOn::Surely(_)) = cx.left_on(Role::Distance, |effect| effect == Effect::Incremental)
+        else {
+            return;
+        };
         let range = cx.boundary_range(Boundary::ProgramEnd);
         let finding = tell(cx, range, "the program ends in increments and begins without stating positions");
         let finding = finding
@@ -149,7 +152,8 @@ impl IncrementalLeftOn {
 fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
     let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
-    cx.finding(&META, range, format!("{what} (`{incremental}`)")).help(format!("state `{absolute}` before the move"))
+    cx.finding(&META, range, format!("{what} (`{incremental}`)"))
+        .help(format!("state `{absolute}` before the move"))
 }
 
 #[cfg(test)]
@@ -203,10 +207,15 @@ mod tests {
 
     #[test]
     fn an_end_in_increments_hurts_who_begins_without_positions() {
-        check_rule(&RULE, "fanuc-mill", "G21 G0 X0.\nG91 G28 Z0.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G0 X0.\nG91 G28 Z0.\nM30\n",
+            &expect![[r#"
             3 | M30
               | ^^^ warning[incremental-left-on] the program ends in increments and begins without stating positions (`G91`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-mill", "G20 G0 X0.\nG91 G28 Z0.\nM30\n", &expect![[""]]);
     }
 }

@@ -123,7 +123,12 @@ mod tests {
 
     #[test]
     fn certain_increments_are_none_of_its_business() {
-        check_rule(&RULE, "haas-mill", "G20 G91 G0 X0.\nIF [#500 EQ 1] GOTO 5\nX1.\nN5 X1.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G91 G0 X0.\nIF [#500 EQ 1] GOTO 5\nX1.\nN5 X1.\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

@@ -103,7 +103,8 @@ impl PathRule for ModalChangeInSkippedBlock {
 
 /// Does the block have a block delete?
 fn is_optional(cx: &PathCx<'_>) -> bool {
-    cx.origin().flags.contains(BlockFlags::BLOCK_DELETE) && cx.place().is_some_and(|place| place.block().delete > 0)
+    cx.origin().flags.contains(BlockFlags::BLOCK_DELETE)
+        && cx.place().is_some_and(|place| place.block().delete > 0)
 }
 
 impl ModalChangeInSkippedBlock {
@@ -130,14 +131,21 @@ impl ModalChangeInSkippedBlock {
             }
             let name = cx.name_of(change.code);
             let otherwise = match skipped.filter(|code| code.is_some()) {
-                Some(code) => format!("moves under `{name}`, or under `{}` when that block is skipped", cx.name_of(code)),
+                Some(code) => format!(
+                    "moves under `{name}`, or under `{}` when that block is skipped",
+                    cx.name_of(code)
+                ),
                 None => format!("moves under `{name}`, or without it when that block is skipped"),
             };
             report.add(
-                cx.finding(&META, change.range, format!("what follows depends on the block delete switch (`/`, `{name}`)"))
-                    .label("changes a mode only when the switch is off")
-                    .also(cx.range(), otherwise)
-                    .help("set the mode back in a block with `/`, or state it in the next one without"),
+                cx.finding(
+                    &META,
+                    change.range,
+                    format!("what follows depends on the block delete switch (`/`, `{name}`)"),
+                )
+                .label("changes a mode only when the switch is off")
+                .also(cx.range(), otherwise)
+                .help("set the mode back in a block with `/`, or state it in the next one without"),
             );
         }
     }
@@ -152,7 +160,15 @@ mod tests {
 
     #[test]
     fn the_code_in_the_optional_block_is_marked() {
-        check_rule(&RULE, "haas-mill", "G20 G90 G54 G0 X0.\n/G55\nG1 X1. F5.\nX2.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0.\n/G55\nG1 X1. F5.\nX2.\nM30\n",
+            &expect![[r#"
+            2 | /G55
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G55`)
+        "#]],
+        );
     }
 
     #[test]
@@ -167,6 +183,14 @@ mod tests {
 
     #[test]
     fn a_plane_matters_to_arcs() {
-        check_rule(&RULE, "haas-mill", "G20 G90 G54 G0 X0. Y0.\n/G18\nG1 X5. F5.\nG2 X6. I.5\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y0.\n/G18\nG1 X5. F5.\nG2 X6. I.5\nM30\n",
+            &expect![[r#"
+            2 | /G18
+              |  ^^^ info[modal-change-in-skipped-block] what follows depends on the block delete switch (`/`, `G18`)
+        "#]],
+        );
     }
 }

@@ -99,7 +99,9 @@ impl PathRule for ToolSectionNotRestartSafe {
         let stated = match event {
             Event::FeedRate(_) => Some(Needed::Feed),
             Event::SpindleSpeed(_) => Some(Needed::Speed),
-            Event::Spindle(spindle) => (*spindle != gcheck_engine::Spindle::Stopped).then_some(Needed::Spindle),
+            Event::Spindle(spindle) => {
+                (*spindle != gcheck_engine::Spindle::Stopped).then_some(Needed::Spindle)
+            }
             Event::WorkOffset { .. } => Some(Needed::WorkOffset),
             _ => None,
         };
@@ -110,7 +112,9 @@ impl PathRule for ToolSectionNotRestartSafe {
         let Some(section) = self.section.take() else { return };
         let set_now = |role: Role| {
             let set_by = cx.trace().set_by(gcheck_engine::Fact::Mode(role));
-            set_by.and_then(|at| cx.range_of(at)).is_some_and(|range| range.start >= section.finding.range.start)
+            set_by
+                .and_then(|at| cx.range_of(at))
+                .is_some_and(|range| range.start >= section.finding.range.start)
         };
         let mut missing = Vec::new();
         for (needed, role, word) in [
@@ -122,8 +126,13 @@ impl PathRule for ToolSectionNotRestartSafe {
         ] {
             let Some(word) = word else { continue };
             let is_stated = section.stated.contains(&needed) || role.is_some_and(set_now);
-            // Turrets find the part by the tool's own offset.
-            let is_needed = needed != Needed::WorkOffset || !cx.model.semantics().tools.change_by_t;
+            let is_needed = match needed {
+                // Turrets find the part by the tool's own offset.
+                Needed::WorkOffset => !cx.model.semantics().tools.change_by_t,
+                // Increments with letters of their own leave nothing to state.
+                Needed::Distance => cx.model.semantics().increments.is_empty(),
+                Needed::Feed | Needed::Speed | Needed::Spindle => true,
+            };
             if is_needed && !is_stated {
                 missing.push(format!("`{word}`"));
             }
@@ -132,7 +141,8 @@ impl PathRule for ToolSectionNotRestartSafe {
             return;
         }
         let mut finding = section.finding;
-        finding.message = format!("the tool's part relies on what was set before it ({})", missing.join(", "));
+        finding.message =
+            format!("the tool's part relies on what was set before it ({})", missing.join(", "));
         report.add(
             finding
                 .label("a restart from here does not set it")
@@ -163,7 +173,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G90 G54\nT1 M6\nS500 M3\nG1 X1. F5.\nT2 M6\nG1 X2.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | T2 M6
+                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G90`, `G54`, `F`, `S`, `M3`)
+            "#]],
         );
     }
 
@@ -178,7 +191,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "G21\nT0101\nG97 S500 M3\nG1 X1. F.1\nT0202\nG1 X2.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | T0202
+                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`F`, `S`, `M3`)
+            "#]],
         );
     }
 }

@@ -56,18 +56,25 @@ impl UnitsNotStated {
         }
         self.is_done = true;
         let is_stated = cx.trace().set_by(Fact::Mode(Role::Units)).is_some()
-            || cx.scene.machine.engine.units.is_some()
+            || cx.scene.machine.units_are_told
             || cx.is_behind_unknown_program();
         if is_stated || cx.is_called_only() {
             return;
         }
-        let (Some(inch), Some(metric)) = (cx.cancel_of(Effect::Inch), cx.cancel_of(Effect::Millimetre)) else { return };
+        let (Some(inch), Some(metric)) = (cx.cancel_of(Effect::Inch), cx.cancel_of(Effect::Millimetre))
+        else {
+            return;
+        };
         report.add(
-            cx.finding(&META, cx.range(), format!("moves before inches or millimetres are stated (`{inch}`, `{metric}`)"))
-                .label("counts in the units that the control has at the moment")
-                .help(format!(
-                    "state `{inch}` or `{metric}` at the head of the program, or configure the machine's units"
-                )),
+            cx.finding(
+                &META,
+                cx.range(),
+                format!("moves before inches or millimetres are stated (`{inch}`, `{metric}`)"),
+            )
+            .label("counts in the units that the control has at the moment")
+            .help(format!(
+                "state `{inch}` or `{metric}` at the head of the program, or configure the machine's units"
+            )),
         );
     }
 }
@@ -75,7 +82,6 @@ impl UnitsNotStated {
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use gcheck_engine::{Machine, Units};
 
     use super::RULE;
     use crate::MachineFacts;
@@ -83,16 +89,21 @@ mod tests {
 
     #[test]
     fn the_first_move_is_marked() {
-        check_rule(&RULE, "fanuc-lathe", "T0101\nG28 U0. W0.\nG0 X1. Z2.\nX2.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T0101\nG28 U0. W0.\nG0 X1. Z2.\nX2.\nM30\n",
+            &expect![[r#"
             3 | G0 X1. Z2.
               | ^^^^^^^^^^ info[units-not-stated] moves before inches or millimetres are stated (`G20`, `G21`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn configured_units_are_known() {
-        let engine = Machine { units: Some(Units::Mm), ..Machine::default() };
-        let world = World { machine: MachineFacts { engine, ..MachineFacts::default() }, ..World::default() };
+        let machine = MachineFacts { units_are_told: true, ..MachineFacts::default() };
+        let world = World { machine, ..World::default() };
         check_rule_in(&RULE, "fanuc-mill", "G90 G54 G0 X1.\nM30\n", &world, &expect![[""]]);
     }
 

@@ -57,9 +57,14 @@ impl PathRule for AxisWordsWithoutMotionMode {
         let mode = cx.state().mode(Role::Motion).only();
         if mode != Some(CodeIx::NONE) || cx.has_effect(|effect| effect == Effect::MachineCoordinates) {
             let machine = cx.effect_range(|effect| effect == Effect::MachineCoordinates);
-            let code = cx.code_name(Role::Motion).map_or_else(String::new, |code| format!(" (`{code}` is active)"));
+            let code =
+                cx.code_name(Role::Motion).map_or_else(String::new, |code| format!(" (`{code}` is active)"));
             let finding = cx
-                .finding(&META, machine, format!("machine coordinates in a move that is neither `G0` nor `G1`{code}"))
+                .finding(
+                    &META,
+                    machine,
+                    format!("machine coordinates in a move that is neither `G0` nor `G1`{code}"),
+                )
                 .label("needs `G0` or `G1`")
                 .help("write `G0` or `G1` in this block");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the kind of motion"));
@@ -111,10 +116,15 @@ mod tests {
 
     #[test]
     fn at_the_start_it_is_an_assumption() {
-        check_rule(&RULE, "linuxcnc", "G21 G90\nX10 Y10\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90\nX10 Y10\nM2\n",
+            &expect![[r#"
             2 | X10 Y10
               | ^^^ warning[axis-words-without-motion-mode] axis words while no kind of motion is active
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

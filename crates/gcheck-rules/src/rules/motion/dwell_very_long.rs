@@ -84,9 +84,14 @@ mod tests {
 
     #[test]
     fn a_decimal_point_makes_seconds_where_it_does() {
-        check_rule(&RULE, "haas-mill", "G4 P1000\nG4 P1000.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G4 P1000\nG4 P1000.\nM30\n",
+            &expect![[r#"
             2 | G4 P1000.
               |    ^^^^^^ warning[dwell-very-long] dwell of 17 minutes
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -88,7 +88,9 @@ pub(crate) fn probes(cx: &PathCx<'_>) -> bool {
     let effect = cx.state().effect(Role::Motion, cx.model);
     matches!(
         effect,
-        Some(Effect::ProbeToward | Effect::ProbeTowardOptional | Effect::ProbeAway | Effect::ProbeAwayOptional)
+        Some(
+            Effect::ProbeToward | Effect::ProbeTowardOptional | Effect::ProbeAway | Effect::ProbeAwayOptional
+        )
     )
 }
 

@@ -50,14 +50,22 @@ impl PathRule for InverseTimeFeedMissing {
         if *fault != Fault::NoInverseTimeFeed || !self.told.insert(cx.trace().set_by(fact)) {
             return;
         }
-        let Some(code) = cx.state().mode(Role::FeedMode).only().and_then(|ix| cx.scene.control().code_at(ix)) else {
+        let Some(code) = cx.state().mode(Role::FeedMode).only().and_then(|ix| cx.scene.control().code_at(ix))
+        else {
             return;
         };
         let (name, entry) = (code.number(), code.entry());
         let finding = cx
-            .finding(&META, cx.range(), format!("cut without a feed of its own under inverse time (`{name}`)"))
+            .finding(
+                &META,
+                cx.range(),
+                format!("cut without a feed of its own under inverse time (`{name}`)"),
+            )
             .label("`F` is missing")
-            .note(format!("under `{name}` ({}) every cutting block needs its own `F`  [{}]", entry.title, entry.source))
+            .note(format!(
+                "under `{name}` ({}) every cutting block needs its own `F`  [{}]",
+                entry.title, entry.source
+            ))
             .help("give `F` in every block, or go back to feed per minute (`G94`)")
             .at_most(limit(entry.confidence));
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
@@ -88,9 +96,14 @@ mod tests {
 
     #[test]
     fn arcs_need_a_feed_too() {
-        check_rule(&RULE, "linuxcnc", "G17 G90 G0 X0 Y0\nG93 G2 X10 I5 F2\nG2 X20 I5\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G17 G90 G0 X0 Y0\nG93 G2 X10 I5 F2\nG2 X20 I5\nM2\n",
+            &expect![[r#"
             3 | G2 X20 I5
               | ^^^^^^^^^ error[inverse-time-feed-missing] cut without a feed of its own under inverse time (`G93`)
-        "#]]);
+        "#]],
+        );
     }
 }

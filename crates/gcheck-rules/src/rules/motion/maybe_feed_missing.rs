@@ -106,7 +106,8 @@ mod tests {
               there: the other path has its feed from here
               there: when this is taken
               help: give `F` where the paths have met again, or before they part
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -44,9 +44,10 @@ impl PathRule for MotionWithoutAxisWords {
         if *fault != Fault::NoAxisWords || is_told(cx) {
             return;
         }
-        let mode = cx.code_name(Role::Cycle).filter(|_| cx.state().active_cycle(cx.model).is_some_and(|ix| ix.is_some()));
-        let mode = mode.or_else(|| cx.code_name(Role::Motion)).filter(|name| !name.is_empty());
-        let code = mode.map_or_else(String::new, |mode| format!(" (`{mode}`)"));
+        let cycle = cx.state().active_cycle(cx.model).filter(|ix| ix.is_some());
+        let motion = || cx.state().mode(Role::Motion).only().filter(|ix| ix.is_some());
+        let Some(mode) = cycle.or_else(motion) else { return };
+        let code = format!(" (`{}`)", cx.name_of(mode));
         report.add(
             cx.finding(&META, cx.range(), format!("move without the axis words it needs{code}"))
                 .label("has words of the move, but no point")
@@ -91,6 +92,11 @@ mod tests {
 
     #[test]
     fn other_controls_keep_the_word() {
-        check_rule(&RULE, "haas-mill", "G20 G90 G0 X0. Y0. Z1.\nG81 X1. Z-.5 R.1 F10.\nR.2\nG80\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0. Y0. Z1.\nG81 X1. Z-.5 R.1 F10.\nR.2\nG80\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -44,7 +44,11 @@ impl PathRule for ProbeMoveRefused {
         if cx.state().effect(Role::Compensation, cx.model).is_some_and(on) {
             let code = cx.code_name(Role::Compensation).unwrap_or_default();
             let finding = cx
-                .finding(&META, cx.range(), format!("probing move while cutter compensation is on (`{code}`)"))
+                .finding(
+                    &META,
+                    cx.range(),
+                    format!("probing move while cutter compensation is on (`{code}`)"),
+                )
                 .label("the path of a probe cannot be offset")
                 .help("switch compensation off (`G40`) before probing");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{code}`")));

@@ -56,8 +56,9 @@ impl PathRule for ProbeWithoutFeed {
             return;
         }
         if cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
-            let finding = self::finding(cx, "probing move under inverse-time feed", "needs a feed per minute")
-                .help("go back to feed per minute (`G94`) before probing");
+            let finding =
+                self::finding(cx, "probing move under inverse-time feed", "needs a feed per minute")
+                    .help("go back to feed per minute (`G94`) before probing");
             report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), "inverse time"));
             return;
         }

@@ -170,7 +170,9 @@ impl Clear {
         let tool = number.and_then(|n| cx.state().tables().tool(n as u32));
         match tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) {
             Some(diameter) => Self { radius: diameter / 2.0, assumption: None },
-            None => Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) },
+            None => {
+                Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
+            }
         }
     }
 }
@@ -210,13 +212,19 @@ impl Cuts {
             _ => Position::UNKNOWN,
         };
         let shift = cx.state().shift();
-        let frame = cx.state().work().map(|work| (work, [Axis::X, Axis::Y, Axis::Z].map(|a| shift.raw(a).to_bits())));
+        let frame =
+            cx.state().work().map(|work| (work, [Axis::X, Axis::Y, Axis::Z].map(|a| shift.raw(a).to_bits())));
         let new_frame = self.frame.is_some() && self.frame != frame;
         let jumped = !new_frame
             // Z may count anew when a tool offset comes into effect.
             && matches!((self.last, point(&from)), (Some(last), Some(from)) if (last[0] - from[0]).hypot(last[1] - from[1]) > 1e-6);
         let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
-        if frame.is_none() || new_frame && !self.list.is_empty() || jumped || !is_mill || !cx.is_on_every_path() {
+        if frame.is_none()
+            || new_frame && !self.list.is_empty()
+            || jumped
+            || !is_mill
+            || !cx.is_on_every_path()
+        {
             // Cuts of another frame, in another file, or on another path: where they were is not known here.
             self.blind = true;
             self.list = Vec::new();
@@ -325,7 +333,8 @@ fn crossing(a: ([f64; 2], [f64; 2]), b: ([f64; 2], [f64; 2])) -> Option<[f64; 2]
     let along_a = (wx * by - wy * bx) / cross;
     let along_b = (wx * ay - wy * ax) / cross;
     let within = 0.0..=1.0;
-    (within.contains(&along_a) && within.contains(&along_b)).then(|| [a0[0] + along_a * ax, a0[1] + along_a * ay])
+    (within.contains(&along_a) && within.contains(&along_b))
+        .then(|| [a0[0] + along_a * ax, a0[1] + along_a * ay])
 }
 
 #[cfg(test)]
@@ -343,10 +352,15 @@ mod tests {
 
     #[test]
     fn the_rapid_move_is_marked() {
-        check_rule(&RULE, "haas-mill", SLOT, &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            SLOT,
+            &expect![[r#"
             5 | G0 X80.
               | ^^^^^^^ warning[rapid-in-material] rapid move through what is cut only later
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -381,16 +395,27 @@ mod tests {
             machine.engine.tools.insert(1, tool);
             World { machine, ..World::default() }
         };
-        check_rule_in(&RULE, "haas-mill", &program, &with(6.0), &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            &program,
+            &with(6.0),
+            &expect![[r#"
             9 | G0 X80.
               | ^^^^^^^ warning[rapid-in-material] rapid move through what is cut only later
-        "#]]);
+        "#]],
+        );
         check_rule_in(&RULE, "haas-mill", &program, &with(50.0), &expect![[""]]);
     }
 
     #[test]
     fn what_lies_in_doubt_is_not_judged() {
         check_rule(&RULE, "haas-mill", &SLOT.replace("X10.", "X#100"), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &SLOT.replace("G0 X80.", "IF [#100 EQ 1] GOTO5\nN5 G0 X80."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &SLOT.replace("G0 X80.", "IF [#100 EQ 1] GOTO5\nN5 G0 X80."),
+            &expect![[""]],
+        );
     }
 }

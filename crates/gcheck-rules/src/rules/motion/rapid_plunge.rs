@@ -176,6 +176,7 @@ mod tests {
               assuming: the part is solid where the program has not cut
               assuming: no cutter is wider than 25.4 mm (1 in)
               help: end the rapid move above the part, and feed from there
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -82,7 +82,10 @@ impl PathRule for ReferenceReturnThroughPoint {
         };
         if let Some(finding) = found {
             let finding = cx.resting_on(finding, Fact::Mode(Role::Distance), "absolute mode");
-            report.add(finding.help("write the return as increments (`G91 G28 Z0`), or name a point clear of the part"));
+            report
+                .add(finding.help(
+                    "write the return as increments (`G91 G28 Z0`), or name a point clear of the part",
+                ));
         }
     }
 }
@@ -96,13 +99,15 @@ fn down(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     // Zero and below is where the part is, whatever the units.
     let is_at_part = travel.programmed.get(Axis::Z).map_or_else(|| zero_or_less(cx), |z| z <= SAME);
     let (message, label) = match (travel.from.get(Axis::Z), travel.programmed.get(Axis::Z)) {
-        (Some(from), Some(to)) if to < from - SAME => {
-            ("reference return goes down to a point of the part first", "the tool is driven down to this height at rapid")
-        }
+        (Some(from), Some(to)) if to < from - SAME => (
+            "reference return goes down to a point of the part first",
+            "the tool is driven down to this height at rapid",
+        ),
         (Some(_), Some(_)) => return None,
-        _ if is_at_part => {
-            ("reference return goes to a point of the part first", "the tool is driven to this height of the part at rapid")
-        }
+        _ if is_at_part => (
+            "reference return goes to a point of the part first",
+            "the tool is driven to this height of the part at rapid",
+        ),
         _ => return None,
     };
     Some(cx.finding(&META, cx.letter_range('Z'), message).label(label).note(PASSES))

@@ -47,7 +47,11 @@ impl PathRule for ThreadWithoutLead {
         }
         let Some(code) = cx.code_name(Role::Motion) else { return };
         let finding = cx
-            .finding(&META, cx.range(), format!("threading move without a lead (`{code}` without `{letter}`)"))
+            .finding(
+                &META,
+                cx.range(),
+                format!("threading move without a lead (`{code}` without `{letter}`)"),
+            )
             .label(format!("`{letter}` is missing: how far the tool goes in one turn"))
             .help(format!("give the lead with `{letter}`"));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), &format!("`{code}`")));

@@ -139,10 +139,15 @@ mod tests {
 
     #[test]
     fn the_axes_are_named() {
-        check_rule(&RULE, "haas-mill", "G20 G54\nG52 X1. Y2.\nG1 X0. F10.\nG52 X0.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G54\nG52 X1. Y2.\nG1 X0. F10.\nG52 X0.\nM30\n",
+            &expect![[r#"
             5 | M30
               | ^^^ warning[shift-left-on] the shift of `Y` is still on at the end of the program (`G52`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -161,9 +166,14 @@ mod tests {
 
     #[test]
     fn work_offsets_chosen_later_do_not_hide_it() {
-        check_rule(&RULE, "fanuc-mill", "G21 G52 Z5.\nG55 G1 X0. F100.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G52 Z5.\nG55 G1 X0. F100.\nM30\n",
+            &expect![[r#"
             3 | M30
               | ^^^ warning[shift-left-on] the shift of `Z` is still on at the end of the program (`G52`)
-        "#]]);
+        "#]],
+        );
     }
 }

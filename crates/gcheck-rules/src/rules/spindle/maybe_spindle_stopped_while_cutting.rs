@@ -33,13 +33,13 @@ declare_rule! {
         severity: Info,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(MaybeSpindleStopped { told: None }) },
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(MaybeSpindleStopped { told: Vec::new() }) },
     }
 }
 
 struct MaybeSpindleStopped {
-    /// What switched the spindle last where it was reported.
-    told: Option<Option<At>>,
+    /// What switched the spindle last in each case that was reported.
+    told: Vec<Option<At>>,
 }
 
 impl PathRule for MaybeSpindleStopped {
@@ -55,9 +55,10 @@ impl PathRule for MaybeSpindleStopped {
             return;
         }
         let switched_by = cx.trace().set_by(Fact::Spindle);
-        if self.told.replace(switched_by) == Some(switched_by) {
+        if self.told.contains(&switched_by) {
             return;
         }
+        self.told.push(switched_by);
         let finding = cx
             .finding(&META, cx.range(), "cut where the spindle may stand (`M5`)")
             .label("on some path nothing turns here")

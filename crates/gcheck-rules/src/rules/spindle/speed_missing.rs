@@ -1,11 +1,11 @@
 //! A spindle that turns with no speed given.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
 
 use super::spindle_stopped_while_cutting::is_cut;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A block cuts with the spindle started (`M3`, `M4`) and no speed (`S`) given on the way here.
@@ -17,6 +17,8 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G0 X1. M3
     /// G1 X2. F10.
+    /// S1000
+    /// G1 X3.
     /// M30
     /// ```
     /// ## Not reported
@@ -44,11 +46,13 @@ impl PathRule for SpeedMissing {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));
-        if !turns || Abstract::known(state.speed()) != Some(0.0) || !is_cut(cx, event) || cx.is_called_only() {
+        if !turns || Abstract::known(state.speed()) != Some(0.0) || !is_cut(cx, event) || cx.is_called_only()
+        {
             return;
         }
         let started_by = cx.trace().set_by(Fact::Spindle);
-        if started_by.is_none() || self.told == started_by {
+        let has_any = cx.survey.letters.contains(Letter::of('S'));
+        if started_by.is_none() || self.told == started_by || !has_any && self.told.is_some() {
             return;
         }
         self.told = started_by;
@@ -63,6 +67,8 @@ impl PathRule for SpeedMissing {
             .finding(&META, cx.range(), message)
             .label("cuts with whatever speed is left over")
             .help(format!("give `S` with `{code}`"));
+        // A machine whose speed is set by hand.
+        let finding = if has_any { finding } else { finding.at_most(Severity::Info) };
         let finding = cx.resting_on(finding, Fact::Spindle, &format!("`{code}`"));
         report.add(if is_zero {
             cx.resting_on(finding, Fact::Speed, "`S0`")
@@ -97,18 +103,41 @@ mod tests {
 
     #[test]
     fn the_first_cut_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "G0 X1. M4\nG1 X2. F50.\nM8\nX3.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0 X1. M4\nG1 X2. F50.\nM8\nX3.\nS500\nM30\n",
+            &expect![[r#"
             2 | G1 X2. F50.
               | ^^^^^^^^^^^ warning[speed-missing] the spindle was started without a speed (`M4` without `S`)
-        "#]]);
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_speed_set_by_hand_is_told_once() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "M3\nG1 X2. F50.\nM5\nM3\nG1 X3.\nM30\n",
+            &expect![[r#"
+            2 | G1 X2. F50.
+              | ^^^^^^^^^^^ info[speed-missing] the spindle was started without a speed (`M3` without `S`)
+        "#]],
+        );
     }
 
     #[test]
     fn speed_zero_is_none() {
-        check_rule(&RULE, "fanuc-mill", "S0 M3\nG1 X2. F50.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "S0 M3\nG1 X2. F50.\nM30\n",
+            &expect![[r#"
             2 | G1 X2. F50.
               | ^^^^^^^^^^^ warning[speed-missing] the spindle turns with speed zero (`S0`, `M3`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -44,14 +44,15 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FAULTS),
-            make: || Box::new(SpindleStoppedWhileCutting { told: None, is_oriented: false }),
+            make: || Box::new(SpindleStoppedWhileCutting::default()),
         },
     }
 }
 
+#[derive(Default)]
 struct SpindleStoppedWhileCutting {
-    /// What stopped the spindle where it was reported last.
-    told: Option<Option<At>>,
+    /// What stopped the spindle in each case that was reported; `None` for one that was never started.
+    told: Vec<Option<At>>,
     /// Stopped at an angle: for a probe or a boring bar.
     is_oriented: bool,
 }
@@ -71,10 +72,16 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
-        if self.told == Some(stopped_by) {
+        if self.told.contains(&stopped_by) {
             return;
         }
-        self.told = Some(stopped_by);
+        self.told.push(stopped_by);
+        // `T1 M6 M3` in one block: which comes first is the builder's affair.
+        let is_started_with_change =
+            stopped_by.and_then(|at| cx.find_word(at, |word| starts(cx.model.effect(word.code))));
+        if is_started_with_change.is_some() {
+            return;
+        }
         let is_ever_started = cx.file_uses(starts);
         let message = match stopped_by {
             Some(at) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
@@ -138,7 +145,8 @@ pub(super) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
     match event {
         Event::Travel(travel) => {
             let ([x, y, z], [to_x, to_y, to_z]) = (travel.from.xyz(), travel.to.xyz());
-            let is_up = to_z.0 > z.0 && x.0.to_bits() == to_x.0.to_bits() && y.0.to_bits() == to_y.0.to_bits();
+            let is_up =
+                to_z.0 > z.0 && x.0.to_bits() == to_x.0.to_bits() && y.0.to_bits() == to_y.0.to_bits();
             travel.kind == TravelKind::Feed && !is_up
         }
         Event::Arc(_) | Event::Curve(_) => true,
@@ -198,10 +206,15 @@ mod tests {
 
     #[test]
     fn a_program_without_a_spindle_is_told_once() {
-        check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G1 X2. F10.\nM0\nX3.\nM30\n",
+            &expect![[r#"
             1 | G1 X2. F10.
               | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -216,15 +229,25 @@ mod tests {
     }
 
     #[test]
+    fn a_start_in_the_block_of_the_tool_change_counts() {
+        check_rule(&RULE, "haas-mill", "T1 M6 S1000 M3\nG1 X1. F5.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
     fn a_live_tool_turns() {
         check_rule(&RULE, "haas-lathe", "T101\nP1000 M133\nG1 X2. F.01\nM135\nM30\n", &expect![[""]]);
     }
 
     #[test]
     fn a_thread_waits_for_the_spindle() {
-        check_rule(&RULE, "linuxcnc", "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n",
+            &expect![[r#"
             2 | G33 Z-10 K1
               | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -54,7 +54,8 @@ impl PathRule for SurfaceSpeedWithoutLimit {
         let Some(Effect::SurfaceSpeed) = state.effect(Role::SpindleMode, cx.model) else { return };
         let set_by = cx.trace().set_by(Fact::Mode(Role::SpindleMode));
         let is_limited = state.speed_limit() != f64::INFINITY;
-        if set_by.is_none() || set_by == self.told || is_limited || state.spindle() == Some(Spindle::Stopped) {
+        if set_by.is_none() || set_by == self.told || is_limited || state.spindle() == Some(Spindle::Stopped)
+        {
             return;
         }
         if !is_cut(cx, event) || cx.is_called_only() {

@@ -66,7 +66,8 @@ struct LengthOffsetOfAnotherTool {
 impl PathRule for LengthOffsetOfAnotherTool {
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
-        let is_on = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
+        let is_on =
+            |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::ToolCentrePoint);
         let by_t = cx.model.semantics().tools.offset_in_t;
         if !by_t && !state.effect(Role::Length, cx.model).is_some_and(is_on) {
             return;
@@ -76,7 +77,8 @@ impl PathRule for LengthOffsetOfAnotherTool {
         let letter = if by_t { 'T' } else { 'H' };
         self.pairs.add(tool, offset, || {
             let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
-            let given = given.and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));
+            let given = given
+                .and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));
             let word = if by_t { String::new() } else { format!(" (`H{offset}`, `T{tool}`)") };
             let message = format!("tool {tool} works with length offset {offset}{word}");
             let change = changed.filter(|_| !by_t).and_then(|at| Some((at, cx.range_of(at)?)));
@@ -86,10 +88,12 @@ impl PathRule for LengthOffsetOfAnotherTool {
                     .finding(&META, cx.range(), message)
                     .also(given, "the offset comes from here")
                     .also(range, format!("tool {tool} comes into the spindle here")),
-                (Some((_, given)), Some((_, range))) => {
-                    cx.finding(&META, given, message).also(range, format!("tool {tool} comes into the spindle here"))
+                (Some((_, given)), Some((_, range))) => cx
+                    .finding(&META, given, message)
+                    .also(range, format!("tool {tool} comes into the spindle here")),
+                (given, _) => {
+                    cx.finding(&META, given.map_or_else(|| cx.range(), |(_, range)| range), message)
                 }
-                (given, _) => cx.finding(&META, given.map_or_else(|| cx.range(), |(_, range)| range), message),
             }
         });
     }

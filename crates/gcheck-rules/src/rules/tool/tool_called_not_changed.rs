@@ -7,7 +7,7 @@ use gcheck_engine::{Abstract, At, Domain, Ending, Event, Fact};
 
 use crate::boundary::Boundary;
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A tool is called (`T`), another one is called after it or the program ends, and no tool change (`M6`) came between.
@@ -37,7 +37,7 @@ declare_rule! {
     /// ```
     rule "tool-called-not-changed" in "tool" {
         summary: "tool called and never changed in",
-        severity: Info,
+        severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -53,6 +53,20 @@ struct Call {
     tool: u32,
     range: Range<u32>,
     finding: Finding,
+    /// Where its length came into effect, with another tool in the spindle.
+    length: Option<Range<u32>>,
+}
+
+impl Call {
+    fn judge(self, label: &str) -> Finding {
+        let finding = self.finding.label(label);
+        match self.length {
+            Some(range) => {
+                finding.also(range, "its length is used from here, with another tool in the spindle")
+            }
+            None => finding.at_most(Severity::Info),
+        }
+    }
 }
 
 struct ToolCalledNotChanged {
@@ -78,9 +92,9 @@ impl PathRule for ToolCalledNotChanged {
                 if let Some(call) = self.called.take()
                     && call.tool != *tool
                     && call.at != cx.origin().at
-                    && !self.is_in_spindle(cx, call.tool)
+                    && !is_in_spindle(cx, call.tool)
                 {
-                    let finding = call.finding.label("no tool change before the next tool is called");
+                    let finding = call.judge("no tool change before the next tool is called");
                     report.add(finding.also(cx.letter_range('T'), format!("tool {tool} is called here")));
                 }
                 self.called = None;
@@ -88,9 +102,24 @@ impl PathRule for ToolCalledNotChanged {
                 if *tool > 0 && !is_changed_here && cx.is_on_every_path() {
                     let range = cx.letter_range('T');
                     let finding = cx
-                        .finding(&META, range.clone(), format!("tool {tool} is called and never put in the spindle (`T{tool}`)"))
+                        .finding(
+                            &META,
+                            range.clone(),
+                            format!("tool {tool} is called and never put in the spindle (`T{tool}`)"),
+                        )
                         .help("change the tool with `M6`, or take the call out");
-                    self.called = Some(Call { at: cx.origin().at, tool: *tool, range, finding });
+                    self.called =
+                        Some(Call { at: cx.origin().at, tool: *tool, range, finding, length: None });
+                }
+            }
+            Event::LengthOffset(_) => {
+                let (tool, offset) = (Abstract::known(cx.state().tool()), Abstract::known(cx.state().h()));
+                if let Some(call) = &mut self.called
+                    && offset == Some(f64::from(call.tool))
+                    && tool.is_some_and(|tool| tool.to_bits() != f64::from(call.tool).to_bits())
+                    && call.length.is_none()
+                {
+                    call.length = Some(cx.letter_range('H'));
                 }
             }
             Event::SelectTool(_) | Event::SetToolNumber(_) => self.called = None,
@@ -106,21 +135,22 @@ impl PathRule for ToolCalledNotChanged {
 }
 
 impl ToolCalledNotChanged {
-    /// A tool change in a program that is not shown here changes the tool all the same.
-    fn is_in_spindle(&self, cx: &PathCx<'_>, tool: u32) -> bool {
-        let in_spindle = Abstract::known(cx.state().tool());
-        in_spindle == Some(f64::from(tool)) || in_spindle.is_none() && (cx.trace().set_by(Fact::Tool).is_some() || cx.is_behind_unknown_program())
-    }
-
     fn end(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(call) = self.called.take() else { return };
         // Machines without a changer: one tool, named for the operator.
         let is_staged = self.first.is_none() || self.first == Some(call.tool);
         let is_here = cx.range().start <= call.range.start && call.range.end <= cx.range().end;
-        if !is_staged && !is_here && !self.is_in_spindle(cx, call.tool) {
-            report.add(call.finding.label("no tool change before the program ends"));
+        if !is_staged && !is_here && !is_in_spindle(cx, call.tool) {
+            report.add(call.judge("no tool change before the program ends"));
         }
     }
+}
+
+/// A tool change in a program that is not shown here changes the tool all the same.
+fn is_in_spindle(cx: &PathCx<'_>, tool: u32) -> bool {
+    let in_spindle = Abstract::known(cx.state().tool());
+    in_spindle == Some(f64::from(tool))
+        || in_spindle.is_none() && (cx.trace().set_by(Fact::Tool).is_some() || cx.is_behind_unknown_program())
 }
 
 #[cfg(test)]
@@ -132,12 +162,30 @@ mod tests {
 
     #[test]
     fn the_call_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "T1 M6\nT5\nG1 X1. F10.\nT7\nM6\nT4\nG1 X2.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nT5\nG1 X1. F10.\nT7\nM6\nT4\nG1 X2.\nM30\n",
+            &expect![[r#"
             2 | T5
               | ^^ info[tool-called-not-changed] tool 5 is called and never put in the spindle (`T5`)
             6 | T4
               | ^^ info[tool-called-not-changed] tool 4 is called and never put in the spindle (`T4`)
-        "#]]);
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_length_of_a_tool_that_is_not_in_the_spindle() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T2 M6\nT3\nG43 H3 Z1.\nG1 X1. F10.\nM30\n",
+            &expect![[r#"
+            2 | T3
+              | ^^ warning[tool-called-not-changed] tool 3 is called and never put in the spindle (`T3`)
+        "#]],
+        );
     }
 
     #[test]

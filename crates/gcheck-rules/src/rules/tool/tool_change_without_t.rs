@@ -45,7 +45,8 @@ impl PathRule for ToolChangeWithoutT {
             return;
         }
         self.is_done = true;
-        let is_called = cx.origin().letters.contains(Letter::of('T')) || cx.trace().set_by(Fact::Selected).is_some();
+        let is_called =
+            cx.origin().letters.contains(Letter::of('T')) || cx.trace().set_by(Fact::Selected).is_some();
         if is_called || cx.is_called_only() || cx.is_behind_unknown_program() {
             return;
         }
@@ -68,10 +69,15 @@ mod tests {
 
     #[test]
     fn the_change_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G21 G0 X1\nM6\nG0 X2\nM6\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G0 X1\nM6\nG0 X2\nM6\nM2\n",
+            &expect![[r#"
             2 | M6
               | ^^ warning[tool-change-without-t] tool change, and no tool was called (`M6` without `T`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

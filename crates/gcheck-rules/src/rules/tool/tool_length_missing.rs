@@ -7,7 +7,7 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// After a tool change a block moves along Z in work coordinates, or cuts, with no tool length compensation in effect.
+    /// After a tool change a block moves along Z in work coordinates with no tool length compensation in effect.
     ///
     /// ## Why it matters
     /// The control takes the spindle's nose for the tool's tip and drives the tool into the part by its whole length.
@@ -40,7 +40,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::RAPIDS),
+            watch: Watch::CHANGES.union(Watch::MOVES),
             make: || Box::new(ToolLengthMissing { changed: None, is_done: false }),
         },
     }
@@ -60,12 +60,8 @@ impl PathRule for ToolLengthMissing {
         }
     }
 
-    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        self.judge(cx, event, report);
-    }
-
-    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.origin().letters.contains(Letter::of('Z')) {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if self.changed.is_some() && cx.origin().letters.contains(Letter::of('Z')) {
             self.judge(cx, event, report);
         }
     }
@@ -86,14 +82,25 @@ impl ToolLengthMissing {
             return;
         }
         let compensates = |effect| {
-            matches!(effect, Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFromBlock | Effect::ToolCentrePoint)
+            matches!(
+                effect,
+                Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFromBlock | Effect::ToolCentrePoint
+            )
         };
         let Some(on) = cx.scene.control().codes().find(|code| compensates(code.effect())) else { return };
         let on = on.number().to_string();
         let is_ever_used = cx.file_uses(compensates);
-        let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) { "moves" } else { "cuts" };
+        let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
+            "moves"
+        } else {
+            "cuts"
+        };
         let mut finding = cx
-            .finding(&META, cx.letter_range('Z'), format!("the tool {what} without its length (no `{on}` since the tool change)"))
+            .finding(
+                &META,
+                cx.letter_range('Z'),
+                format!("the tool {what} without its length (no `{on}` since the tool change)"),
+            )
             .label("the control takes the spindle's nose for the tool's tip");
         if let Some(range) = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::ToolChange) {
             finding = finding.also(range, "tool changed here");
@@ -108,7 +115,9 @@ impl ToolLengthMissing {
             self.is_done = true;
             report.add(
                 finding
-                    .note(format!("the program never uses `{on}`: its tools may be set to one length, or zeroed by hand"))
+                    .note(format!(
+                        "the program never uses `{on}`: its tools may be set to one length, or zeroed by hand"
+                    ))
                     .at_most(Severity::Info),
             );
         }
@@ -153,19 +162,29 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_counts_whatever_its_axes() {
-        check_rule(&RULE, "linuxcnc", "G21 G43 H2\nG49\nT1 M6\nG1 X5 F100\nM2\n", &expect![[r#"
-            4 | G1 X5 F100
-              | ^^^^^^^^^^ warning[tool-length-missing] the tool cuts without its length (no `G43` since the tool change)
-        "#]]);
+    fn a_cut_along_z_counts_and_a_way_beside_the_part_does_not() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G43 H2\nG49\nT1 M6\nG1 X5 F100\nZ-1\nM2\n",
+            &expect![[r#"
+            5 | Z-1
+              | ^^^ warning[tool-length-missing] the tool cuts without its length (no `G43` since the tool change)
+        "#]],
+        );
     }
 
     #[test]
     fn a_program_that_never_compensates_is_told_once() {
-        check_rule(&RULE, "linuxcnc", "G21 T1 M6\nG0 Z5\nT2 M6\nG0 Z5\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 T1 M6\nG0 Z5\nT2 M6\nG0 Z5\nM2\n",
+            &expect![[r#"
             2 | G0 Z5
               |    ^^ info[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
