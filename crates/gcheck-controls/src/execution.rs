@@ -293,6 +293,9 @@ pub struct Semantics {
     pub arcs: ArcRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
+    /// Under inverse time no move is slower than this, in the program's units a minute.
+    #[serde(default)]
+    pub least_inverse_feed: f64,
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,

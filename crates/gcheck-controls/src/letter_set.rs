@@ -172,7 +172,13 @@ impl LetterSet {
 
     /// The addresses, `A` first.
     pub fn iter(self) -> impl Iterator<Item = Letter> {
-        (0..Letter::COUNT as u8).map(Letter).filter(move |l| self.contains(*l))
+        let mut left = self.0;
+        std::iter::from_fn(move || {
+            let lowest = left.trailing_zeros();
+            // Takes the lowest bit away.
+            left &= left.checked_sub(1)?;
+            Some(Letter(lowest as u8))
+        })
     }
 }
 

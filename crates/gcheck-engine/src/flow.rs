@@ -99,8 +99,8 @@ pub enum Reach {
 /// What the analysis of all paths leaves.
 #[derive(Debug)]
 pub struct FlowResult {
-    reached: FxHashMap<u32, Vec<u64>>,
-    always: FxHashMap<u32, Vec<u64>>,
+    reached: Marks,
+    always: Marks,
     /// The fuel ran out, so what was not seen may still be reached.
     pub out_of_fuel: bool,
     /// Blocks executed.
@@ -112,9 +112,9 @@ pub struct FlowResult {
 impl FlowResult {
     /// Whether a block can be reached.
     pub fn reach(&self, at: At) -> Reach {
-        if bit(&self.always, at) {
+        if self.always.contains(at) {
             Reach::Always
-        } else if bit(&self.reached, at) {
+        } else if self.reached.contains(at) {
             Reach::Some
         } else if self.out_of_fuel {
             Reach::Unknown
@@ -124,19 +124,28 @@ impl FlowResult {
     }
 }
 
-fn bit(sets: &FxHashMap<u32, Vec<u64>>, at: At) -> bool {
-    let word = sets.get(&at.file).and_then(|set| set.get((at.block / 64) as usize));
-    word.is_some_and(|word| word & (1 << (at.block % 64)) != 0)
-}
+/// A set of blocks: by file, a bit a block.
+#[derive(Debug, Default)]
+struct Marks(Vec<Vec<u64>>);
 
-fn set_bit(sets: &mut FxHashMap<u32, Vec<u64>>, at: At) {
-    let set = sets.entry(at.file).or_default();
-    let index = (at.block / 64) as usize;
-    if set.len() <= index {
-        set.resize(index + 1, 0);
+impl Marks {
+    fn contains(&self, at: At) -> bool {
+        let word = self.0.get(at.file as usize).and_then(|set| set.get((at.block / 64) as usize));
+        word.is_some_and(|word| word & (1 << (at.block % 64)) != 0)
     }
-    if let Some(word) = set.get_mut(index) {
-        *word |= 1 << (at.block % 64);
+
+    fn insert(&mut self, at: At) {
+        let (file, index) = (at.file as usize, (at.block / 64) as usize);
+        if self.0.len() <= file {
+            self.0.resize_with(file + 1, Vec::new);
+        }
+        let Some(set) = self.0.get_mut(file) else { return };
+        if set.len() <= index {
+            set.resize(index + 1, 0);
+        }
+        if let Some(word) = set.get_mut(index) {
+            *word |= 1 << (at.block % 64);
+        }
     }
 }
 
@@ -196,7 +205,7 @@ const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
 const MOST_VISITS: u32 = 200;
 /// Turns of a loop that are executed exactly; from there on it is widened, so that a loop that counts past its end is seen to.
-const MOST_EXACT_TURNS: u32 = 250_000;
+const MOST_EXACT_TURNS: u32 = 10_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
@@ -225,8 +234,8 @@ pub fn flow<O: FlowObserver>(
         order: Vec::new(),
         heads: FxHashMap::default(),
         result: FlowResult {
-            reached: FxHashMap::default(),
-            always: FxHashMap::default(),
+            reached: Marks::default(),
+            always: Marks::default(),
             out_of_fuel: false,
             blocks: 0,
             assumptions: BTreeSet::new(),
@@ -284,7 +293,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.executor.observer.stepping = Some(at);
         let outcome = self.executor.step(at, state);
         for also in std::mem::take(&mut self.executor.observer.also) {
-            set_bit(&mut self.result.reached, also);
+            self.result.reached.insert(also);
         }
         outcome
     }
@@ -311,9 +320,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 return Stretch::OutOfFuel;
             }
             self.blocks += 1;
-            set_bit(&mut self.result.reached, at);
+            self.result.reached.insert(at);
             if !self.parted {
-                set_bit(&mut self.result.always, at);
+                self.result.always.insert(at);
             }
             match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
@@ -393,7 +402,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 return Stretch::OutOfFuel;
             }
             self.blocks += 1;
-            set_bit(&mut self.result.reached, at);
+            self.result.reached.insert(at);
             let next = match self.step(at, &mut state) {
                 Outcome::Next => at.next(),
                 Outcome::Jump(to) => {

@@ -181,8 +181,8 @@ pub struct Model<'c> {
     pub(crate) motion_rank: Rank,
     /// Addresses whose value a missing decimal point scales: length, angle or not.
     scaled: [Option<WordKind>; Letter::COUNT],
-    /// Increment words: `U` to X and so on.
-    pub(crate) increments: Vec<(Letter, Axis)>,
+    /// By address: the axis that it moves, and whether it is an increment whatever the mode.
+    axis_of: [Option<(Axis, bool)>; Letter::COUNT],
     pub(crate) axes: Vec<Axis>,
     /// Addresses that name an axis or its increment.
     pub(crate) axis_letters: LetterSet,
@@ -238,6 +238,13 @@ impl<'c> Model<'c> {
             .map(|axis| axis.letter())
             .chain(increments.iter().map(|(letter, _)| *letter))
             .collect();
+        let mut axis_of = [None; Letter::COUNT];
+        let named = axes.iter().map(|axis| (axis.letter(), (*axis, false)));
+        for (letter, entry) in named.chain(increments.iter().map(|(letter, axis)| (*letter, (*axis, true)))) {
+            if let Some(slot) = axis_of.get_mut(letter.index()) {
+                *slot = Some(entry);
+            }
+        }
         let argument_letters = semantics
             .argument_letters
             .iter()
@@ -252,7 +259,7 @@ impl<'c> Model<'c> {
             tool_rank: rank("tool-select"),
             motion_rank: rank("motion"),
             scaled,
-            increments,
+            axis_of,
             axes,
             axis_letters,
             argument_letters,
@@ -335,10 +342,7 @@ impl<'c> Model<'c> {
 
     /// The axis that an address moves, and whether the word is an increment whatever the mode.
     pub(crate) fn axis_of(&self, letter: Letter) -> Option<(Axis, bool)> {
-        if let Some((_, axis)) = self.increments.iter().find(|(l, _)| *l == letter) {
-            return Some((*axis, true));
-        }
-        self.axes.iter().find(|axis| axis.letter() == letter).map(|axis| (*axis, false))
+        self.axis_of.get(letter.index()).copied().flatten()
     }
 
     /// Does the control read numbers without decimal point as least increments, as far as data alone says?

@@ -99,6 +99,8 @@ pub struct CycleWords {
     pub q: f64,
     /// Dwell in seconds.
     pub p: f64,
+    /// The last dwell of any series: some controls give it to taps without one of their own.
+    pub last_dwell: f64,
     /// I, J, K.
     pub ijk: [f64; 3],
     /// Depth along the tool.
@@ -114,14 +116,20 @@ impl CycleWords {
         z: f64::NAN,
         q: f64::NAN,
         p: f64::NAN,
+        last_dwell: f64::NAN,
         ijk: [f64::NAN; 3],
         e: f64::NAN,
         initial: f64::NAN,
     };
 
-    fn bits(&self) -> [u64; 9] {
+    /// Nothing of this series yet.
+    pub(crate) fn series(&self, initial: f64) -> Self {
+        Self { last_dwell: self.last_dwell, initial, ..Self::NONE }
+    }
+
+    fn bits(&self) -> [u64; 10] {
         let [i, j, k] = self.ijk;
-        [self.r, self.z, self.q, self.p, i, j, k, self.e, self.initial].map(f64::to_bits)
+        [self.r, self.z, self.q, self.p, self.last_dwell, i, j, k, self.e, self.initial].map(f64::to_bits)
     }
 
     fn join(&self, other: &Self) -> Self {
@@ -133,6 +141,7 @@ impl CycleWords {
             z: pick(self.z, other.z),
             q: pick(self.q, other.q),
             p: pick(self.p, other.p),
+            last_dwell: pick(self.last_dwell, other.last_dwell),
             ijk: [pick(i, i2), pick(j, j2), pick(k, k2)],
             e: pick(self.e, other.e),
             initial: pick(self.initial, other.initial),
@@ -687,8 +696,11 @@ impl<D: Domain> State<D> {
 impl<D: Domain> PartialEq for State<D> {
     /// Equal in every value, floats by bits: equal states have equal futures.
     fn eq(&self, other: &Self) -> bool {
-        self.modes == other.modes
-            && self.position == other.position
+        // What turns of a loop differ in comes first.
+        self.position == other.position
+            && self.variables == other.variables
+            && self.frames == other.frames
+            && self.modes == other.modes
             && self.actual == other.actual
             && (Rc::ptr_eq(&self.tables, &other.tables) || self.tables == other.tables)
             && self.work == other.work
@@ -721,8 +733,6 @@ impl<D: Domain> PartialEq for State<D> {
             && self.probed == other.probed
             && self.probe_result == other.probe_result
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)
-            && self.variables == other.variables
-            && self.frames == other.frames
             && self.macro_modal == other.macro_modal
             && self.compensation == other.compensation
             && self.left_compensation.is_none() == other.left_compensation.is_none()

@@ -203,7 +203,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// Executes the block at `at`.
     pub(crate) fn step(&mut self, at: At, state: &mut State<D>) -> Outcome<D> {
         let Some(place) = self.place(at) else { return self.end_of_text(at, state) };
-        let table = Rc::clone(&place.table);
+        let table = &*place.table;
         let block = table.block(place.ix);
         self.origin = Origin {
             at,
@@ -236,7 +236,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
-        let outcome = self.run_block(&place, &table, block, state);
+        let outcome = self.run_block(&place, table, block, state);
         if !matches!(outcome, Outcome::Fault(_)) {
             self.observer.after(self.origin, state);
         }
@@ -293,10 +293,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             self.read_words(place, table, words, state)?;
             self.execute(place, words, state)?;
         }
-        for (target, value) in std::mem::take(&mut self.pending) {
-            if let Some(end) = self.assign(target, value, state)? {
-                return Ok(end);
+        if !self.pending.is_empty() {
+            let mut pending = std::mem::take(&mut self.pending);
+            for (target, value) in pending.drain(..) {
+                if let Some(end) = self.assign(target, value, state)? {
+                    return Ok(end);
+                }
             }
+            self.pending = pending;
         }
         match self.flow.take() {
             None => Ok(Outcome::Next),
@@ -336,6 +340,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 | Event::ToolTableEntry(_)
                 | Event::SetToolNumber(_)
                 | Event::Message(_)
+                | Event::Plane(_)
                 | Event::Units(_)
         );
         if state.compensation.is_some() && !at_once {
@@ -439,14 +444,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Puts the parts of the block in the control's order and executes them.
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
-        if let Err(fault) = self.check_block(words, state) {
+        if let Err(fault) = self.check_block(place, words, state) {
             self.refuse(fault)?;
         }
         let present = self.words.present();
         let codes = self.words.codes();
         let turns = self.turns_about_centre(state);
         // A block that only moves: nothing to put in order.
-        if codes.is_empty() && !present.intersects(LetterSet::of("FST")) {
+        if codes.is_empty() && !present.intersects(FEED_SPEED_TOOL) {
             return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns {
                 self.motion(state)
             } else {
@@ -468,6 +473,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let mut macro_call = false;
         for ix in codes {
             let Some(code) = self.model.code(*ix) else { continue };
+            if self.model.contracts.get(ix.index()).is_some_and(|contract| contract.first_only) {
+                return self.code(*ix, place, words, state);
+            }
             match code.effect {
                 Effect::MachineCoordinates => {
                     self.machine_coordinates = true;
@@ -506,8 +514,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         // The end of a cycle goes before the motion that takes its place.
         let cancels = |action: &Action| matches!(action, Action::Code(ix) if *ix == self.model.cycle_cancel);
         actions.sort_by_key(|(rank, action)| (*rank, !cancels(action)));
-        let actions: Vec<Action> = actions.iter().map(|(_, action)| *action).collect();
-        for action in actions {
+        for (_, action) in actions.iter().copied() {
             match action {
                 Action::Code(code) => self.code(code, place, words, state)?,
                 Action::Feed => self.feed_word(state)?,
@@ -987,6 +994,8 @@ const MOST_ACTIONS: usize = 28;
 
 /// Blocks whose form may be refused.
 const FORM: BlockFlags = BlockFlags::LABEL.union(BlockFlags::LONG_LINE).union(BlockFlags::BLOCK_DELETE);
+
+const FEED_SPEED_TOOL: LetterSet = LetterSet::of("FST");
 
 /// Polar words: distance and angle from the origin.
 pub(crate) const POLAR: LetterSet = {

@@ -57,10 +57,6 @@ pub trait Domain: Clone + Copy + Debug + Default + PartialEq + 'static {
     /// A value.
     type Value: Clone + Debug + PartialEq;
 
-    /// Nothing comes behind a block that cannot be executed. Else the execution goes on there, as if the block had done what it
-    /// could.
-    const STOPS_AT_FAULTS: bool;
-
     /// A number. One that is not finite has no place in a domain and is unknown.
     fn number(value: f64) -> Self::Value;
     /// Nothing: the value of a variable never set, on controls where that is not zero.

@@ -170,10 +170,14 @@ impl<'a> Writer<'a> {
     fn mode(&mut self) {
         let line = [
             "G90", "G91", "G17", "G18", "G54", "G55", "S500 M3", "M5", "F200.", "M8", "M9", "G20", "G21", "S#100",
-            "F[#101+10.]", "G94", "G93", "T1", "G43 H1", "G49", "G92 X0.", "G52 X1.", "G4 P1",
-        ][self.choose(23) as usize];
-        // LinuxCNC has no local shift.
-        self.line(if self.style == Style::OWords && line.starts_with("G52") { "G92.1" } else { line });
+            "F[#101+10.]", "G94", "G93", "T1", "G43 H1", "G49", "G92 X0.", "G52 X1.", "G4 P1", "T2 M6",
+            "G81 X1. Y1. Z-2. R1. F100.", "G83 X2. Z-3. R1. Q1. F100.", "X3.", "G80", "G98", "G99", "G2 X2. Y0. R5. F100.",
+            "G3 X0. Y2. I1. J1. F100.", "G28 Z0.", "G53 G0 Z-1.", "G10 L2 P1 X5.", "G40", "G41 D1", "G1 X[#110+5.] F50.",
+            "G61", "G10 L2 P2 Y#100", "G92.1", "G0 X[#5001]", "G68 X0. Y0. R30.", "G69",
+        ][self.choose(44) as usize];
+        // What LinuxCNC has not, or not without a tool table.
+        let is_foreign = self.style == Style::OWords && ["G52", "G68", "G69", "G41"].iter().any(|g| line.starts_with(g));
+        self.line(if is_foreign { "G92.1" } else { line });
     }
 
     fn skipped(&mut self) {
@@ -522,19 +526,11 @@ fn check(control: &str, style: Style, choices: &[u8], inputs: &[u8], skip: bool)
             return fail(*at, "visited, and said to be unreachable".to_owned());
         }
         let states = recorder.0.get(at).map(Vec::as_slice).unwrap_or_default();
-        let mut closest: Option<String> = None;
-        let mut covered = false;
-        for outer in states {
-            match difference(outer, state) {
-                None => {
-                    covered = true;
-                    break;
-                }
-                Some(why) => closest = Some(why),
-            }
-        }
-        if !covered {
-            return fail(*at, closest.unwrap_or_else(|| "never shown".to_owned()));
+        let why: Vec<String> = states.iter().map_while(|outer| difference(outer, state)).collect();
+        // One that stands for it is enough.
+        if why.len() == states.len() {
+            let why: Vec<_> = why.into_iter().filter(|why| !why.starts_with("calls")).collect();
+            return fail(*at, if why.is_empty() { "never shown".to_owned() } else { why.join("\n") });
         }
     }
     if let Stopped::Ended(_) = done.stopped {

@@ -53,10 +53,10 @@ pub fn summary_line(summary: &Summary) -> String {
 /// Assumptions shown when one file was checked.
 const SHOWN: usize = 12;
 
-/// What the verdicts rest on, a line each with what would settle it; of many files only how many there are. Empty when they
-/// rest on nothing.
+/// What the verdicts rest on and a configuration could settle, a line each; of many files only how many there are. Empty
+/// when there is nothing of the kind. What nobody can settle (the modes at power-on) stands in the JSON output only.
 pub fn assumptions(summary: &Summary) -> String {
-    let all = &summary.assumptions;
+    let all: Vec<_> = summary.assumptions.iter().filter(|assumed| assumed.pin.is_some()).collect();
     if all.is_empty() {
         return String::new();
     }

@@ -88,7 +88,7 @@ impl PathCx<'_> {
 
     /// A mode that is on before this block, which itself says nothing of it.
     pub(crate) fn left_on(&self, role: Role, is_on: impl Fn(Effect) -> bool) -> Option<LeftOn> {
-        if self.codes().into_iter().any(|code| self.model.role(code) == Some(role)) {
+        if self.codes().iter().copied().any(|code| self.model.role(code) == Some(role)) {
             return None;
         }
         let mode = self.state().mode(role);

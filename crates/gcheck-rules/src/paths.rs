@@ -3,11 +3,13 @@
 //! Knows: how the engine's analysis of all paths becomes calls of rules, how a place in a program becomes a label. Must not
 //! know: any rule, how paths are found.
 
+use std::borrow::Cow;
+use std::cell::Cell;
 use std::collections::HashSet;
 use std::ops::Range;
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{
     Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind, Library,
     Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
@@ -22,7 +24,8 @@ bitflags::bitflags! {
     /// What a rule of the path tier wants to see. A rule that watches little costs little.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub struct Watch: u16 {
-        /// [`PathRule::block`]: blocks with a code, a statement, `F`, `S`, `T`, `H` or `D`, before they are executed.
+        /// [`PathRule::block`]: blocks with a code that does more than choose a motion (`G0` to `G3`), with `T`, `H` or `D`,
+        /// or with `F` or `S` and no code, before they are executed.
         const BLOCKS = 1;
         /// [`PathRule::moved`]: every move.
         const MOVES = 1 << 1;
@@ -42,6 +45,9 @@ bitflags::bitflags! {
         const FINISH = 1 << 8;
         /// [`PathRule::rapid`]: rapid moves.
         const RAPIDS = 1 << 9;
+        /// [`PathRule::block`]: blocks with a code, a statement, an expression, `F`, `S`, `T`, `H` or `D`, before they are
+        /// executed.
+        const ALL_BLOCKS = 1 << 10;
     }
 }
 
@@ -112,6 +118,8 @@ pub struct PathCx<'a> {
     flow: &'a FlowCx<'a>,
     /// The block's words, when a rule was shown the block.
     read: Option<&'a ReadBlock>,
+    /// The rule under way wants no more calls of this kind.
+    had_enough: &'a Cell<bool>,
 }
 
 /// A block as rules read it, kept because loops come by again.
@@ -120,9 +128,16 @@ struct ReadBlock {
     place: Place,
     codes: Vec<CodeIx>,
     effects: Vec<Effect>,
+    /// Does more than choose a motion: [`Watch::BLOCKS`].
+    is_eventful: bool,
 }
 
 impl<'a> PathCx<'a> {
+    /// The rule has seen enough: of all that it watches, what it is shown now is not shown to it any more in this analysis.
+    pub fn enough(&self) {
+        self.had_enough.set(true);
+    }
+
     /// What may be the state.
     pub fn state(&self) -> &'a State<Abstract> {
         self.flow.state
@@ -195,14 +210,15 @@ impl<'a> PathCx<'a> {
     }
 
     /// The codes of the block.
-    pub fn codes(&self) -> Vec<CodeIx> {
+    pub fn codes(&self) -> Cow<'a, [CodeIx]> {
         if let Some(read) = self.read_block() {
-            return read.codes.clone();
+            return Cow::Borrowed(&read.codes);
         }
-        self.place().map_or_else(Vec::new, |place| {
+        let codes = |place: Place| {
             let words = place.table.words(place.block()).iter();
             words.map(|word| word.code).filter(|code| code.is_some()).collect()
-        })
+        };
+        Cow::Owned(self.place().map_or_else(Vec::new, codes))
     }
 
     /// Does the block have a code with an effect that `is` says yes to?
@@ -212,7 +228,7 @@ impl<'a> PathCx<'a> {
         }
         match self.read_block() {
             Some(read) => read.effects.iter().any(|effect| is(*effect)),
-            None => self.codes().into_iter().any(|code| is(self.model.effect(code))),
+            None => self.codes().iter().any(|code| is(self.model.effect(*code))),
         }
     }
 
@@ -335,7 +351,7 @@ pub(crate) struct Watchers<'a, 'c> {
     survey: &'a Survey,
     rules: Vec<Active>,
     /// By bit of [`Watch`]: indices of the rules that watch it.
-    lists: [Vec<usize>; 10],
+    lists: Lists,
     add: &'c mut dyn FnMut(Option<Severity>, Finding),
     /// Findings made already: a loop comes by many times.
     made: HashSet<(&'static str, u32, String)>,
@@ -345,6 +361,23 @@ pub(crate) struct Watchers<'a, 'c> {
     read: FxHashMap<u32, Rc<ReadBlock>>,
     /// The block under way, when it was read.
     current: Option<Rc<ReadBlock>>,
+}
+
+/// By bit of [`Watch`]: indices of the rules that watch it.
+type Lists = [Vec<usize>; 11];
+
+/// Which rules watch what.
+fn lists(rules: &[Active]) -> Lists {
+    let mut lists = Lists::default();
+    for (index, active) in rules.iter().enumerate() {
+        let Run::Path { watch, .. } = active.entry.run else { continue };
+        for (bit, list) in lists.iter_mut().enumerate() {
+            if watch.bits() & (1 << bit) != 0 {
+                list.push(index);
+            }
+        }
+    }
+    lists
 }
 
 /// Blocks that are kept read.
@@ -359,23 +392,13 @@ impl<'a, 'c> Watchers<'a, 'c> {
         rules: &[(&'static RuleEntry, Option<Severity>)],
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
-        let mut lists: [Vec<usize>; 10] = Default::default();
         let mut active = Vec::new();
         for (entry, severity) in rules {
-            let Run::Path { watch, make } = entry.run else { continue };
-            for (bit, list) in lists.iter_mut().enumerate() {
-                if watch.bits() & (1 << bit) != 0 {
-                    list.push(active.len());
-                }
-            }
+            let Run::Path { make, .. } = entry.run else { continue };
             active.push(Active { entry, severity: *severity, rule: make() });
         }
+        let lists = lists(&active);
         Self { scene, program, model, survey, rules: active, lists, add, made: HashSet::new(), changed: true, read: FxHashMap::default(), current: None }
-    }
-
-    /// Does any rule watch?
-    pub(crate) fn is_empty(&self) -> bool {
-        self.rules.is_empty()
     }
 
     /// Makes the rules forget what they saw, for another analysis of the same program.
@@ -385,20 +408,27 @@ impl<'a, 'c> Watchers<'a, 'c> {
                 active.rule = make();
             }
         }
+        self.lists = lists(&self.rules);
         self.changed = true;
     }
 
     /// All paths were seen.
     pub(crate) fn finish(&mut self, result: &FlowResult, others: &[FlowResult]) {
         let cx = FinishCx { scene: self.scene, program: self.program, model: self.model, survey: self.survey, result, others };
-        self.each(Watch::FINISH, |rule, report| rule.finish(&cx, report));
+        self.each(Watch::FINISH, &Cell::new(false), |rule, report| rule.finish(&cx, report));
     }
 
-    fn each(&mut self, watch: Watch, mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>)) {
+    fn each(
+        &mut self,
+        watch: Watch,
+        had_enough: &Cell<bool>,
+        mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
+    ) {
         let bit = watch.bits().trailing_zeros() as usize;
-        let Some(list) = self.lists.get(bit) else { return };
-        for index in list {
-            let Some(active) = self.rules.get_mut(*index) else { continue };
+        let Some(list) = self.lists.get_mut(bit) else { return };
+        let mut next = 0;
+        while let Some(index) = list.get(next) {
+            let Some(active) = self.rules.get_mut(*index) else { return };
             let (made, add, severity) = (&mut self.made, &mut self.add, active.severity);
             let mut once = |finding: Finding| {
                 if made.insert((finding.rule.id, finding.range.start, finding.message.clone())) {
@@ -406,6 +436,11 @@ impl<'a, 'c> Watchers<'a, 'c> {
                 }
             };
             call(&mut *active.rule, &mut Report { add: &mut once });
+            if had_enough.take() {
+                list.remove(next);
+            } else {
+                next += 1;
+            }
         }
     }
 
@@ -417,8 +452,15 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let place = file.loaded.place(at.block, self.scene.dialect)?;
         let words = place.table.words(place.block()).iter();
         let codes: Vec<CodeIx> = words.map(|word| word.code).filter(|code| code.is_some()).collect();
-        let effects = codes.iter().map(|code| self.model.effect(*code)).collect();
-        let read = Rc::new(ReadBlock { at, place, codes, effects });
+        let effects: Vec<Effect> = codes.iter().map(|code| self.model.effect(*code)).collect();
+        let is_motion = |effect: &Effect| {
+            matches!(effect, Effect::Rapid | Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise)
+        };
+        let letters = place.block().letters;
+        let is_eventful = letters.intersects(LetterSet::of("THD"))
+            || !effects.iter().all(is_motion)
+            || effects.is_empty() && letters.intersects(LetterSet::of("FS"));
+        let read = Rc::new(ReadBlock { at, place, codes, effects, is_eventful });
         if self.read.len() >= MOST_READ {
             self.read.clear();
         }
@@ -437,25 +479,30 @@ impl<'a, 'c> Watchers<'a, 'c> {
             return;
         }
         let (scene, program, model, survey) = (self.scene, self.program, self.model, self.survey);
-        let read = self.current.clone();
-        let cx = PathCx { scene, program, model, survey, flow, read: read.as_deref() };
-        self.each(watch, |rule, report| call(rule, &cx, report));
+        let read = self.current.take();
+        let had_enough = Cell::new(false);
+        let cx = PathCx { scene, program, model, survey, flow, read: read.as_deref(), had_enough: &had_enough };
+        self.each(watch, &had_enough, |rule, report| call(rule, &cx, report));
+        self.current = read;
     }
 }
 
-/// Blocks that [`PathRule::block`] is called for.
-fn is_eventful(origin: Origin) -> bool {
+/// Blocks that [`PathRule::block`] may be called for.
+fn is_read(origin: Origin) -> bool {
     use gcheck_program::BlockFlags as F;
-    origin.flags.intersects(F::CODE | F::STATEMENT)
-        || origin.letters.intersects(gcheck_controls::LetterSet::of("FSTHD"))
+    const LETTERS: LetterSet = LetterSet::of("FSTHD");
+    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION) || origin.letters.intersects(LETTERS)
 }
 
 impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
         self.current = None;
-        if is_eventful(cx.origin) && cx.origin.at.file == 0 && self.watches(Watch::BLOCKS) {
+        if cx.origin.at.file == 0 && is_read(cx.origin) {
             self.current = self.read_block(cx.origin.at);
-            self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+            if self.current.as_ref().is_some_and(|read| read.is_eventful) {
+                self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+            }
+            self.show(Watch::ALL_BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
         }
     }
 

@@ -36,9 +36,15 @@ pub(crate) fn program(seed: u64) -> String {
 }
 
 /// Takes a word out of a line, doubles it, or puts another code there.
+///
+/// Lines with O-words stay: the reference finds their mistakes when it gets there, and never where it skips them; we find
+/// them where the structure begins. Our own programs show them one by one.
 fn make_mistake(random: &mut Random, lines: &mut [String]) {
     let ix = random.whole(0, i64::try_from(lines.len()).unwrap() - 1);
     let Some(line) = lines.get_mut(usize::try_from(ix).unwrap()) else { return };
+    if line.starts_with(['o', 'O']) {
+        return;
+    }
     let words: Vec<&str> = line.split(' ').collect();
     let at = usize::try_from(random.whole(0, i64::try_from(words.len()).unwrap() - 1)).unwrap();
     let other = random
@@ -457,6 +463,10 @@ impl Writer {
         }
         self.line("G80");
         self.set_incremental(false);
+        if matches!(code, "G84" | "G74") && plane != Plane::Xy {
+            // The reference feeds to a wrong place there and finds out at the next tool change; we do not find out.
+            self.known_place();
+        }
     }
 
     fn work_offsets(&mut self) {
@@ -540,7 +550,8 @@ impl Writer {
     fn tools(&mut self) {
         for _ in 0..self.random.whole(1, 4) {
             let tool = self.random.pick(&[1, 2, 3, 4, 99]);
-            match self.random.whole(0, 8) {
+            let kind = self.random.whole(0, 8);
+            match kind {
                 0 => self.line(format!("T{tool}")),
                 1 | 2 => self.line(format!("T{tool} M6")),
                 3 => self.line("G43"),
@@ -560,7 +571,9 @@ impl Writer {
                     self.line(format!("G10 {kind} P{tool} Z{}", number(length)));
                 }
             }
-            if self.random.one_in(2) {
+            // The reference alone, without a machine, forgets at a tool change what a length did to its position.
+            let changes_length = (3..=6).contains(&kind);
+            if changes_length || self.random.one_in(2) {
                 self.moves();
             }
         }
@@ -828,11 +841,18 @@ impl Writer {
         }
         self.back_to((Plane::Xy, false, false));
         let o = self.o_number();
+        // The reference does not find a program that it passed over on its way to another one: callers stand first.
+        let place = self.behind.len();
+        self.behind.push(Vec::new());
         let mut lines = vec![format!("O{o}")];
         lines.extend(self.apart());
         lines.push("M99".to_owned());
-        self.behind.push(lines);
-        let repeats = self.random.pick(&["", " L2", " L0", " L3"]);
+        if let Some(program) = self.behind.get_mut(place) {
+            *program = lines;
+        }
+        // Inside a loop or branch the reference does not find its end any more behind `L0`.
+        let repeats = if self.depth > 1 { ["", " L2", "", " L3"] } else { ["", " L2", " L0", " L3"] };
+        let repeats = self.random.pick(&repeats);
         self.line(format!("M98 P{o}{repeats}"));
     }
 

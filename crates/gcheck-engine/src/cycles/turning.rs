@@ -335,7 +335,7 @@ pub fn tapered_thread(
         return Err(CycleFault::Geometry.into());
     }
     let inward = if peak > Mm::ZERO { 1.0 } else { -1.0 };
-    let along = if z1 < z0 { -1.0 } else { 1.0 };
+    let along = if z1 > z0 { 1.0 } else { -1.0 };
     let slope = slide.radians().tan();
     let tapered = taper > Mm::ZERO;
     let (entry, exit) = (ends.entry && tapered, ends.exit && tapered);

@@ -42,6 +42,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn arc_to(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
         self.check_feed(state)?;
+        if let Some(motion) = state.mode(Role::Motion).only() {
+            self.check_primary_plane(motion, state)?;
+        }
         let Some(plane) = state.plane(self.model) else { return self.unknown_arc(target, state) };
         let ([first, second, _], [i, j, k]) = plane_axes(plane);
         let rules = self.model.semantics().arcs;
@@ -75,7 +78,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !arc.is_known() {
             return self.unknown_arc(target, state);
         }
-        self.announce_inverse_time(arc.length().0, state);
+        self.announce_inverse_time(|_| arc.length().0, state);
         let sign = if counter_clockwise { 1 } else { -1 };
         let turns = sign * i32::try_from(turns).unwrap_or(i32::MAX);
         if state.compensation.is_some() {

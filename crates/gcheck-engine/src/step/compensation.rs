@@ -11,6 +11,7 @@ use gcheck_geometry::{
 use crate::assumption::Assumption;
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
+use crate::model::Role;
 use crate::observer::{Observer, Origin};
 use crate::position::Position;
 use crate::state::State;
@@ -65,6 +66,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if effect == Effect::CompensationVector {
             self.remember_offset_number(state)?;
             return Ok(());
+        }
+        let secondary = state.effect(Role::Plane, self.model) == Some(Effect::PlaneSecondary);
+        if secondary && self.refuses_incomplete() {
+            return Err(Fault::Compensation(CompensationFault::Plane));
         }
         let Some(plane) = state.plane(self.model) else { return Ok(()) };
         if plane == Plane::Yz && self.refuses_incomplete() {

@@ -168,7 +168,7 @@ impl CodeContract {
                 contract.apart.push(sets);
             }
         }
-        contract.forbidden = set(&entry.forbidden);
+        contract.forbidden = set(&entry.forbidden).without(late);
         for item in &entry.conflicts {
             match item.strip_prefix('@') {
                 Some(group) => {
@@ -273,7 +273,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Refuses a block for how it is written: where its number and its `/` stand, how long it is.
     pub(super) fn check_form(&self, place: &Place, words: &[Word], block: &Block) -> Step {
         let rules = &self.model.contract;
-        if !D::STOPS_AT_FAULTS || !rules.strict {
+        if self.lenient || !rules.strict {
             return Ok(());
         }
         if block.flags.contains(BlockFlags::LONG_LINE) {
@@ -325,7 +325,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Refuses a block whose words and codes do not fit together, before anything of it acts.
     pub(super) fn check_block(&self, place: &Place, words: &[Word], state: &State<D>) -> Step {
         let rules = &self.model.contract;
-        if !D::STOPS_AT_FAULTS || rules.idle {
+        if self.lenient || rules.idle {
             return Ok(());
         }
         let codes = self.words.codes();
@@ -446,7 +446,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn check_spindle(&self) -> Step {
         let Some(spindles) = self.model.contract.spindles else { return Ok(()) };
         match self.words.number(Letter::DOLLAR) {
-            Some(number) if D::STOPS_AT_FAULTS && self.machine.fresh && (number <= -2.0 || number >= spindles) => {
+            Some(number) if !self.lenient && self.machine.fresh && (number <= -2.0 || number >= spindles) => {
                 Err(Fault::WordRange(Letter::DOLLAR))
             }
             _ => Ok(()),
@@ -492,7 +492,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// A centre without an end, while arcs are the mode: a full circle, on strict controls.
     pub(super) fn turns_about_centre(&self, state: &State<D>) -> bool {
         self.model.contract.strict
-            && self.words.present().intersects(LetterSet::of("IJK"))
+            && self.words.present().intersects(const { LetterSet::of("IJK") })
             && state.active_cycle(self.model).is_some_and(|cycle| !cycle.is_some())
             && state
                 .mode(Role::Motion)

@@ -22,6 +22,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let effect = self.model.effect(code);
         let rules = &self.model.semantics().cycles;
         let names_code = self.words.codes().contains(&code);
+        self.check_primary_plane(code, state)?;
         let Some(plane) = state.plane(self.model) else { return self.lose_cycle(state) };
         let plane = if rules.all_planes { plane } else { Plane::Xy };
         let ([first, second, depth], _) = plane_axes(plane);
@@ -31,7 +32,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if effect == Effect::CycleAlongTool || effect == Effect::CycleRadial {
             return self.lose_cycle(state);
         }
-        let words = self.cycle_words(effect, depth, names_code, state);
+        let words = self.cycle_words(effect, depth, state);
         if let Err(fault) = words {
             self.skip_to_hole(state)?;
             return Err(fault);
@@ -94,7 +95,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => return Ok(()),
         };
         let Some(spindle) = state.spindle else { return Ok(()) };
-        if !D::STOPS_AT_FAULTS || !self.refuses_incomplete() || !rules.tap_needs_spindle {
+        if self.lenient || !self.refuses_incomplete() || !rules.tap_needs_spindle {
             return Ok(());
         }
         match wanted {
@@ -105,7 +106,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Keeps the words of the block that stay in effect.
-    pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, names_code: bool, state: &mut State<D>) -> Step {
+    pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
         let mut words = state.cycle;
@@ -132,6 +133,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 _ => false,
             };
             words.p = if milliseconds { p / 1000.0 } else { p };
+            words.last_dwell = words.p;
         }
         let starts = words.initial.is_nan() && state.cycle.initial.is_nan();
         if starts {
@@ -222,6 +224,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
         let number = |value: f64| if value.is_nan() { None } else { Some(value) };
+        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.p };
         let units = state.units(self.model).unwrap_or(Units::Mm);
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
@@ -232,7 +236,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 initial: Mm(words.initial),
                 r: Mm(r),
                 bottom: Mm(bottom),
-                dwell: number(words.p).map(Seconds),
+                dwell: number(dwell).map(Seconds),
                 peck: number(words.q).map(Mm),
                 ijk: words.ijk.map(|v| number(v).map(Mm)),
                 incremental: incremental == Some(true),
@@ -249,7 +253,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 break;
             }
         }
-        if result.is_ok() || !D::STOPS_AT_FAULTS {
+        if result.is_ok() || self.lenient {
             self.end_exact_path(state);
         }
         result
@@ -265,7 +269,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let from = state.position.xyz();
         let mut strokes = Vec::new();
-        if let Err(fault) = self.check_cycle_spindle(effect, rules, state) {
+        let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
+        if result.is_ok()
+            && let Err(fault) = self.check_cycle_spindle(effect, rules, state)
+        {
+            strokes.clear();
             // The way to the hole is that of any cycle.
             let _ = hole(Effect::CycleDrill, facts, from, rules, &mut |stroke| strokes.push(stroke));
             let is_way = |stroke: &Stroke| matches!(stroke, Stroke::Rapid(_) | Stroke::ExactPath);
@@ -273,7 +281,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.strokes(&strokes, plane, state)?;
             return Err(fault);
         }
-        let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
         self.strokes(&strokes, plane, state)?;
         match result {
             Ok(end) => {
@@ -350,8 +357,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     }
                 }
                 Stroke::Sync(lead) => self.emit(state, Event::SpindleSync { lead, velocity: false }),
-                Stroke::FeedOverride(on) => self.emit(state, Event::Override { kind: Override::Feed, on }),
-                Stroke::SpeedOverride(on) => self.emit(state, Event::Override { kind: Override::Speed, on }),
+                Stroke::FeedOverride(on) => {
+                    state.feed_override = if on { Truth::True } else { Truth::False };
+                    self.emit(state, Event::Override { kind: Override::Feed, on });
+                }
+                Stroke::SpeedOverride(on) => {
+                    state.speed_override = if on { Truth::True } else { Truth::False };
+                    self.emit(state, Event::Override { kind: Override::Speed, on });
+                }
                 Stroke::OperatorStop => self.emit(state, Event::Stop(Stop::Program)),
             }
         }

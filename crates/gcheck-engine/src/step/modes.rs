@@ -13,7 +13,7 @@ use crate::fault::{CompensationFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{CycleWords, State};
+use crate::state::State;
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -21,7 +21,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
         let Some(code) = self.model.code(ix).copied() else { return Ok(()) };
         let is_motion = matches!(code.role, Some(Role::Motion | Role::Cycle));
-        let needs_none = self.model.contracts.get(ix.index()).is_some_and(|contract| contract.uncompensated);
+        let contract = self.model.contracts.get(ix.index());
+        if contract.is_some_and(|contract| contract.of_spindle) {
+            self.check_spindle()?;
+        }
+        let needs_none = contract.is_some_and(|contract| contract.uncompensated);
         if needs_none && !is_motion && code.effect != Effect::ThreadCycle && self.compensates(state) {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
@@ -84,10 +88,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Role::Cycle => {
                 let running = state.active_cycle(self.model).filter(|cycle| cycle.is_some());
                 match running {
-                    None => state.cycle = CycleWords::NONE,
+                    None => state.cycle = state.cycle.series(f64::NAN),
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
-                        state.cycle = CycleWords { initial: state.cycle.initial, ..CycleWords::NONE };
+                        state.cycle = state.cycle.series(state.cycle.initial);
                     }
                     Some(_) => {}
                 }

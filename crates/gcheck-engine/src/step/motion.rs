@@ -48,7 +48,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Effect::Rapid if has_axes => self.straight(TravelKind::Rapid, state),
             Effect::Linear if has_axes => self.straight(TravelKind::Feed, state),
             Effect::ArcClockwise | Effect::ArcCounterClockwise => {
-                if has_axes || present.intersects(LetterSet::of("IJKR")) {
+                if has_axes || present.intersects(const { LetterSet::of("IJKR") }) {
                     self.arc(effect == Effect::ArcCounterClockwise, state)
                 } else if self.words.codes().contains(&mode) {
                     // `G2` alone chooses the mode; some controls refuse it.
@@ -192,14 +192,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.machine_move(kind, state);
         }
         let target = self.target(state)?;
-        let checked = Self::held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
+        let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         self.travel(kind, target, false, state)?;
         checked
     }
 
     /// A fault that an analysis of all paths holds back until the move is made, so that it goes on where the program means to be.
-    pub(super) fn held(checked: Step) -> Step<Step> {
-        if D::STOPS_AT_FAULTS { checked.map(Ok) } else { Ok(checked) }
+    pub(super) fn held(&self, checked: Step) -> Step<Step> {
+        if self.lenient { Ok(checked) } else { checked.map(Ok) }
     }
 
     /// Is the feed good for a cut in this block?
@@ -231,16 +231,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Under inverse time every cut has a feed of its own, from its length in millimetres.
-    pub(super) fn announce_inverse_time(&mut self, length: f64, state: &mut State<D>) {
+    pub(super) fn announce_inverse_time(&mut self, length: impl FnOnce(&State<D>) -> f64, state: &mut State<D>) {
         if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
-            let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length;
-            self.emit(state, Event::FeedRate(rate));
+            let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length(state);
+            let least = self.model.semantics().least_inverse_feed * self.unit(state);
+            self.emit(state, Event::FeedRate(if rate < least { least } else { rate }));
         }
     }
 
     /// `G53`: the words are machine coordinates.
     fn machine_move(&mut self, kind: TravelKind, state: &mut State<D>) -> Step {
-        if state.is_incremental(self.model) == Some(true) && self.refuses_incomplete() {
+        let polar = self.words.present().intersects(super::POLAR);
+        if (polar || state.is_incremental(self.model) == Some(true)) && self.refuses_incomplete() {
             return Err(Fault::Conflict);
         }
         if self.compensates(state) && self.refuses_incomplete() {
@@ -257,7 +259,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
         let target = state.from_machine(&machine);
-        let checked = Self::held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
+        let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not.
         let mut to = state.actual;
         for axis in Axis::ALL {
@@ -275,7 +277,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn travel(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) -> Step {
         if state.compensation.is_some() {
             if kind == TravelKind::Feed {
-                self.announce_inverse_time(straight_length(&state.position, &target, self.unit(state)), state);
+                let unit = self.unit(state);
+                self.announce_inverse_time(|state| straight_length(&state.position, &target, unit), state);
             }
             return self.compensated_line(kind, target, state);
         }
@@ -301,7 +304,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) {
         if kind == TravelKind::Feed {
-            self.announce_inverse_time(straight_length(&state.actual, &to, self.unit(state)), state);
+            let unit = self.unit(state);
+            self.announce_inverse_time(|state| straight_length(&state.actual, &to, unit), state);
         }
         let travel = Travel { kind, from: state.actual, programmed, to, expanded };
         state.actual = to;
@@ -317,7 +321,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         });
         let Some(lead) = lead else {
             let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
-            let missing = Self::held(Err(Fault::MissingWord(Letter::of(missing))))?;
+            let missing = self.held(Err(Fault::MissingWord(Letter::of(missing))))?;
             self.travel(TravelKind::Thread, target, false, state)?;
             return missing;
         };
@@ -384,6 +388,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.set_mode(Role::Motion, CodeIx::NONE);
         }
         Ok(())
+    }
+
+    /// Strict controls cut arcs and cycles in no plane of secondary axes.
+    pub(super) fn check_primary_plane(&self, motion: CodeIx, state: &State<D>) -> Step {
+        match state.mode(Role::Plane).only() {
+            Some(plane) if self.refuses_incomplete() && self.model.effect(plane) == Effect::PlaneSecondary => {
+                Err(Fault::NotNow(motion, Some(plane)))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Curves are drawn in XY only.

@@ -126,10 +126,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let shared = self.shifts_are_one();
         self.reframe(state, |state| {
+            if shared && !state.shift_on {
+                // What is suspended does not come back with another axis.
+                state.shift = Position::ZERO;
+                state.shift_on = true;
+            }
             for (axis, value) in &named {
                 if shared {
                     state.shift.set(*axis, *value);
-                    state.shift_on = true;
                 } else {
                     state.local.set(*axis, *value);
                 }
@@ -293,7 +297,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Unknown) => self.unknown_length(state),
             None => {
                 // The interpreter looks for a tool all the same.
-                if self.refuses_incomplete() && state.tables.complete && D::STOPS_AT_FAULTS {
+                if self.refuses_incomplete() && state.tables.complete && !self.lenient {
                     return Err(Fault::MissingWord(Letter::of('H')));
                 }
                 let mut added = Position::ZERO;
@@ -459,12 +463,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         let active = state.work == Some(system);
+        let here = state.actual;
         self.reframe(state, |state| {
             Rc::make_mut(&mut state.tables).set_offset(system, offset);
             if active {
                 state.in_effect = offset;
             }
         });
+        if active && self.refuses_incomplete() && old.rotation.to_bits() != offset.rotation.to_bits() {
+            // A mistake of the interpreter, but what the machine then does: it turns its position without the shift.
+            let turned = rotate(rotate(here, old.rotation) + old.origin - offset.origin, -offset.rotation);
+            for axis in [Axis::X, Axis::Y] {
+                state.actual.set(axis, turned.raw(axis));
+            }
+            state.position = self.programmed_of(&state.actual, state);
+        }
         if active {
             self.announce_offset(state);
             self.announce_rotation(state);

@@ -254,7 +254,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(ix) = named.filter(|ix| self.model.effect(*ix) != Effect::CycleCancel) {
             let effect = self.model.effect(ix);
             let kept = state.cycle.ijk;
-            self.cycle_words(effect, depth, true, state)?;
+            self.cycle_words(effect, depth, state)?;
             state.cycle.ijk = kept;
             return Ok(Some(effect));
         }

@@ -176,6 +176,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::Spindle(spindle));
             }
         }
+        // It writes what is saved into one block, so that switches act before planes, offsets and path control.
+        self.restore_coolant(&was, saved, state);
+        self.restore_overrides(&was, saved, state);
         if differs(Role::Plane) && let Some(plane) = state.plane(self.model) {
             self.emit(state, Event::Plane(plane));
         }
@@ -194,14 +197,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let mode = self.current_path_mode(state);
             self.path_mode(mode, state);
         }
-        if was.mist != saved.mist || saved.mist == Truth::False && was.flood != saved.flood && saved.flood == Truth::False {
-            self.coolant(Coolant::Mist, saved.mist == Truth::True, state);
-        }
-        if was.flood != saved.flood {
-            self.coolant(Coolant::Flood, saved.flood == Truth::True, state);
-        }
-        self.restore_overrides(&was, saved, state);
         self.origin.n = number;
+    }
+
+    /// Observed: coolant that was on is turned on, and none is turned off unless all was off.
+    fn restore_coolant(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
+        if (was.mist, was.flood) == (saved.mist, saved.flood) {
+            return;
+        }
+        let all_off = saved.mist == Truth::False && saved.flood == Truth::False;
+        for (kind, was, saved) in [(Coolant::Mist, was.mist, saved.mist), (Coolant::Flood, was.flood, saved.flood)] {
+            if all_off || was != saved && saved == Truth::True {
+                self.coolant(kind, !all_off, state);
+            }
+        }
     }
 
     /// What the interpreter makes of saved switches (observed): a feed override that was on comes back as `M48` does, for

@@ -42,6 +42,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if D::known(&value).is_some_and(|s| s < 0.0) {
             return Err(Fault::WordRange(Letter::of('S')));
         }
+        self.check_spindle()?;
         let limits = self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::SpeedLimitOrSetPosition);
         if limits {
             return Ok(());
@@ -87,12 +88,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !(0.0..=360.0).contains(&angle) && self.refuses_incomplete() {
             return Err(Fault::WordRange(Letter::of('R')));
         }
+        let timeout = self.words.number(Letter::of('Q'));
+        if timeout.is_some_and(|timeout| timeout <= 0.0) {
+            return Err(Fault::WordRange(Letter::of('Q')));
+        }
         state.spindle = Some(Spindle::Stopped);
         self.emit(state, Event::OrientSpindle { angle, way });
-        if let Some(timeout) = self.words.number(Letter::of('Q')) {
-            if timeout <= 0.0 {
-                return Err(Fault::WordRange(Letter::of('Q')));
-            }
+        if let Some(timeout) = timeout {
             self.emit(state, Event::WaitOrient(Seconds(timeout)));
         }
         Ok(())

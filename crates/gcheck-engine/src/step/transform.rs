@@ -115,9 +115,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
 /// The transformation; `None` when there is none, `Some(None)` when it is not known.
 fn frame(transform: &Transform) -> Option<Option<Frame>> {
-    if *transform == Transform::NONE
-        || transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3]
-    {
+    if transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3] {
         return None;
     }
     let numbers = transform.scale.iter().chain([&transform.angle]);

@@ -242,10 +242,9 @@ fn gather(results: impl Iterator<Item = Result<f64, ValueFault>>) -> Result<Abst
 impl Domain for Abstract {
     type Value = AbstractValue;
 
-    const STOPS_AT_FAULTS: bool = false;
-
     fn number(value: f64) -> AbstractValue {
-        AbstractValue::numbers([value], false)
+        // Adding zero takes the sign from −0.
+        if value.is_finite() { AbstractValue::Number(value + 0.0) } else { AbstractValue::Unknown }
     }
 
     fn vacant() -> AbstractValue {

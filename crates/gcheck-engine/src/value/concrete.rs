@@ -68,8 +68,6 @@ impl ConcreteValue {
 impl Domain for Concrete {
     type Value = ConcreteValue;
 
-    const STOPS_AT_FAULTS: bool = true;
-
     #[inline]
     fn number(value: f64) -> ConcreteValue {
         if value.is_finite() { ConcreteValue::Number(value + 0.0) } else { ConcreteValue::Unknown }

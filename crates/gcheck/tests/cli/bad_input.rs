@@ -218,10 +218,10 @@ fn ten_thousand_nested_brackets() {
     check_content(
         open.as_bytes(),
         &expect![[r#"
-        other.nc:3:1: error[unknown-code] unknown code `G999`
-        part.nc:3:69: error[expression-too-deep] expression is nested too deeply
-        exit 1
-    "#]],
+            other.nc:3:1: error[unknown-code] unknown code `G999`
+            part.nc:3:69: error[expression-too-deep] expression is nested too deeply
+            exit 1
+        "#]],
     );
     let loops = format!("%\nO0001\n{}M30\n%\n", "WHILE [1 EQ 1] DO1\n".repeat(10_000));
     let shop = Shop::new();

@@ -353,29 +353,36 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             };
             layered_roughing(from, &profile.segments, &words, &mut out)
         };
-        // Moves count as those of the subprogram's last block.
-        let origin = self.origin;
-        self.origin.n = self.sequence_number(At { file: sub.file, block: end });
+        // Moves count as those of the subprogram's last block, which is where the interpreter has got to.
+        let behind = self.origin_of(At { file: sub.file, block: end });
+        if let Some(behind) = behind {
+            self.observer.before(behind, state);
+        }
         // The cycles end on the contour: where, nobody knows when the contour is not known.
         let mut unknown = state.position;
         for axis in [Axis::X, Axis::Z] {
             unknown.set(axis, f64::NAN);
         }
         let outcome = self.carry_out(&strokes, result, Plane::Zx, unknown, state);
-        self.origin = origin;
+        if let Some(behind) = behind {
+            self.observer.after(behind, state);
+        }
         // The cycle has read the block's axis words; none are left for a motion.
         self.words.clear();
         outcome
     }
 
-    fn sequence_number(&mut self, at: At) -> Option<u32> {
+    fn origin_of(&mut self, at: At) -> Option<Origin> {
         let place = self.place(at)?;
-        place
-            .table
-            .words(place.block())
-            .iter()
-            .find(|word| word.letter == Letter::of('N'))
-            .and_then(Word::integer)
+        let block = place.block();
+        Some(Origin {
+            at,
+            start: place.base + block.range.start,
+            end: place.base + block.range.end,
+            flags: block.flags,
+            letters: block.letters,
+            n: sequence_number(place.table.words(block)),
+        })
     }
 
     // ---- reading ----
@@ -435,11 +442,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end: place.base + read.range.end,
                 flags: read.flags,
                 letters: read.letters,
-                n: table
-                    .words(read)
-                    .iter()
-                    .find(|word| word.letter == Letter::of('N'))
-                    .and_then(Word::integer),
+                n: sequence_number(table.words(read)),
             };
             self.observer.before(self.origin, state);
             if read.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
@@ -613,6 +616,11 @@ struct Drawing {
 enum Drawn {
     On,
     End,
+}
+
+/// What the block's `N` says.
+fn sequence_number(words: &[Word]) -> Option<u32> {
+    words.iter().find(|word| word.letter == Letter::of('N')).and_then(Word::integer)
 }
 
 /// The pieces with fillets and chamfers between straight ones. A corner that does not fit stays sharp.

@@ -120,7 +120,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn a_control_that_refuses_it_makes_it_an_error() {
@@ -174,5 +175,22 @@ mod tests {
             "G41 D1 G1 X10. F100.\nIF [#500 EQ 1] GOTO 5\nG40 X0.\nN5 G0 Z50.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "fanuc-mill",
+            "G41 D1 G1 X10. F100.\nG0 Z50.\nT2 M6\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            cutter compensation is still on at the tool change (`G41`)
+              here: the next tool begins with it
+              there: `G41` set here
+              help: leave the contour on a straight move with `G40` before the tool goes away
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

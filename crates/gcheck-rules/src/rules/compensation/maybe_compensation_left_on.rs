@@ -77,7 +77,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn a_program_that_is_not_at_hand_says_nothing() {
@@ -95,5 +96,22 @@ mod tests {
                   | ^^^ info[maybe-compensation-left-on] cutter compensation may still be on at the end of the program (`G41`)
             "#]],
         );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "fanuc-mill",
+            "G41 D1 G1 X10. F100.\nIF [#500 EQ 1] GOTO 5\nG40 X0.\nN5 G0 Z50.\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            cutter compensation may still be on at the end of the program (`G41`)
+              here: the program ends with it
+              there: when this is taken
+              help: leave the contour on a straight move with `G40` before the tool goes away
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -123,7 +123,7 @@ pub(crate) fn is_cycle(effect: Effect) -> bool {
 /// The operation of several moves that the block makes: one of its own, or the canned cycle in effect.
 pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     let control = cx.scene.control();
-    let own = cx.codes().into_iter().find(|ix| is_operation(cx.model.effect(*ix)));
+    let own = cx.codes().iter().copied().find(|ix| is_operation(cx.model.effect(*ix)));
     let active = || cx.state().active_cycle(cx.model).filter(|ix| ix.is_some());
     control.code_at(own.or_else(active)?)
 }
@@ -174,7 +174,7 @@ const STAYING: LetterSet = LetterSet::of("XYZRQPIJKE");
 impl Series {
     /// A block is about to be executed. Answers the cycle that it begins anew.
     pub(crate) fn block(&mut self, cx: &PathCx<'_>) -> Option<CodeIx> {
-        let named = cx.codes().into_iter().find(|ix| is_cycle(cx.model.effect(*ix)));
+        let named = cx.codes().iter().copied().find(|ix| is_cycle(cx.model.effect(*ix)));
         let active = cx.state().active_cycle(cx.model);
         let begins = named.filter(|_| active == Some(CodeIx::NONE));
         if begins.is_some() {

@@ -48,7 +48,7 @@ impl PathRule for TurningProfileNotUsable {
         if *fault != Fault::Profile {
             return;
         }
-        let code = cx.codes().into_iter().find_map(|code| {
+        let code = cx.codes().iter().copied().find_map(|code| {
             use gcheck_controls::Effect as E;
             let is_cycle = matches!(
                 cx.model.effect(code),

@@ -54,7 +54,7 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(FallIntoSubprogram::default()) },
+        run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(FallIntoSubprogram::default()) },
     }
 }
 
@@ -69,6 +69,7 @@ impl PathRule for FallIntoSubprogram {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // Where `O` numbers no programs, nothing stands behind its head.
         if cx.survey.programs.len() < 2 && cx.survey.jumps.is_empty() {
+            cx.enough();
             return;
         }
         let Some(frame) = cx.state().frames().last() else { return };

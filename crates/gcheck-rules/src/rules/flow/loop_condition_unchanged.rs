@@ -27,8 +27,9 @@ declare_rule! {
     /// M30
     /// ```
     /// ```nc,reported,linuxcnc
-    /// o1 while [#<_depth> GT #<bottom>]
-    /// G1 Z#<_depth> F100
+    /// #<depth> = #100
+    /// o1 while [#<depth> GT #101]
+    /// G1 Z#<depth> F100
     /// o1 endwhile
     /// M2
     /// ```

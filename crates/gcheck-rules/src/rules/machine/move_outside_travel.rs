@@ -51,6 +51,7 @@ impl PathRule for MoveOutsideTravel {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let travel = &cx.scene.machine.engine.travel;
         if travel.is_empty() {
+            cx.enough();
             return;
         }
         let Some(to) = end_of(event) else { return };

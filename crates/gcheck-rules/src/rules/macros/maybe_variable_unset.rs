@@ -37,7 +37,7 @@ declare_rule! {
         severity: Info,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(MaybeVariableUnset::default()) },
+        run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(MaybeVariableUnset::default()) },
     }
 }
 

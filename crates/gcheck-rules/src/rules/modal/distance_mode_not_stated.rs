@@ -33,6 +33,7 @@ declare_rule! {
         summary: "moves before `G90` or `G91` is stated",
         severity: Info,
         tier: Path,
+        recommended: false,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),

@@ -161,7 +161,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn the_first_move_of_the_next_tool_is_marked() {
@@ -217,5 +218,23 @@ mod tests {
         "#]],
         );
         check_rule(&RULE, "haas-mill", "G20 G0 X0.\nG91 G28 Z0.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "haas-mill",
+            "G20 G90 G0 X0.\nG1 X1. F5.\nG91 G28 Z0.\nT2 M6\nG0 X3.\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            the first move after the tool change goes by increments (`G91`)
+              here: by this much, not to this point
+              there: tool changed here
+              there: increments set here
+              help: state `G90` before the move
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

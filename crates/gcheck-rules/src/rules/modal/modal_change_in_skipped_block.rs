@@ -75,7 +75,7 @@ struct ModalChangeInSkippedBlock {
 
 impl PathRule for ModalChangeInSkippedBlock {
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        for code in cx.codes() {
+        for code in cx.codes().iter().copied() {
             let Some(role) = cx.model.role(code).filter(|role| ROLES.contains(role)) else { continue };
             if !is_optional(cx) {
                 self.skipped.retain(|(other, _)| *other != role);

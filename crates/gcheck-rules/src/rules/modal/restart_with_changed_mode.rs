@@ -55,8 +55,7 @@ const RELIED_ON: [Role; 4] = [Role::Distance, Role::Plane, Role::Units, Role::Fe
 
 #[derive(Default)]
 struct RestartWithChangedMode {
-    /// The pass has moved: what was not set until then it relied on.
-    moved: bool,
+    /// What was not set until the first move.
     relied_on: Vec<(Role, CodeIx)>,
     /// Tools are changed and the spindle is started by programs that nobody calls.
     is_main: bool,
@@ -64,10 +63,7 @@ struct RestartWithChangedMode {
 
 impl PathRule for RestartWithChangedMode {
     fn moved(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
-        if self.moved {
-            return;
-        }
-        self.moved = true;
+        cx.enough();
         for role in RELIED_ON {
             if cx.trace().set_by(Fact::Mode(role)).is_none()
                 && let Some(code) = cx.state().mode(role).only()

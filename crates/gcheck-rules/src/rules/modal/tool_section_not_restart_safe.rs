@@ -84,7 +84,7 @@ impl PathRule for ToolSectionNotRestartSafe {
             let range = cx.boundary_range(Boundary::ToolChange);
             let mut stated = Vec::new();
             // `G90 G54 T2 M6`: stated in the block that the operator starts from.
-            for code in cx.codes() {
+            for code in cx.codes().iter().copied() {
                 stated.extend(cx.model.role(code).and_then(of_role));
             }
             let letters = cx.origin().letters;

@@ -27,6 +27,7 @@ declare_rule! {
         summary: "moves before `G20` or `G21` is stated",
         severity: Info,
         tier: Path,
+        recommended: false,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),

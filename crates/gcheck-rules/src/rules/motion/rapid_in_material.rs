@@ -204,6 +204,7 @@ impl Cuts {
     /// Is everything known that was cut up to this move? Asked before [`Cuts::add`].
     pub(crate) fn follows(&mut self, cx: &PathCx<'_>, event: &Event) -> bool {
         if self.blind {
+            cx.enough();
             return false;
         }
         let from = match event {

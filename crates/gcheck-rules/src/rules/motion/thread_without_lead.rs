@@ -60,7 +60,7 @@ impl PathRule for ThreadWithoutLead {
 
 /// Does a code of the block need the word each time? Then a missing word has been reported already.
 fn asks_for_it(cx: &PathCx<'_>, letter: Letter) -> bool {
-    cx.codes().into_iter().filter_map(|ix| cx.scene.control().code_at(ix)).any(|code| {
+    cx.codes().iter().copied().filter_map(|ix| cx.scene.control().code_at(ix)).any(|code| {
         let words = &code.entry().words;
         words.iter().any(|word| word.need == Need::Required && Letter::parse(&word.letter) == Some(letter))
     })

@@ -73,7 +73,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn the_end_is_marked_and_the_code_named() {
@@ -96,5 +97,23 @@ mod tests {
             "G68 X0. Y0. R30.\nIF [#1 EQ 1] GOTO 5\nG69\nN5 M30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "fanuc-mill",
+            "G68 X0. Y0. R30.\nG1 X10. F100.\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            the rotation is still on at the end of the program (`G68`)
+              here: what runs next begins with it
+              there: `G68` set here
+              assuming: the end of the program keeps it, as the control's book leaves to a parameter
+              help: switch the rotation off with `G69` before the program ends
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -59,7 +59,7 @@ impl PathRule for ShiftLeftOn {
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if let Event::Shift(_) = event
-            && let Some(code) = cx.codes().into_iter().find(|code| is_shift(cx.model.effect(*code)))
+            && let Some(code) = cx.codes().iter().copied().find(|code| is_shift(cx.model.effect(*code)))
         {
             self.set = Some((cx.origin().at, code));
         }

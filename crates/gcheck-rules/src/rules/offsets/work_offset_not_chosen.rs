@@ -35,6 +35,7 @@ declare_rule! {
         summary: "cut without a chosen work offset",
         severity: Info,
         tier: Path,
+        recommended: false,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNotChosen { is_done: false }) },
     }

@@ -1,7 +1,7 @@
 //! A cut while the spindle stands.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Fact, Fault, Spindle, TravelKind, Truth};
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_engine::{At, Axis, Event, Fact, Fault, Spindle, TravelKind, Truth};
 
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -72,7 +72,12 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
-        if self.told.contains(&stopped_by) {
+        let is_ever_started = cx.file_uses(starts);
+        // Neither start nor speed anywhere: a spindle switched by hand, or none at all: a laser, a knife, a pen.
+        if !is_ever_started && cx.trace().set_by(Fact::Speed).is_none() {
+            return;
+        }
+        if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
         self.told.push(stopped_by);
@@ -82,7 +87,6 @@ impl PathRule for SpindleStoppedWhileCutting {
         if is_started_with_change.is_some() {
             return;
         }
-        let is_ever_started = cx.file_uses(starts);
         let message = match stopped_by {
             Some(at) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
             None => "cut, and the spindle was not started (no `M3`)".to_owned(),
@@ -93,8 +97,9 @@ impl PathRule for SpindleStoppedWhileCutting {
             .help(
                 "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
             );
-        // Started by hand, or no spindle at all: a laser, a knife, a pen.
-        if !is_ever_started || cx.file_uses(probes) {
+        // `S` may be a laser's power where no tool is changed.
+        let is_mill = is_ever_started || cx.file_uses(|effect| effect == Effect::ToolChange);
+        if !is_mill || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
         report.add(since(cx, finding, stopped_by));
@@ -144,9 +149,10 @@ pub(super) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
     }
     match event {
         Event::Travel(travel) => {
-            let ([x, y, z], [to_x, to_y, to_z]) = (travel.from.xyz(), travel.to.xyz());
-            let is_up =
-                to_z.0 > z.0 && x.0.to_bits() == to_x.0.to_bits() && y.0.to_bits() == to_y.0.to_bits();
+            let is_along_z = !cx.origin().letters.intersects(LetterSet::of("XYABCUV"));
+            // Up, or from a height that nobody knows.
+            let goes_down = travel.to.raw(Axis::Z) < travel.from.raw(Axis::Z);
+            let is_up = is_along_z && !goes_down;
             travel.kind == TravelKind::Feed && !is_up
         }
         Event::Arc(_) | Event::Curve(_) => true,
@@ -187,7 +193,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn the_first_cut_of_each_stop_is_marked() {
@@ -206,13 +213,18 @@ mod tests {
 
     #[test]
     fn a_program_without_a_spindle_is_told_once() {
+        check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![""]);
+    }
+
+    #[test]
+    fn a_speed_that_nothing_starts_is_a_likely_slip() {
         check_rule(
             &RULE,
             "haas-mill",
-            "G1 X2. F10.\nM0\nX3.\nM30\n",
+            "S1000\nG1 X2. F10.\nM30\n",
             &expect![[r#"
-            1 | G1 X2. F10.
-              | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
+            2 | G1 X2. F10.
+              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
         "#]],
         );
     }
@@ -249,5 +261,21 @@ mod tests {
               | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
         "#]],
         );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "haas-mill",
+            "S1000 M3\nG1 X1. F5.\nM5\nG1 X2.\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            cut after the spindle was stopped (`M5`)
+              here: nothing turns here
+              there: stopped here
+              help: start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

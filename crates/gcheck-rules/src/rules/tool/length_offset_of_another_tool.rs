@@ -115,7 +115,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn the_offset_that_breaks_the_scheme_is_marked() {
@@ -174,5 +175,23 @@ mod tests {
                   | ^^^^^ warning[length-offset-of-another-tool] tool 3 works with length offset 1
             "#]],
         );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(
+            &Selection::only(&RULE),
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H1 Z1.\nG1 Z0.\nM30\n",
+            &World::default(),
+        );
+        expect![[r#"
+            tool 2 works with length offset 1 (`H1`, `T2`)
+              here: the length offset of tool 1
+              there: tool 2 comes into the spindle here
+              note: the program's other tool has the length offset of the tool's own number (H = T)
+              help: use offset 2, or tell why not in a suppression
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

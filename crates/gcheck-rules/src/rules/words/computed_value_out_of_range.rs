@@ -80,8 +80,14 @@ mod tests {
 
     #[test]
     fn the_word_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= 2.5\nM98 P#1\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "linuxcnc", "#1=-5\nM3 S#1\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "O1\n#1= 2.5\nM98 P#1\nM30\n", &expect![[r#"
+            3 | M98 P#1
+              |     ^^^ error[computed-value-out-of-range] computed value of `P` cannot be used here
+        "#]]);
+        check_rule(&RULE, "linuxcnc", "#1=-5\nM3 S#1\nM2\n", &expect![[r#"
+            2 | M3 S#1
+              |    ^^^ error[computed-value-out-of-range] computed value of `S` cannot be used here
+        "#]]);
     }
 
     #[test]
