@@ -3,7 +3,7 @@
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use gcheck_program::Dialect;
-use gcheck_rules::{Job, MachineFacts, NoPrograms, Scene, Selection, check};
+use gcheck_rules::{Execution, Job, MachineFacts, NoPrograms, Scene, Selection, check};
 use gcheck_syntax::SourceText;
 use proptest::prelude::*;
 
@@ -17,7 +17,7 @@ fn check_everywhere(bytes: Vec<u8>) {
         let machine = MachineFacts::default();
         let scene =
             Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: true };
-        let outcome = check(&Job { source: &source, scene, selection: &selection, suppressions: true });
+        let outcome = check(&Job { source: &source, scene, selection: &selection, suppressions: true, execution: Execution::default() });
         for finding in outcome.findings {
             let places = finding.labels.iter().map(|l| &l.range).chain([&finding.range]);
             let edits = finding.fixes.iter().flat_map(|f| &f.edits).map(|e| &e.range);

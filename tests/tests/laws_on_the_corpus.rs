@@ -99,7 +99,7 @@ fn findings(control: &Control, source: &SourceText) -> Vec<Finding> {
         Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
     let mut selection = Selection::default();
     selection.enable("all").unwrap();
-    check(&Job { source, scene, selection: &selection, suppressions: true }).findings
+    check(&Job { source, scene, selection: &selection, suppressions: true, execution: Execution::default() }).findings
 }
 
 #[test]

@@ -298,7 +298,7 @@ impl Problems<'_> {
         for (code, letters) in
             refusals.late_words.iter().chain(&refusals.late_values).chain(&refusals.newer_words)
         {
-            let entry = CodeNumber::parse(code).and_then(|n| control.code(n)).map(|code| code.entry());
+            let entry = CodeNumber::parse(code).and_then(|n| control.code(n)).map(crate::Code::entry);
             for letter in letters.chars() {
                 let letter = letter.to_string();
                 let is_word = |word: &crate::WordEntry| word.letter == letter;

@@ -404,7 +404,6 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             self.blocks += 1;
             self.result.reached.insert(at);
             let next = match self.step(at, &mut state) {
-                Outcome::Next => at.next(),
                 Outcome::Jump(to) => {
                     let trace = self.executor.observer.trace.clone();
                     self.arrive(to, state, trace);
@@ -422,7 +421,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     self.parted = true;
                     return Stretch::Done;
                 }
-                Outcome::Fault(_) => at.next(),
+                Outcome::Next | Outcome::Fault(_) => at.next(),
             };
             at = next;
             if calls_differ(&path, &state) {

@@ -19,25 +19,26 @@ use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
 /// The state at the start of the main program.
+#[expect(clippy::too_many_lines, reason = "one line for each part of the state")]
 pub(crate) fn start_state<D: Domain>(
     model: &Model<'_>,
     machine: &Machine,
     assumptions: &mut BTreeSet<Assumption>,
 ) -> State<D> {
-    let mut modes = [ModeSet::one(CodeIx::NONE); Role::COUNT];
+    let mut in_force = [ModeSet::one(CodeIx::NONE); Role::COUNT];
     for role in Role::ALL {
-        if let (Some(slot), Some(code)) = (modes.get_mut(role.index()), model.defaults.get(role.index())) {
+        if let (Some(slot), Some(code)) = (in_force.get_mut(role.index()), model.defaults.get(role.index())) {
             *slot = ModeSet::one(*code);
             if code.is_some() {
                 assumptions.insert(Assumption::StartMode(role, *code));
             }
         }
     }
-    let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).map(|units| match units {
+    let unit_code = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).map(|units| match units {
         Units::Inch => gcheck_controls::Effect::Inch,
         Units::Mm => gcheck_controls::Effect::Millimetre,
     });
-    if let (Some(effect), Some(slot)) = (units, modes.get_mut(Role::Units.index())) {
+    if let (Some(effect), Some(slot)) = (unit_code, in_force.get_mut(Role::Units.index())) {
         let code = model.code_with(effect);
         *slot = ModeSet::one(code);
         if machine.units.is_none() {
@@ -56,7 +57,7 @@ pub(crate) fn start_state<D: Domain>(
     let known = machine.variables.iter().map(|(number, value)| (*number, *value));
     let locals = Locals::new(model.semantics().locals[1], &vacant);
     let mut state = State {
-        modes,
+        modes: in_force,
         position,
         actual: position,
         tables: Rc::new(tables(machine)),

@@ -30,6 +30,7 @@ use gcheck_program::{
 use rustc_hash::FxHashMap;
 
 use crate::assumption::Assumption;
+use crate::cycles::Stroke;
 use crate::event::{Event, Units};
 use crate::fault::{Fault, ValueFault};
 use crate::machine::Machine;
@@ -94,6 +95,7 @@ pub enum Ending {
 pub(crate) type Step<T = ()> = Result<T, Fault>;
 
 /// Executes blocks. Holds what does not belong to the state: the program, the control, the machine, who watches.
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of the block under way and of the run")]
 pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pub(crate) program: &'a Program<'p>,
     pub(crate) model: &'a Model<'a>,
@@ -122,17 +124,19 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     returned: bool,
     /// Subroutines passed over, and whether another is defined inside.
     nested: FxHashMap<At, bool>,
+    /// Room for the strokes of a hole.
+    stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
-    pending: Vec<(Place2<D>, D::Value)>,
+    pending: Vec<(Assignee, D::Value)>,
 }
 
 /// What an assignment writes to.
-#[derive(Debug, Clone)]
-enum Place2<D: Domain> {
+#[derive(Debug, Clone, Copy)]
+enum Assignee {
     Number(u32),
     Name(NameId),
     /// A variable of unknown number.
-    Anywhere(std::marker::PhantomData<D>),
+    Anywhere,
 }
 
 /// A way on that a code asked for.
@@ -191,6 +195,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             passes_exactly: false,
             returned: false,
             nested: FxHashMap::default(),
+            stroke_buffer: Vec::new(),
             pending: Vec::new(),
         }
     }
@@ -333,6 +338,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
     }
 
+    #[inline]
     fn emit(&mut self, state: &mut State<D>, event: Event) {
         let at_once = matches!(
             event,
@@ -371,7 +377,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 Value::Number(number) => {
                     let pointed = word.shape.point;
                     let number = if pointed || number == 0.0 { number } else { self.scale(word.letter, number, state) };
-                    self.words.put(word.letter, D::number(number), pointed);
+                    self.words.put_number(word.letter, number, pointed);
                 }
                 Value::Expr(expr) => {
                     let value = self.evaluate(place, table, table.expr(expr), state)?;
@@ -768,6 +774,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 StatementKind::End { .. } => return self.loop_end().map(Statements::Done),
                 StatementKind::OWord { label, keyword, arguments } => {
+                    self.check_o_word(place, table.words(block), block)?;
                     return self.o_word(place, table, label, *keyword, arguments.clone(), state).map(Statements::Done);
                 }
                 StatementKind::Print => {}
@@ -876,15 +883,15 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
     }
 
-    fn assignee(&mut self, place: &Place, table: &BlockTable, target: &Target, state: &State<D>) -> Step<Place2<D>> {
+    fn assignee(&mut self, place: &Place, table: &BlockTable, target: &Target, state: &State<D>) -> Step<Assignee> {
         Ok(match target {
-            Target::Variable(number) => Place2::Number(*number),
-            Target::Named(range) => Place2::Name(self.name(place, (range.start, range.end))),
+            Target::Variable(number) => Assignee::Number(*number),
+            Target::Named(range) => Assignee::Name(self.name(place, (range.start, range.end))),
             Target::Computed(expr) => {
                 let value = self.evaluate(place, table, table.expr(*expr), state)?;
                 match D::known(&value) {
-                    Some(number) => Place2::Number(variable_number(number)?),
-                    None => Place2::Anywhere(std::marker::PhantomData),
+                    Some(number) => Assignee::Number(variable_number(number)?),
+                    None => Assignee::Anywhere,
                 }
             }
             Target::Invalid => return Err(Fault::Malformed),
@@ -892,25 +899,25 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// May the program write it? Asked before the block acts.
-    fn check_assignable(&self, target: &Place2<D>) -> Step {
+    fn check_assignable(&self, target: &Assignee) -> Step {
         match target {
-            Place2::Name(name) => {
+            Assignee::Name(name) => {
                 let text = self.program.name_text(*name);
                 if self.model.named_variable(&text).is_some() { Err(Fault::ReadOnlyVariable(0)) } else { Ok(()) }
             }
-            Place2::Number(number) => {
+            Assignee::Number(number) => {
                 self.check_number(*number)?;
                 let writable = *number != 0 && self.model.control().is_writable(*number);
                 if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(*number)) }
             }
-            Place2::Anywhere(_) => Ok(()),
+            Assignee::Anywhere => Ok(()),
         }
     }
 
     /// Writes a variable. Some variables end the program.
-    fn assign(&mut self, target: Place2<D>, value: D::Value, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
+    fn assign(&mut self, target: Assignee, value: D::Value, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
         match target {
-            Place2::Name(name) => {
+            Assignee::Name(name) => {
                 let text = self.program.name_text(name);
                 if self.model.named_variable(&text).is_some() {
                     return Err(Fault::ReadOnlyVariable(0));
@@ -922,15 +929,15 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 Ok(None)
             }
-            Place2::Anywhere(_) => {
+            Assignee::Anywhere => {
                 state.variables.forget();
                 if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
                     locals.forget();
                 }
                 Ok(None)
             }
-            Place2::Number(0) => Err(Fault::ReadOnlyVariable(0)),
-            Place2::Number(number) => {
+            Assignee::Number(0) => Err(Fault::ReadOnlyVariable(0)),
+            Assignee::Number(number) => {
                 if let Some((variable, row, column)) = self.model.system_variable(number) {
                     return self.write_system(number, variable, row, column, value, state);
                 }
@@ -993,7 +1000,10 @@ enum Action {
 const MOST_ACTIONS: usize = 28;
 
 /// Blocks whose form may be refused.
-const FORM: BlockFlags = BlockFlags::LABEL.union(BlockFlags::LONG_LINE).union(BlockFlags::BLOCK_DELETE);
+const FORM: BlockFlags = BlockFlags::LABEL
+    .union(BlockFlags::LONG_LINE)
+    .union(BlockFlags::BLOCK_DELETE)
+    .union(BlockFlags::PROGRAM_NUMBER);
 
 const FEED_SPEED_TOOL: LetterSet = LetterSet::of("FST");
 

@@ -130,7 +130,7 @@ impl<'a> Loaded<'a> {
             return None;
         }
         let (chunk, index) = self.outline.chunk_of(block)?;
-        let base = self.chunks.get(chunk as usize)?.start;
+        let base = self.chunks.get(chunk)?.start;
         let chunk = chunk as u32;
         let table = self.table(chunk, dialect);
         let ix = table.ix(index)?;

@@ -115,8 +115,8 @@ pub(crate) fn leads_away(place: &Place, model: &Model<'_>) -> bool {
     for statement in place.table.statements(place.ix) {
         match &statement.kind {
             StatementKind::If { .. } | StatementKind::Guard { .. } => return false,
-            StatementKind::Goto { .. } => return true,
-            StatementKind::OWord { keyword: OKeyword::Return | OKeyword::EndSub, .. } => return true,
+            StatementKind::Goto { .. }
+            | StatementKind::OWord { keyword: OKeyword::Return | OKeyword::EndSub, .. } => return true,
             _ => {}
         }
     }

@@ -83,6 +83,11 @@ impl Call {
     pub(crate) fn name(&self) -> &str {
         &self.name
     }
+
+    /// Whether it stops at the end of every block.
+    pub(crate) fn is_exact_stop(&self) -> bool {
+        self.arguments.first().is_some_and(|argument| argument == "CANON_EXACT_STOP")
+    }
 }
 
 impl fmt::Display for Call {

@@ -4,10 +4,11 @@
 //!
 //! Both print the canonical machining functions of a program, one a line; [`canonical`] says when two outputs are equal:
 //! names, order and the `N` column exactly, numbers to 1e-4, comments and messages left out, and both end or both refuse.
-//! The installed interpreter decides, in all three parts:
+//! The installed interpreter decides, but for what is listed as deliberate:
 //!
 //! * [`own`]: our own programs under `fixtures/oracle`, one feature each, by area; `refused` holds programs with one mistake,
 //!   which both must refuse; `found` holds what the generator once found, whatever the verdict. A new file is a new case.
+//! * [`deliberate`]: programs on which we differ on purpose, each with the reason and with what we print.
 //! * [`generated`]: random programs from fixed seeds (300 a run, `GCHECK_ORACLE_LONG=N` for N), one in eight with a mistake
 //!   made on purpose. A difference is minimised, printed with both outputs, and with `GCHECK_ORACLE_KEEP=1` written to
 //!   `fixtures/oracle/found`.
@@ -27,6 +28,7 @@
 
 mod canonical;
 mod corpus;
+mod deliberate;
 mod generated;
 mod generator;
 mod minimise;

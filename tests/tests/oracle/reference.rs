@@ -9,6 +9,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use crate::canonical::{End, Outcome, read};
+use crate::deliberate::without_idle_tolerance;
 use crate::process::run;
 use crate::setup::Setup;
 
@@ -38,8 +39,14 @@ pub(crate) fn find() -> Option<Reference> {
 }
 
 impl Reference {
-    /// Runs a program in its folder.
+    /// Runs a program in its folder. What of its output never counts is left out.
     pub(crate) fn run(&self, program: &Path, setup: &Setup) -> Outcome {
+        let Outcome { calls, end } = self.run_whole(program, setup);
+        Outcome { calls: without_idle_tolerance(calls), end }
+    }
+
+    /// Runs a program in its folder, all of its output.
+    pub(crate) fn run_whole(&self, program: &Path, setup: &Setup) -> Outcome {
         // The home folder holds the tool table of the running interpreter: two of them with one home disturb each other.
         let home = tempfile::tempdir().unwrap();
         let (table, parameters) = (home.path().join("tool.tbl"), home.path().join("parameters.var"));

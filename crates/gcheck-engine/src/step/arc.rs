@@ -23,10 +23,11 @@ pub(super) fn plane_axes(plane: Plane) -> ([Axis; 3], [Letter; 3]) {
         _ => (Axis::Z, Letter::of('K')),
     };
     let (first, second, normal) = plane.axes();
-    let [(a, i), (b, j), (c, k)] = [of(first), of(second), of(normal)];
-    ([a, b, c], [i, j, k])
+    let all = [of(first), of(second), of(normal)];
+    (all.map(|(axis, _)| axis), all.map(|(_, centre)| centre))
 }
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G2`, `G3`.
     pub(super) fn arc(&mut self, counter_clockwise: bool, state: &mut State<D>) -> Step {

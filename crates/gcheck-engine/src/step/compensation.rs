@@ -50,6 +50,7 @@ fn config(semantics: &Semantics) -> CompensationConfig {
     }
 }
 
+#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// An event while compensation is on: it keeps its place between the moves.
     pub(crate) fn emit_compensated(&mut self, state: &mut State<D>, event: Event) {
@@ -113,7 +114,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
-        if let Some(value) = self.words.get(Letter::of('D')).cloned() {
+        if let Some(value) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
             state.d = value;
         } else if self.model.semantics().tools.radius_from_tool {

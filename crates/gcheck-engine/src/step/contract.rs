@@ -59,6 +59,7 @@ fn is_whole(value: f64) -> bool {
 
 /// What one code demands of its block, before the block acts.
 #[derive(Debug, Clone, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of a code")]
 pub(crate) struct CodeContract {
     /// Addresses that it reads.
     reads: LetterSet,
@@ -88,6 +89,7 @@ pub(crate) struct CodeContract {
 
 /// What holds for every block of a control.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of a control")]
 pub(crate) struct BlockContract {
     strict: bool,
     two_of_a_group: bool,
@@ -221,7 +223,7 @@ impl BlockContract {
             Some(axes) if strict => control.axes().without(letters(axes)),
             _ => LetterSet::EMPTY,
         };
-        let ranged: LetterSet = ranges.iter().map(|range: &ValueRange| range.letter).collect();
+        let bounded: LetterSet = ranges.iter().map(|range: &ValueRange| range.letter).collect();
         let syntax = control.syntax();
         let sure_of_delete = strict && syntax.block_delete_confidence == Some(Confidence::Manual);
         let mut trouble = BlockFlags::empty();
@@ -235,7 +237,7 @@ impl BlockContract {
             word_twice: is_refused(word_twice),
             unread_word: is_refused(unread_word),
             idle: !strict && !refuses,
-            watched: bound.or(ranged).or(absent_axes).or(POLAR),
+            watched: bound.or(bounded).or(absent_axes).or(POLAR),
             bound,
             beside,
             ranges,
@@ -292,7 +294,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if block.flags.contains(BlockFlags::LABEL) {
             self.check_label(place, words, block)?;
         }
+        if block.flags.contains(BlockFlags::PROGRAM_NUMBER) {
+            self.check_o_word(place, words, block)?;
+        }
         Ok(())
+    }
+
+    /// An O-word, or the `O` that begins a program, stands alone in its block, a number in front of it set aside.
+    pub(super) fn check_o_word(&self, place: &Place, words: &[Word], block: &Block) -> Step {
+        if self.lenient || !self.model.contract.strict || !self.model.control().syntax().o_words {
+            return Ok(());
+        }
+        let (n, o) = (Letter::of('N'), Letter::of('O'));
+        let others = words.iter().filter(|word| word.letter != n && word.letter != o).count();
+        let programs = words.iter().filter(|word| word.letter == o).count();
+        let has_statements = block.flags.contains(BlockFlags::STATEMENT);
+        let statements = if has_statements { place.table.statements(place.ix).count() } else { 0 };
+        if others > 0 || programs + statements > 1 { Err(Fault::Malformed) } else { Ok(()) }
     }
 
     /// The number of a block stands in front of everything but `/`, as digits without a sign.

@@ -16,6 +16,8 @@ use crate::position::{Axis, Position};
 use crate::state::State;
 use crate::value::{Domain, Truth};
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
+#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// A block under a canned cycle.
     pub(super) fn cycle(&mut self, code: CodeIx, state: &mut State<D>) -> Step {
@@ -48,7 +50,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.needs_axis && !has_words && !names_code {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
         }
-        if !rules.needs_axis && !has_point && !(names_code && self.runs_without_point()) {
+        let runs_here = names_code && self.runs_without_point();
+        if !(rules.needs_axis || has_point || runs_here) {
             return Ok(());
         }
         self.check_cycle(state)?;
@@ -219,7 +222,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) -> Step {
         let incremental = state.is_incremental(self.model);
-        let rules = self.model.semantics().cycles.clone();
+        let rules = &self.model.semantics().cycles;
         let words = state.cycle;
         let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
@@ -248,7 +251,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 },
                 units,
             };
-            result = self.hole(effect, &facts, plane, &rules, state);
+            result = self.hole(effect, &facts, plane, rules, state);
             if result.is_err() {
                 break;
             }
@@ -268,7 +271,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) -> Step {
         let from = state.position.xyz();
-        let mut strokes = Vec::new();
+        let mut strokes = std::mem::take(&mut self.stroke_buffer);
+        strokes.clear();
         let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
         if result.is_ok()
             && let Err(fault) = self.check_cycle_spindle(effect, rules, state)
@@ -281,7 +285,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.strokes(&strokes, plane, state)?;
             return Err(fault);
         }
-        self.strokes(&strokes, plane, state)?;
+        let given_out = self.strokes(&strokes, plane, state);
+        self.stroke_buffer = strokes;
+        given_out?;
         match result {
             Ok(end) => {
                 state.position = state.position.with_xyz(end);

@@ -28,6 +28,7 @@ pub(super) struct Callee<D: Domain> {
 /// Calls that nest deeper than this are taken for a recursion without end where the control names no limit.
 const DEEPEST: usize = 64;
 
+#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Goes where the block's codes said.
     pub(super) fn follow(&mut self, flow: Flow<D>, state: &mut State<D>) -> Step<Outcome<D>> {
@@ -284,16 +285,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 continue;
             };
             let mut number = *first;
-            if several && let Some(turn) = "IJK".chars().position(|l| word.letter == Letter::of(l)) {
-                if let Some(count) = seen.get_mut(turn) {
-                    number = 4 + turn as u32 + 3 * *count;
-                    *count += 1;
-                }
+            if several
+                && let Some(turn) = "IJK".chars().position(|l| word.letter == Letter::of(l))
+                && let Some(count) = seen.get_mut(turn)
+            {
+                number = 4 + turn as u32 + 3 * *count;
+                *count += 1;
             }
             let value = match word.value {
                 // The value that the block's words hold is scaled; of a repeated address only the last is there.
                 Value::Number(literal) if several => D::number(literal),
-                _ => self.words.get(word.letter).cloned().unwrap_or_else(D::vacant),
+                _ => self.words.get(word.letter).unwrap_or_else(D::vacant),
             };
             arguments.push((number, value));
         }

@@ -16,6 +16,7 @@ use crate::position::{Axis, Position};
 use crate::state::State;
 use crate::value::{Domain, Truth};
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Carries out one code of the block.
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
@@ -193,7 +194,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
             E::Skip => self.skip_move(state)?,
             E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => self.measure(effect, state)?,
-            E::KeepTouch => {}
 
             E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => self.profile_cycle(effect, ix, state)?,
             E::GrooveFace | E::GrooveDiameter => self.groove_cycle(effect, state)?,
@@ -208,7 +208,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::MacroModalOff => state.macro_modal = None,
             E::CallProgram | E::CallLocal => self.call_code(effect, state)?,
             E::Return => {
-                let label = self.words.get(Letter::of('P')).cloned();
+                let label = self.words.get(Letter::of('P'));
                 self.flow = Some(Flow::Return { label });
             }
             E::JumpUnlessInput => self.jump_unless_input(state)?,

@@ -18,6 +18,7 @@ use crate::position::{Axis, Position};
 use crate::state::State;
 use crate::value::Domain;
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
@@ -107,8 +108,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut target = state.position;
         let incremental = state.is_incremental(self.model);
         let unit = self.unit(state);
-        let axes = self.words.present().and(self.model.axis_letters);
-        for letter in axes.iter() {
+        let named = self.words.present().and(self.model.axis_letters);
+        for letter in named.iter() {
             let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
             let Some(mut value) = self.words.number(letter) else { continue };
             if let Some(machine) = &self.machine.axes
@@ -250,9 +251,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let unit = self.unit(state);
         let mut machine = state.machine();
-        let axes = self.words.present().and(self.model.axis_letters);
+        let named = self.words.present().and(self.model.axis_letters);
         let diameter = state.is_diameter(self.model) == Some(true);
-        for letter in axes.iter() {
+        for letter in named.iter() {
             let Some((axis, _)) = self.model.axis_of(letter) else { continue };
             let Some(value) = self.words.number(letter) else { continue };
             let value = if axis.is_rotary() { value } else { value * unit };
@@ -264,7 +265,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut to = state.actual;
         for axis in Axis::ALL {
             let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
-            if axes.contains(axis.letter()) || rotated {
+            if named.contains(axis.letter()) || rotated {
                 to.set(axis, target.raw(axis));
             }
         }
@@ -446,7 +447,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G5.3`: the curve is cut.
     pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
         let Some(points) = state.nurbs.take() else { return Err(Fault::NoMotionMode) };
-        if points.first().is_some_and(|[_, _, order]| (points.len() as f64) < *order) {
+        if points.first().is_some_and(|[_, _, order]| f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX)) < *order) {
             return Err(Fault::TooFewPoints);
         }
         let mut to = state.position;

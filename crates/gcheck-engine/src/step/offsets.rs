@@ -14,12 +14,12 @@ use crate::assumption::Assumption;
 use crate::event::{Event, ToolEntry};
 use crate::fault::{CompensationFault, Fault};
 use crate::machine::WorkOffset;
-use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
 use crate::state::{State, rotate};
 use crate::value::Domain;
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Changes offsets while the axes stand still.
     fn reframe(&mut self, state: &mut State<D>, change: impl FnOnce(&mut State<D>)) {
@@ -33,7 +33,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.actual = if before.rotation == 0.0 && after.rotation == 0.0 {
             old + before.less(&after)
         } else {
-            after.from_machine(&before.to_machine(&old))
+            after.work_of_machine(&before.to_machine(&old))
         };
         state.position = self.programmed_of(&state.actual, state);
     }
@@ -195,7 +195,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
-            Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
+            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
             Some(Count::Known(number)) => {
                 if number == 0 && !rules.length_from_tool {
                     // H0 is length zero, and ends the compensation on some controls.
@@ -206,11 +206,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.apply_length(number, sign, state)
             }
             Some(Count::Unknown) => {
-                state.h = self.words.get(Letter::of('H')).cloned().unwrap_or_else(D::unknown);
+                state.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
-            None if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
             None if rules.length_from_tool => match D::known(&state.tool) {
                 #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
                 Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
@@ -594,10 +593,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    /// Does any length compensation act?
-    pub(super) fn has_length(&self, state: &State<D>) -> bool {
-        !matches!(state.effect(Role::Length, self.model), Some(Effect::LengthOff | Effect::None))
-    }
 }
 
 /// Everything between work and machine coordinates.
@@ -628,7 +623,7 @@ impl Frame {
         rotate(*work + self.shift, self.rotation) + self.origin + self.length
     }
 
-    fn from_machine(self, machine: &Position) -> Position {
+    fn work_of_machine(self, machine: &Position) -> Position {
         rotate(*machine - self.length - self.origin, -self.rotation) - self.shift
     }
 

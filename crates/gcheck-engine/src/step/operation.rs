@@ -171,7 +171,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Radius of the tool that `D` names, now or before; 0 for `D0`, NaN unknown.
     fn pocket_tool_radius(&mut self, state: &mut State<D>) -> Step<f64> {
-        if let Some(d) = self.words.get(Letter::of('D')).cloned() {
+        if let Some(d) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
             state.d = d;
         }

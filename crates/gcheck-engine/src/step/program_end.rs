@@ -16,6 +16,7 @@ use crate::state::{At, SavedModes, State};
 use crate::step::Ending;
 use crate::value::{Domain, Truth};
 
+#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M2`, `M30`: resets what the control resets, then ends.
     pub(super) fn end_program(&mut self, pallet: bool, state: &mut State<D>) -> Step {

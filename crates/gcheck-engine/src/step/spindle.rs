@@ -8,16 +8,16 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Event, FeedMode, Spindle};
 use crate::fault::Fault;
-use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Position;
 use crate::state::State;
 use crate::value::Domain;
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `F`.
     pub(super) fn feed_word(&mut self, state: &mut State<D>) -> Step {
-        let Some(value) = self.words.get(Letter::of('F')).cloned() else { return Ok(()) };
+        let Some(value) = self.words.get(Letter::of('F')) else { return Ok(()) };
         if D::known(&value).is_some_and(|f| f < 0.0) {
             return Err(Fault::WordRange(Letter::of('F')));
         }
@@ -38,7 +38,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `S`.
     pub(super) fn speed_word(&mut self, state: &mut State<D>) -> Step {
-        let Some(value) = self.words.get(Letter::of('S')).cloned() else { return Ok(()) };
+        let Some(value) = self.words.get(Letter::of('S')) else { return Ok(()) };
         if D::known(&value).is_some_and(|s| s < 0.0) {
             return Err(Fault::WordRange(Letter::of('S')));
         }
@@ -108,9 +108,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let Some(number) = self.words.number(letter) else { continue };
             let seconds = match kind {
                 DwellWord::Seconds => number,
-                DwellWord::Milliseconds => number / 1000.0,
-                DwellWord::SecondsOrMilliseconds if self.words.is_pointed(letter) => number,
-                DwellWord::SecondsOrMilliseconds => number / 1000.0,
+                DwellWord::SecondsOrMilliseconds | DwellWord::Milliseconds => {
+                    let is_seconds = *kind == DwellWord::SecondsOrMilliseconds && self.words.is_pointed(letter);
+                    if is_seconds { number } else { number / 1000.0 }
+                }
             };
             found = Some(seconds);
         }
@@ -131,7 +132,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = self.model.semantics().tools;
         let Some(word) = self.count(Letter::of('T'))? else { return Ok(()) };
         let Count::Known(mut number) = word else {
-            state.selected = self.words.get(Letter::of('T')).cloned().unwrap_or_else(D::unknown);
+            state.selected = self.words.get(Letter::of('T')).unwrap_or_else(D::unknown);
             self.emit(state, Event::SelectTool(None));
             if rules.change_by_t {
                 state.tool = D::unknown();
@@ -285,11 +286,4 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.spindle.map(|s| s != Spindle::Stopped)
     }
 
-    /// The programmed speed in turns a minute, if it is constant and known.
-    pub(super) fn rpm(&self, state: &State<D>) -> Option<f64> {
-        match state.effect(Role::SpindleMode, self.model) {
-            Some(Effect::SurfaceSpeed) | None => None,
-            Some(_) => D::known(&state.speed),
-        }
-    }
 }

@@ -127,10 +127,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
                 let before = file.loaded.text().as_bytes().get(..self.origin.start as usize).unwrap_or_default();
-                D::number(before.iter().filter(|byte| **byte == b'\n').count() as f64 + 1.0)
+                let lines = before.split(|byte| *byte == b'\n').count();
+                D::number(f64::from(u32::try_from(lines).unwrap_or(u32::MAX)))
             }),
             V::Constant => variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number),
-            V::CallLevel => D::number((state.frames.len() - 1) as f64),
+            V::CallLevel => D::number(f64::from(u32::try_from(state.frames.len()).unwrap_or(1) - 1)),
             V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
                 Unset::Vacant => D::vacant(),
                 Unset::Zero => D::number(0.0),
@@ -173,7 +174,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let cycle = state.active_cycle(self.model);
         let code = match role {
             // A cycle stands in for the motion where they are one group.
-            Some(Role::Motion) if cycle.is_some_and(|c| c.is_some()) => cycle,
+            Some(Role::Motion) if cycle.is_some_and(gcheck_controls::CodeIx::is_some) => cycle,
             Some(role) => state.mode(role).only(),
             None => None,
         };
@@ -223,7 +224,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let value = known.unwrap_or(f64::NAN);
                 match (variable.holds, axis) {
                     (SystemValue::WorkRotation, _) => offset.rotation = value,
-                    (_, Some(axis)) => offset.origin.set(axis, self.from_table_units(axis, value, state)),
+                    (_, Some(axis)) => offset.origin.set(axis, self.millimetres_of_table(axis, value, state)),
                     _ => {}
                 }
                 // Written, but in effect only when the system is chosen again; elsewhere at once.
@@ -236,7 +237,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             SystemValue::Reference1 | SystemValue::Reference2 => {
                 if let Some(axis) = axis {
-                    let value = self.from_table_units(axis, known.unwrap_or(f64::NAN), state);
+                    let value = self.millimetres_of_table(axis, known.unwrap_or(f64::NAN), state);
                     let index = usize::from(variable.holds == SystemValue::Reference2);
                     if let Some(slot) = Rc::make_mut(&mut state.tables).references.get_mut(index) {
                         slot.set(axis, value);
@@ -246,7 +247,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             SystemValue::ToolLength | SystemValue::ToolDiameter | SystemValue::ToolRadius => {
                 let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
                 let tool = first.parse::<u32>().unwrap_or(1) + column;
-                let value = self.from_table_units(Axis::Z, known.unwrap_or(f64::NAN), state);
+                let value = self.millimetres_of_table(Axis::Z, known.unwrap_or(f64::NAN), state);
                 let entry = Rc::make_mut(&mut state.tables).tool_mut(tool);
                 match variable.holds {
                     SystemValue::ToolLength => {
@@ -263,7 +264,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             SystemValue::Shift => {
                 if let Some(axis) = axis {
-                    let value = self.from_table_units(axis, known.unwrap_or(f64::NAN), state);
+                    let value = self.millimetres_of_table(axis, known.unwrap_or(f64::NAN), state);
                     state.shift.set(axis, value);
                 }
             }
@@ -272,7 +273,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(None)
     }
 
-    fn from_table_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+    fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
         if axis.is_rotary() {
             return value;
         }

@@ -15,6 +15,8 @@ use crate::value::Domain;
 /// X, Y and Z, in the order of the arrays of [`Transform`].
 const XYZ: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
+#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
+#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G50`, `G51`, `G68`, `G69`, mirrors.
     pub(super) fn transform_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
@@ -102,18 +104,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> ((Mm, Mm), i32) {
         let Some(frame) = frame(&state.transform) else { return (centre, turns) };
         let Some(frame) = frame else { return ((Mm::UNKNOWN, Mm::UNKNOWN), turns) };
-        let ([first, second, normal], _) = plane_axes(plane);
+        let ([first, second, _], _) = plane_axes(plane);
         let mut point = state.position;
         point.set(first, centre.0.0);
         point.set(second, centre.1.0);
         let moved = point.with_xyz(frame.apply(point.xyz()));
-        let _ = normal;
         let turns = if frame.reverses_plane(plane) { -turns } else { turns };
         ((Mm(moved.raw(first)), Mm(moved.raw(second))), turns)
     }
 }
 
 /// The transformation; `None` when there is none, `Some(None)` when it is not known.
+#[expect(clippy::option_option, reason = "no transformation, an unknown one and a known one are three things")]
+#[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
 fn frame(transform: &Transform) -> Option<Option<Frame>> {
     if transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3] {
         return None;

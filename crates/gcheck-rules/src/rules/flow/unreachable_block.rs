@@ -197,7 +197,7 @@ fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
     }
     let Some(place) = file.loaded.place(block, cx.scene.dialect) else { return false };
     let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N');
-    match label.and_then(|word| word.integer()) {
+    match label.and_then(gcheck_program::Word::integer) {
         Some(number) => cx.survey.jumps.iter().any(|jump| jump.target == Some(number)),
         None => place.table.statements(place.ix).next().is_some(),
     }

@@ -58,7 +58,11 @@ impl PathRule for DistanceModeNotStated {
 
 impl DistanceModeNotStated {
     fn first_move(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if self.is_done || is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABC")) {
+        if self.is_done {
+            cx.enough();
+            return;
+        }
+        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABC")) {
             return;
         }
         self.is_done = true;

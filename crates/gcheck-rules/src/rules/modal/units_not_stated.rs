@@ -52,7 +52,11 @@ impl PathRule for UnitsNotStated {
 
 impl UnitsNotStated {
     fn first_move(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if self.is_done || is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZUVW")) {
+        if self.is_done {
+            cx.enough();
+            return;
+        }
+        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZUVW")) {
             return;
         }
         self.is_done = true;

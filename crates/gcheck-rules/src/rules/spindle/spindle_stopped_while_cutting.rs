@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn a_program_without_a_spindle_is_told_once() {
+    fn a_program_that_knows_no_spindle_says_nothing() {
         check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![""]);
     }
 
@@ -221,11 +221,11 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "S1000\nG1 X2. F10.\nM30\n",
+            "T1 M6\nS1000\nG1 X2. F10.\nM30\n",
             &expect![[r#"
-            2 | G1 X2. F10.
-              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut, and the spindle was not started (no `M3`)
-        "#]],
+                3 | G1 X2. F10.
+                  | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+            "#]],
         );
     }
 
