@@ -83,7 +83,7 @@ pub(crate) fn start_state<D: Domain>(
         feed_override: Truth::True,
         speed_override: Truth::True,
         adaptive: Truth::False,
-        feed_hold: Truth::False,
+        feed_hold: Truth::True,
         tool: if machine.fresh { D::number(0.0) } else { D::unknown() },
         selected: if machine.fresh { D::number(0.0) } else { D::unknown() },
         loaded: Tool {

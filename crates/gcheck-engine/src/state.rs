@@ -101,6 +101,8 @@ pub struct CycleWords {
     pub p: f64,
     /// The last dwell of any series: some controls give it to taps without one of their own.
     pub last_dwell: f64,
+    /// A threading cycle turned the feed override on, though the program has it off.
+    pub feed_override_on: bool,
     /// I, J, K.
     pub ijk: [f64; 3],
     /// Depth along the tool.
@@ -117,6 +119,7 @@ impl CycleWords {
         q: f64::NAN,
         p: f64::NAN,
         last_dwell: f64::NAN,
+        feed_override_on: false,
         ijk: [f64::NAN; 3],
         e: f64::NAN,
         initial: f64::NAN,
@@ -124,12 +127,14 @@ impl CycleWords {
 
     /// Nothing of this series yet.
     pub(crate) fn series(&self, initial: f64) -> Self {
-        Self { last_dwell: self.last_dwell, initial, ..Self::NONE }
+        let Self { last_dwell, feed_override_on, .. } = *self;
+        Self { last_dwell, feed_override_on, initial, ..Self::NONE }
     }
 
-    fn bits(&self) -> [u64; 10] {
+    fn bits(&self) -> ([u64; 10], bool) {
         let [i, j, k] = self.ijk;
-        [self.r, self.z, self.q, self.p, self.last_dwell, i, j, k, self.e, self.initial].map(f64::to_bits)
+        let numbers = [self.r, self.z, self.q, self.p, self.last_dwell, i, j, k, self.e, self.initial];
+        (numbers.map(f64::to_bits), self.feed_override_on)
     }
 
     fn join(&self, other: &Self) -> Self {
@@ -142,6 +147,7 @@ impl CycleWords {
             q: pick(self.q, other.q),
             p: pick(self.p, other.p),
             last_dwell: pick(self.last_dwell, other.last_dwell),
+            feed_override_on: self.feed_override_on && other.feed_override_on,
             ijk: [pick(i, i2), pick(j, j2), pick(k, k2)],
             e: pick(self.e, other.e),
             initial: pick(self.initial, other.initial),

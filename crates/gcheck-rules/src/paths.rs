@@ -655,7 +655,7 @@ mod tests {
             Fault::NoSuchProgram => By(&["subprogram-missing", "o-word-subroutine-missing"]),
             Fault::TooDeep => By(&["calls-nested-too-deep"]),
             Fault::LoopMismatch => By(&["loop-end-missing", "loop-begin-missing", "crossed-loops", "o-word-unmatched"]),
-            Fault::StrayReturn => By(&["o-word-unmatched"]),
+            Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
             Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
             Fault::Alarm(_) => By(&["alarm-reached"]),
         }

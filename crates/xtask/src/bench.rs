@@ -5,6 +5,7 @@
 
 mod command_line;
 mod in_process;
+mod peer;
 mod row;
 
 use std::process::ExitCode;

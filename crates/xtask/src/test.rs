@@ -93,6 +93,41 @@ fn has_cargo_command(name: &str) -> bool {
 
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
+    install_interpreter();
+    install_validator()
+}
+
+/// The Debian package of the LinuxCNC interpreter, `rs274`, that tests compare the engine with.
+const INTERPRETER: &str = "linuxcnc-uspace";
+
+fn install_interpreter() {
+    if !cfg!(target_os = "linux") || is_in_path("rs274") {
+        return;
+    }
+    let without = "the engine is not compared with the LinuxCNC interpreter";
+    if !is_in_path("apt-get") {
+        say(&format!("rs274 (Debian's {INTERPRETER}) is not installed and there is no apt-get: {without}"));
+        return;
+    }
+    say(&format!("installing {INTERPRETER}"));
+    let apt = |arguments: &[&str]| {
+        let mut command = Command::new("apt-get");
+        command.args(arguments).env("DEBIAN_FRONTEND", "noninteractive").stdin(Stdio::null()).stdout(Stdio::null());
+        command.status().is_ok_and(|status| status.success())
+    };
+    // Only root may; the package's name is looked up in lists that may be old or missing.
+    let is_installed = apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", INTERPRETER]);
+    if !is_installed || !is_in_path("rs274") {
+        say(&format!("apt-get could not install {INTERPRETER} (root may): {without}"));
+    }
+}
+
+fn is_in_path(program: &str) -> bool {
+    let folders = env::var_os("PATH").unwrap_or_default();
+    env::split_paths(&folders).any(|folder| folder.join(program).is_file())
+}
+
+fn install_validator() -> anyhow::Result<()> {
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
         say("the SARIF validator is made for Linux on x86-64: SARIF output is not validated here");
         return Ok(());

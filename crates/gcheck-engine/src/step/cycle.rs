@@ -246,7 +246,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return_to_r,
                 first_of_block: turn == 0,
                 overrides: Overrides {
-                    feed: state.feed_override != Truth::False,
+                    feed: state.feed_override != Truth::False || state.cycle.feed_override_on,
                     speed: state.speed_override != Truth::False,
                 },
                 units,
@@ -364,13 +364,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 Stroke::Sync(lead) => self.emit(state, Event::SpindleSync { lead, velocity: false }),
                 Stroke::FeedOverride(on) => {
-                    state.feed_override = if on { Truth::True } else { Truth::False };
+                    state.cycle.feed_override_on = on;
                     self.emit(state, Event::Override { kind: Override::Feed, on });
                 }
-                Stroke::SpeedOverride(on) => {
-                    state.speed_override = if on { Truth::True } else { Truth::False };
-                    self.emit(state, Event::Override { kind: Override::Speed, on });
-                }
+                Stroke::SpeedOverride(on) => self.emit(state, Event::Override { kind: Override::Speed, on }),
                 Stroke::OperatorStop => self.emit(state, Event::Stop(Stop::Program)),
             }
         }

@@ -270,6 +270,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let on = effect == E::OverridesOn;
                 state.feed_override = if on { Truth::True } else { Truth::False };
                 state.speed_override = state.feed_override;
+                state.cycle.feed_override_on = false;
                 self.emit(state, Event::Override { kind: Override::Feed, on });
                 self.emit(state, Event::Override { kind: Override::Speed, on });
             }
@@ -322,6 +323,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let kind = match effect {
             Effect::FeedOverride => {
                 state.feed_override = truth;
+                state.cycle.feed_override_on = false;
                 Override::Feed
             }
             Effect::SpeedOverride => {

@@ -177,9 +177,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::Spindle(spindle));
             }
         }
-        // It writes what is saved into one block, so that switches act before planes, offsets and path control.
-        self.restore_coolant(&was, saved, state);
-        self.restore_overrides(&was, saved, state);
+        // The first M code stands in one block with the G codes and acts before them; the others follow in blocks of their
+        // own.
+        let restores_path = differs(Role::PathControl) || was.blending != saved.blending;
+        let mut switches = changed_switches(&was, saved).into_iter();
+        if was.spindle == saved.spindle
+            && let Some(first) = switches.next()
+        {
+            let blends = state.effect(Role::PathControl, self.model) == Some(Effect::PathBlending);
+            let p = (restores_path && blends).then_some(saved.blending.0);
+            self.restore_switch(first, p, state);
+        }
         if differs(Role::Plane) && let Some(plane) = state.plane(self.model) {
             self.emit(state, Event::Plane(plane));
         }
@@ -193,49 +201,93 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.select_work_offset(Some(n), state);
             }
         }
-        if differs(Role::PathControl) || was.blending != saved.blending {
+        if restores_path {
             state.blending = saved.blending;
             let mode = self.current_path_mode(state);
             self.path_mode(mode, state);
         }
+        for switch in switches {
+            self.restore_switch(switch, None, state);
+        }
         self.origin.n = number;
     }
 
-    /// Observed: coolant that was on is turned on, and none is turned off unless all was off.
-    fn restore_coolant(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
-        if (was.mist, was.flood) == (saved.mist, saved.flood) {
-            return;
-        }
-        let all_off = saved.mist == Truth::False && saved.flood == Truth::False;
-        for (kind, was, saved) in [(Coolant::Mist, was.mist, saved.mist), (Coolant::Flood, was.flood, saved.flood)] {
-            if all_off || was != saved && saved == Truth::True {
-                self.coolant(kind, !all_off, state);
+    /// One M code of a restored state. `p` is what a `G64` of its block gives it by accident.
+    fn restore_switch(&mut self, switch: Switch, p: Option<f64>, state: &mut State<D>) {
+        let on = p.is_none_or(|p| p != 0.0);
+        let truth = if on { Truth::True } else { Truth::False };
+        let kind = match switch {
+            Switch::CoolantOff => {
+                self.coolant(Coolant::Mist, false, state);
+                self.coolant(Coolant::Flood, false, state);
+                return;
             }
-        }
+            Switch::Coolant(kind) => {
+                self.coolant(kind, true, state);
+                return;
+            }
+            Switch::Overrides => {
+                state.feed_override = Truth::True;
+                state.speed_override = Truth::True;
+                self.emit(state, Event::Override { kind: Override::Feed, on: true });
+                self.emit(state, Event::Override { kind: Override::Speed, on: true });
+                return;
+            }
+            Switch::Speed => {
+                state.speed_override = truth;
+                Override::Speed
+            }
+            Switch::Adaptive => {
+                state.adaptive = truth;
+                Override::Adaptive
+            }
+            Switch::FeedStop => {
+                state.feed_hold = truth;
+                Override::FeedStop
+            }
+        };
+        self.emit(state, Event::Override { kind, on });
     }
+}
 
-    /// What the interpreter makes of saved switches (observed): a feed override that was on comes back as `M48` does, for
-    /// both; one that was off brings the speed's. The speed override itself, adaptive feed and feed stop that were off
-    /// stay as they are.
-    fn restore_overrides(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
-        let comes_on = |old: Truth, new: Truth| old != new && new == Truth::True;
-        if comes_on(was.feed_override, saved.feed_override) {
-            state.feed_override = Truth::True;
-            self.emit(state, Event::Override { kind: Override::Feed, on: true });
+/// An M code by which the interpreter restores a switch.
+#[derive(Debug, Clone, Copy)]
+enum Switch {
+    CoolantOff,
+    Coolant(Coolant),
+    Overrides,
+    Speed,
+    Adaptive,
+    FeedStop,
+}
+
+/// What the interpreter makes of saved switches, in its order (observed). Coolant that was on is turned on, and none is turned
+/// off unless all was off. A feed override that was on comes back for both; one that was off brings the speed's. The speed
+/// override itself is not looked at, and adaptive feed and feed stop that were off stay as they are.
+fn changed_switches(was: &SavedModes, saved: &SavedModes) -> Vec<Switch> {
+    let comes_on = |old: Truth, new: Truth| old != new && new == Truth::True;
+    let mut switches = Vec::new();
+    if (was.mist, was.flood) != (saved.mist, saved.flood) {
+        if saved.mist == Truth::False && saved.flood == Truth::False {
+            switches.push(Switch::CoolantOff);
         }
-        if was.feed_override != saved.feed_override {
-            state.speed_override = Truth::True;
-            self.emit(state, Event::Override { kind: Override::Speed, on: true });
+        if comes_on(was.mist, saved.mist) {
+            switches.push(Switch::Coolant(Coolant::Mist));
         }
-        if comes_on(was.adaptive, saved.adaptive) {
-            state.adaptive = Truth::True;
-            self.emit(state, Event::Override { kind: Override::Adaptive, on: true });
-        }
-        if comes_on(was.feed_hold, saved.feed_hold) {
-            state.feed_hold = Truth::True;
-            self.emit(state, Event::Override { kind: Override::FeedStop, on: true });
+        if comes_on(was.flood, saved.flood) {
+            switches.push(Switch::Coolant(Coolant::Flood));
         }
     }
+    if was.feed_override != saved.feed_override {
+        switches.push(if saved.feed_override == Truth::True { Switch::Overrides } else { Switch::Speed });
+    }
+    if comes_on(was.adaptive, saved.adaptive) {
+        switches.push(Switch::Adaptive);
+    }
+    if comes_on(was.feed_hold, saved.feed_hold) {
+        switches.push(Switch::FeedStop);
+    }
+    switches
 }
 
 fn known<D: Domain>(value: f64) -> D::Value {

@@ -46,6 +46,7 @@ pub(crate) mod flow {
     pub(crate) mod jump_into_loop;
     pub(crate) mod jump_to_missing_block;
     pub(crate) mod loop_condition_unchanged;
+    pub(crate) mod return_outside_subroutine;
     pub(crate) mod subprogram_without_return;
     pub(crate) mod unreachable_block;
 }
@@ -248,6 +249,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::jump_into_loop::RULE,
     &flow::jump_to_missing_block::RULE,
     &flow::loop_condition_unchanged::RULE,
+    &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::feed_above_machine_limit::RULE,

@@ -11,6 +11,7 @@ use gcheck_testkit::inputs;
 use serde_json::Value;
 
 use super::in_process::CONTROL;
+use super::peer;
 use super::row::{Limit, Row};
 use crate::measure::{Usage, measure};
 use crate::workspace;
@@ -71,6 +72,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         limit: Limit::AtMost(15.0),
         unit: "ms",
     });
+    rows.extend(peer::rows(&gcheck, &inputs)?);
     Ok(rows)
 }
 

@@ -1,11 +1,12 @@
-//! Throughput of the front end, called directly: tokens, blocks, trees.
+//! Throughput of the front end, and the analysis of all paths, called directly: tokens, blocks, trees, flow.
 //!
 //! Knows: which functions the path of the data runs through. Must not know: the command line.
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use gcheck_program::{Dialect, lower};
+use gcheck_engine::{FlowObserver, Machine, Model, NoLibrary, Options, Program, flow};
+use gcheck_program::{Dialect, Loaded, lower};
 use gcheck_syntax::{count_tokens, cut, parse};
 use gcheck_testkit::inputs;
 
@@ -14,6 +15,8 @@ use super::row::{Limit, Row};
 /// Fewer lines than the command-line rows use: throughput does not depend on length.
 const LINES: usize = 200_000;
 const RUNS: usize = 7;
+/// Blocks that the analysis of all paths may execute, as `check` has it.
+const FUEL: u64 = 50_000_000;
 
 /// The control on whose behalf text is read.
 pub(super) const CONTROL: &str = "generic-mill";
@@ -66,8 +69,26 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         let measured = Some(slowest * 1e3);
         rows.push(Row { name: name.to_owned(), measured, limit: Limit::AtMost(limit), unit: "ms" });
     }
+    let program = inputs::macros(2_000);
+    let model = Model::new(&control);
+    let seconds = best(|| {
+        let loaded = Loaded::new(program.as_str(), &dialect, |_, _, _| ());
+        let program = Program::new(loaded, &dialect, &NoLibrary);
+        black_box(flow(&program, &model, &Machine::default(), Options::NONE, FUEL, &mut Nobody));
+    });
+    rows.push(Row {
+        name: "flow, 2,000 lines of macros".to_owned(),
+        measured: Some(seconds * 1e3),
+        limit: Limit::AtMost(20.0),
+        unit: "ms",
+    });
     Ok(rows)
 }
+
+/// Watches nothing.
+struct Nobody;
+
+impl FlowObserver for Nobody {}
 
 /// Seconds of the fastest of several runs: the one that was disturbed least.
 fn best(mut work: impl FnMut()) -> f64 {

@@ -309,6 +309,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             restore_on_return: false,
             wanted_branch: None,
         });
+        // The way to the first point was a rapid, and so is what the subprogram gives no code.
+        scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
         let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
         // What the subprogram leaves as motion mode and in variables stays.
         if let Some(mode) = scratch.mode(Role::Motion).only() {

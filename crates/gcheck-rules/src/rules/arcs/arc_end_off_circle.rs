@@ -1,6 +1,6 @@
 //! An arc whose end does not lie on its circle.
 
-use gcheck_controls::{Letter, Unpointed};
+use gcheck_controls::{Effect, Letter, Unpointed};
 use gcheck_engine::{ArcFault, Event, Fact, Fault, Position, Role, Units};
 use gcheck_program::Word;
 
@@ -49,10 +49,17 @@ struct ArcEndOffCircle {
     at: Option<Position>,
     /// An arc was told of whose centre fits when it is counted from the origin: the others say the same.
     absolute: bool,
+    /// The file has arcs; asked once.
+    has_arcs: Option<bool>,
 }
 
 impl PathRule for ArcEndOffCircle {
-    fn moved(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
+        if !*self.has_arcs.get_or_insert_with(|| cx.file_uses(is_arc)) {
+            cx.enough();
+            return;
+        }
         self.at = match event {
             Event::Travel(travel) => Some(travel.programmed),
             Event::Arc(arc) => Some(arc.programmed),

@@ -1,0 +1,65 @@
+//! A return where no subroutine is.
+
+use gcheck_engine::Fault;
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// `RETURN` or `ENDSUB` is executed outside a subroutine.
+    ///
+    /// ## Why it matters
+    /// The control refuses the program at this block. The `SUB` in front was lost, or has another label.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G0 X1
+    /// o1 return
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// o1 sub
+    /// o2 if [#1 GT 5]
+    /// o1 return
+    /// o2 endif
+    /// o1 endsub
+    /// o1 call [6]
+    /// M2
+    /// ```
+    rule "return-outside-subroutine" in "flow" {
+        summary: "return outside a subroutine",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ReturnOutsideSubroutine) },
+    }
+}
+
+struct ReturnOutsideSubroutine;
+
+impl PathRule for ReturnOutsideSubroutine {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::StrayReturn {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.range(), "return outside a subroutine")
+            .label("no subroutine is open here")
+            .help("put the `SUB` of this label in front, or end the program with `M2`");
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_is_marked() {
+        check_rule(&RULE, "linuxcnc", "o1 if [#100 GT 1]\no1 return\no1 endif\nM2\n", &expect![[""]]);
+    }
+}
