@@ -156,11 +156,17 @@ struct Key {
     /// first in the program as it is called.
     path: Rc<[At]>,
     at: At,
+    /// The block is the branch that a condition in front of it chose, and not run into from the branch above.
+    wanted: bool,
 }
 
 impl Key {
     fn of(at: At, state: &State<Abstract>) -> Self {
-        Self { path: calls(state), at }
+        Self::on(calls(state), at, state)
+    }
+
+    fn on(path: Rc<[At]>, at: At, state: &State<Abstract>) -> Self {
+        Self { path, at, wanted: state.frames().last().is_some_and(|frame| frame.wants(at)) }
     }
 
     fn is_before(&self, other: &Self) -> bool {
@@ -275,18 +281,18 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         while let Some(next) = self.take_earliest() {
             let solo = self.pending.is_empty();
             let stretch = if solo {
-                self.show_met();
+                self.show_met(Some(&next.key));
                 self.alone(next)
             } else {
                 self.among_others(next)
             };
             if let Stretch::OutOfFuel = stretch {
                 self.result.out_of_fuel = true;
-                self.show_met();
+                self.show_met(None);
                 return;
             }
         }
-        self.show_met();
+        self.show_met(None);
     }
 
     fn step(&mut self, at: At, state: &mut State<Abstract>) -> Outcome<Abstract> {
@@ -363,6 +369,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         head.visits += 1;
         if head.forks != self.forks || head.visits > MOST_EXACT_TURNS {
             // The paths parted and met again inside the loop: its turns are not exact, so they are one.
+            let never_parts = head.forks == self.forks;
             head.forks = self.forks;
             let widen = head.visits > JOINS_BEFORE_WIDENING;
             let joined = head.state.join(state, widen);
@@ -370,6 +377,11 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 || head.visits <= MOST_EXACT_TURNS && head.visits > MOST_VISITS;
             if joined == head.state || gives_up {
                 self.result.out_of_fuel |= gives_up;
+                if never_parts && !gives_up {
+                    // Whatever the turn, no condition leads out.
+                    let origin = self.executor.origin();
+                    self.executor.observer.endless(origin, at, state);
+                }
                 return false;
             }
             head.state = joined.clone();
@@ -427,7 +439,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             if calls_differ(&path, &state) {
                 path = calls(&state);
             }
-            let key = Key { path: Rc::clone(&path), at };
+            let key = Key::on(Rc::clone(&path), at, &state);
             let meets = self.met.contains_key(&key)
                 || self.is_entry(at)
                 || self.pending.iter().any(|other| other.key == key || other.key.is_before(&key));
@@ -440,7 +452,11 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     }
 
     fn is_entry(&self, at: At) -> bool {
-        self.executor.file(at.file).is_some_and(|file| file.loaded.outline().may_be_target(at.block))
+        self.executor.file(at.file).is_some_and(|file| {
+            let outline = file.loaded.outline();
+            // A loop may come back to the block behind its head.
+            outline.may_be_target(at.block) || at.block.checked_sub(1).is_some_and(|above| outline.is_flow(above))
+        })
     }
 
     fn fork(&mut self, at: At, ways: Vec<(At, State<Abstract>)>) {
@@ -489,12 +505,12 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     }
 
     /// Shows what was executed silently, each stretch once, in its final state.
-    fn show_met(&mut self) {
+    fn show_met(&mut self, next: Option<&Key>) {
         let order = std::mem::take(&mut self.order);
         let met = std::mem::take(&mut self.met);
         for key in &order {
             // What still waits is shown when it is executed.
-            if self.pending.iter().any(|item| item.key == *key) {
+            if next == Some(key) || self.pending.iter().any(|item| item.key == *key) {
                 continue;
             }
             if let Some(from) = met.get(key) {
@@ -534,7 +550,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             if calls_differ(&path, &state) {
                 path = calls(&state);
             }
-            if met.contains_key(&Key { path: Rc::clone(&path), at }) {
+            if met.contains_key(&Key::on(Rc::clone(&path), at, &state)) {
                 return;
             }
         }

@@ -788,6 +788,11 @@ fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
 }
 
 impl<D: Domain> Frame<D> {
+    /// Is the block the branch that a failed condition chose?
+    pub(crate) fn wants(&self, at: At) -> bool {
+        self.wanted_branch == Some(at)
+    }
+
     fn join(&mut self, other: &Self, widen: bool) {
         if self.repeats != other.repeats {
             self.repeats = None;

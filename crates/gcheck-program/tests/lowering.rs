@@ -444,4 +444,16 @@ proptest! {
             prop_assert_eq!(&flat, &tree, "{} on {:?}", name, text);
         }
     }
+
+    /// Law 2 where lines of words alone are read without tokens, and where they just fail to be such lines.
+    #[test]
+    fn lines_read_without_tokens_are_what_tokens_give(
+        text in "([GXNmo@,][-+]?[0-9]{0,2}[.]?[0-9]{0,18}[ \\t]?|[-+. 0-9G]|\r?\n|\r|[(;%é]){0,40}",
+    ) {
+        let control = gcheck_controls::load("fanuc-mill").unwrap();
+        let dialect = Dialect::new(&control);
+        let flat = table_with_errors_in_order(lower(&text, &dialect));
+        let tree = table_with_errors_in_order(lower_tree(&parse(&text, dialect.profile()), &dialect));
+        prop_assert_eq!(&flat, &tree, "{:?}", text);
+    }
 }

@@ -11,7 +11,7 @@ use anyhow::{Context as _, bail, ensure};
 use crate::generate::{self, registry};
 use crate::workspace;
 
-const USAGE: &str = "usage: cargo xtask new-rule ID --tier token|block|program --group GROUP";
+const USAGE: &str = "usage: cargo xtask new-rule ID --tier token|block|program|path --group GROUP";
 
 const TEMPLATE: &str = include_str!("../templates/rule.rs.in");
 
@@ -83,6 +83,29 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }",
         parameters: "label: &Label",
         range: "label.range.clone()",
+    },
+    Tier {
+        name: "path",
+        variant: "Path",
+        uses: "\
+use gcheck_engine::{Event, Spindle};
+
+use crate::meta::declare_rule;
+use crate::{Finding, PathCx, PathRule, Report, Run, Watch};",
+        run: "Run::Path { watch: Watch::CUTS, make: || Box::new(Watcher) }",
+        check: "\
+struct Watcher;
+
+impl PathRule for Watcher {
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        // `None` says that it may turn or not: only what is certain is reported.
+        if cx.state().spindle() == Some(Spindle::Stopped) {
+            report.add(finding(cx));
+        }
+    }
+}",
+        parameters: "cx: &PathCx<'_>",
+        range: "cx.range()",
     },
 ];
 

@@ -46,7 +46,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(motion) = state.mode(Role::Motion).only() {
             self.check_primary_plane(motion, state)?;
         }
-        let Some(plane) = state.plane(self.model) else { return self.unknown_arc(target, state) };
+        let Some(plane) = state.plane(self.model) else { return self.unknown_arc(counter_clockwise, target, state) };
         let ([first, second, _], [i, j, k]) = plane_axes(plane);
         let rules = self.model.semantics().arcs;
         if self.words.has(k) && self.refuses_incomplete() {
@@ -77,7 +77,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
         if !arc.is_known() {
-            return self.unknown_arc(target, state);
+            return self.unknown_arc(counter_clockwise, target, state);
         }
         self.announce_inverse_time(|_| arc.length().0, state);
         let sign = if counter_clockwise { 1 } else { -1 };
@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_compensation(true, state)?;
         }
         if self.compensates(state) {
-            return self.unknown_arc(target, state);
+            return self.unknown_arc(counter_clockwise, target, state);
         }
         let to = self.axes_of(target, state);
         let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
@@ -102,7 +102,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The end of an arc whose shape is not known.
-    fn unknown_arc(&mut self, target: &Position, state: &mut State<D>) -> Step {
+    fn unknown_arc(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
         let mut to = self.axes_of(target, state);
         if self.compensates(state) {
@@ -114,7 +114,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             programmed: *target,
             to,
             centre: (Mm::UNKNOWN, Mm::UNKNOWN),
-            turns: 1,
+            turns: if counter_clockwise { 1 } else { -1 },
             sweep: f64::NAN,
             expanded: false,
         };

@@ -72,7 +72,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if secondary && self.refuses_incomplete() {
             return Err(Fault::Compensation(CompensationFault::Plane));
         }
-        let Some(plane) = state.plane(self.model) else { return Ok(()) };
+        let Some(plane) = state.plane(self.model) else {
+            // The path is not known; the number of the offset is.
+            let by_number = matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
+            return if by_number { self.remember_offset_number(state) } else { Ok(()) };
+        };
         if plane == Plane::Yz && self.refuses_incomplete() {
             return Err(Fault::Compensation(CompensationFault::Plane));
         }

@@ -7,8 +7,8 @@
 //! of its text; so it takes every block as it stands.
 
 use gcheck_controls::{
-    BlockRules, Code, CodeIx, CodeNumber, Confidence, Control, Effect, GroupIx, Handling, Letter, LetterSet, Need,
-    WordEntry, WordKind,
+    BlockRules, Code, CodeIx, CodeNumber, Confidence, Control, Effect, GroupIx, Handling, Letter, LetterSet,
+    Need, WordEntry, WordKind,
 };
 use gcheck_program::{Block, BlockFlags, Place, Value, Word};
 
@@ -151,7 +151,8 @@ impl CodeContract {
         }
         let late = listed(&rules.late_words, &entry.code);
         let late_values = listed(&rules.late_values, &entry.code).or(late);
-        let sure = |word: &&WordEntry| word.confidence.is_none_or(|confidence| confidence != Confidence::Assumed);
+        let sure =
+            |word: &&WordEntry| word.confidence.is_none_or(|confidence| confidence != Confidence::Assumed);
         for word in entry.words.iter().filter(sure) {
             let Some(letter) = Letter::parse(&word.letter) else { continue };
             if word.need == Need::Required && !late.contains(letter) {
@@ -162,7 +163,8 @@ impl CodeContract {
             }
         }
         let is_early = |set: &LetterSet| !set.intersects(late);
-        let set = |items: &[String]| -> LetterSet { items.iter().filter_map(|item| Letter::parse(item)).collect() };
+        let set =
+            |items: &[String]| -> LetterSet { items.iter().filter_map(|item| Letter::parse(item)).collect() };
         contract.one_of = entry.one_of.iter().map(|items| set(items)).filter(is_early).collect();
         for items in &entry.not_together {
             let sets: Vec<LetterSet> = items.iter().map(|item| letters(item)).collect();
@@ -196,13 +198,18 @@ impl CodeContract {
 impl BlockContract {
     /// What data says of a control's blocks. Only what a manual says is refused.
     pub(crate) fn of(control: &Control) -> Self {
-        let BlockRules { two_of_a_group, code_twice, word_twice, unread_word, confidence, .. } = control.block_rules();
-        let is_refused = |handling: &Handling| *handling == Handling::Refused && *confidence == Confidence::Manual;
+        let BlockRules { two_of_a_group, code_twice, word_twice, unread_word, confidence, .. } =
+            control.block_rules();
+        let is_refused =
+            |handling: &Handling| *handling == Handling::Refused && *confidence == Confidence::Manual;
         let semantics = control.semantics();
         let rules = &semantics.refusals;
         let strict = semantics.strict;
-        let beside: Vec<(Letter, LetterSet)> =
-            rules.beside.iter().filter_map(|(letter, with)| Some((Letter::parse(letter)?, letters(with)))).collect();
+        let beside: Vec<(Letter, LetterSet)> = rules
+            .beside
+            .iter()
+            .filter_map(|(letter, with)| Some((Letter::parse(letter)?, letters(with))))
+            .collect();
         let mut bound = LetterSet::EMPTY;
         let mut ranges = Vec::new();
         for letter in every_letter() {
@@ -372,11 +379,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         let acting = self.acting_motion(state);
+        if rules.strict {
+            self.check_motion(acting, state)?;
+        }
         if rules.unread_word {
             self.check_all_read(acting)?;
         }
         if rules.strict {
-            self.check_motion(acting, state)?;
             self.check_words(acting)?;
         }
         Ok(())
@@ -423,7 +432,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let codes = self.words.codes();
         let mut m_codes = 0;
         for (index, ix) in codes.iter().enumerate() {
-            let (Some(code), Some(contract)) = (self.model.code(*ix), self.contract_of(*ix)) else { continue };
+            let (Some(code), Some(contract)) = (self.model.code(*ix), self.contract_of(*ix)) else {
+                continue;
+            };
             m_codes += usize::from(contract.is_m);
             if contract.first_only && !self.opens_block(place, words, *ix) {
                 return Err(Fault::UnknownCode);
@@ -455,7 +466,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = &self.model.contract;
         let absent = self.words.present().and(rules.absent_axes);
         match absent.iter().next() {
-            Some(letter) if self.machine.fresh && self.machine.axes.is_none() => Err(Fault::NoSuchAxis(letter)),
+            Some(letter) if self.machine.fresh && self.machine.axes.is_none() => {
+                Err(Fault::NoSuchAxis(letter))
+            }
             _ => Ok(()),
         }
     }
@@ -512,10 +525,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.model.contract.strict
             && self.words.present().intersects(const { LetterSet::of("IJK") })
             && state.active_cycle(self.model).is_some_and(|cycle| !cycle.is_some())
-            && state
-                .mode(Role::Motion)
-                .only()
-                .is_some_and(|ix| matches!(self.model.effect(ix), Effect::ArcClockwise | Effect::ArcCounterClockwise))
+            && state.mode(Role::Motion).only().is_some_and(|ix| {
+                matches!(self.model.effect(ix), Effect::ArcClockwise | Effect::ArcCounterClockwise)
+            })
     }
 
     /// Every word is read by a code of the block, or by the motion.

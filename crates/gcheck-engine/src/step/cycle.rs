@@ -25,8 +25,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = &self.model.semantics().cycles;
         let names_code = self.words.codes().contains(&code);
         self.check_primary_plane(code, state)?;
-        let Some(plane) = state.plane(self.model) else { return self.lose_cycle(state) };
-        let plane = if rules.all_planes { plane } else { Plane::Xy };
+        let plane = if rules.all_planes { state.plane(self.model) } else { Some(Plane::Xy) };
+        let Some(plane) = plane else { return self.lose_cycle(state) };
         let ([first, second, depth], _) = plane_axes(plane);
         let has_point = self.words.has(first.letter()) || self.words.has(second.letter());
         let has_words =
@@ -189,6 +189,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let target = self.target(state)?;
         state.position = target;
         state.position.set(Axis::Z, f64::NAN);
+        if state.plane(self.model).is_none() {
+            // Any of the three may be the axis of depth.
+            state.position.set(Axis::X, f64::NAN);
+            state.position.set(Axis::Y, f64::NAN);
+        }
         state.actual = self.axes_of(&state.position, state);
         Ok(())
     }

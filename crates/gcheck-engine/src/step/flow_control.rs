@@ -25,6 +25,10 @@ pub(super) struct Callee<D: Domain> {
     arguments: Option<Vec<(u32, D::Value)>>,
 }
 
+/// Labels that a computed jump is followed to: one more than an analysis keeps waiting, so that it gives up rather than
+/// leave some out.
+const MOST_TARGETS: usize = 4097;
+
 /// Calls that nest deeper than this are taken for a recursion without end where the control names no limit.
 const DEEPEST: usize = 64;
 
@@ -79,7 +83,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let targets: Vec<(At, State<D>)> = outline
             .labels_in(part)
             .filter(|(number, _)| fits(*number))
-            .take(256)
+            .take(MOST_TARGETS)
             .map(|(_, block)| (At { file: at.file, block }, state.clone()))
             .collect();
         match targets.as_slice() {

@@ -68,6 +68,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         )
     }
 
+    /// May cutter compensation be on? Of programs that are not here we take it that they leave it off.
+    pub(super) fn may_compensate(&self, state: &State<D>) -> bool {
+        let is_on = |code: &CodeIx| {
+            matches!(
+                self.model.effect(*code),
+                Effect::CompensationLeft
+                    | Effect::CompensationRight
+                    | Effect::CompensationLeftByDiameter
+                    | Effect::CompensationRightByDiameter
+            )
+        };
+        state.mode(Role::Compensation).alternatives().iter().any(is_on)
+    }
+
     /// Makes a code the one in effect of its role.
     fn switch(&mut self, role: Role, ix: CodeIx, lasts: bool, state: &mut State<D>) {
         match role {

@@ -287,7 +287,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_compensation(false, state)?;
         }
         let mut to = self.axes_of(&target, state);
-        if self.compensates(state) {
+        if self.may_compensate(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }

@@ -399,6 +399,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Rc::make_mut(&mut state.tables).unsure = true;
             state.in_effect = WorkOffset::UNKNOWN;
         });
+        // One unknown offset may have taken the place of another.
+        state.actual = Position::UNKNOWN;
+        state.position = Position::UNKNOWN;
     }
 
     fn write_work_offset(&mut self, number: Option<Count>, here: bool, state: &mut State<D>) -> Step {
@@ -478,6 +481,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.position = self.programmed_of(&state.actual, state);
         }
         if active {
+            for (axis, _) in &named {
+                // One unknown offset took the place of another.
+                if offset.origin.raw(*axis).is_nan() {
+                    state.actual.set(*axis, f64::NAN);
+                    state.position.set(*axis, f64::NAN);
+                }
+            }
             self.announce_offset(state);
             self.announce_rotation(state);
         }
@@ -602,13 +612,15 @@ struct Frame {
     origin: Position,
     rotation: f64,
     shift: Position,
+    local: Position,
     length: Position,
 }
 
 impl Frame {
     fn of<D: Domain>(state: &State<D>) -> Self {
         let WorkOffset { origin, rotation } = state.work_offset();
-        Self { work: state.work, origin, rotation, shift: state.shift(), length: state.length }
+        let shift = if state.shift_on { state.shift } else { Position::ZERO };
+        Self { work: state.work, origin, rotation, shift, local: state.local, length: state.length }
     }
 
     fn same(&self, other: &Self) -> bool {
@@ -616,15 +628,16 @@ impl Frame {
             && self.origin == other.origin
             && self.rotation.to_bits() == other.rotation.to_bits()
             && self.shift == other.shift
+            && self.local == other.local
             && self.length == other.length
     }
 
     fn to_machine(self, work: &Position) -> Position {
-        rotate(*work + self.shift, self.rotation) + self.origin + self.length
+        rotate(*work + self.shift + self.local, self.rotation) + self.origin + self.length
     }
 
     fn work_of_machine(self, machine: &Position) -> Position {
-        rotate(*machine - self.length - self.origin, -self.rotation) - self.shift
+        rotate(*machine - self.length - self.origin, -self.rotation) - self.shift - self.local
     }
 
     /// What a position in work coordinates gains when this frame becomes another. Parts that did not change cancel out, known
@@ -633,6 +646,7 @@ impl Frame {
         let part = |old: &Position, new: &Position, same: bool| if same && old == new { Position::ZERO } else { per_axis(old, new, same) };
         part(&self.origin, &after.origin, self.work.is_some() && self.work == after.work)
             + part(&self.shift, &after.shift, true)
+            + part(&self.local, &after.local, true)
             + part(&self.length, &after.length, true)
     }
 }

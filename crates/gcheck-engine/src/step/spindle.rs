@@ -8,6 +8,7 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Event, FeedMode, Spindle};
 use crate::fault::Fault;
+use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Position;
 use crate::state::State;
@@ -26,6 +27,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
             (_, Some(0.0)) => D::number(0.0),
+            // Moves a minute have no unit, and it may be those.
+            (None, Some(_)) if state.mode(Role::FeedMode).only().is_none() => D::unknown(),
             (_, Some(number)) => D::number(number * self.unit(state)),
             (_, None) => D::unknown(),
         };

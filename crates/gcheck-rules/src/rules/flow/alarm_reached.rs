@@ -78,7 +78,8 @@ impl PathRule for AlarmReached {
             .note("every path comes here, with what the program itself sets")
             .help("give the macro what it asks for, or correct the condition of the alarm");
         if reads_start_state(cx.program, cx.model, cx.scene) {
-            finding = finding.at_most(Severity::Warning).assuming("modes are as the control has them at the start");
+            finding =
+                finding.at_most(Severity::Warning).assuming("modes are as the control has them at the start");
         }
         report.add(finding);
     }
@@ -122,9 +123,14 @@ mod tests {
 
     #[test]
     fn what_rests_on_the_modes_at_the_start_is_a_warning() {
-        check_rule(&RULE, "fanuc-mill", "O1\nIF [#4003 EQ 90] THEN #3000=1 (G91 FIRST)\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nIF [#4003 EQ 90] THEN #3000=1 (G91 FIRST)\nM30\n",
+            &expect![[r#"
             2 | IF [#4003 EQ 90] THEN #3000=1 (G91 FIRST)
               | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[alarm-reached] the program always ends with its own alarm (`#3000`)
-        "#]]);
+        "#]],
+        );
     }
 }

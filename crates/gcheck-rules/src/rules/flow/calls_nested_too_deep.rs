@@ -50,17 +50,29 @@ impl PathRule for CallsNestedTooDeep {
         }
         let frames = cx.state().frames();
         let calls_itself = frames.last().is_some_and(|last| {
-            let entries = frames.iter().filter(|frame| frame.kind != FrameKind::Main && frame.entry == last.entry);
+            let entries =
+                frames.iter().filter(|frame| frame.kind != FrameKind::Main && frame.entry == last.entry);
             entries.count() > 1
         });
-        let message = if calls_itself { "program calls itself without end" } else { "calls are nested too deep" };
+        let message =
+            if calls_itself { "program calls itself without end" } else { "calls are nested too deep" };
         let note = match cx.scene.control().limits().call_depth {
             Some(depth) => format!("this control nests calls {depth} deep"),
-            None => format!("{} calls are open here, more than any control of this family allows", frames.len() - 1),
+            None => format!(
+                "{} calls are open here, more than any control of this family allows",
+                frames.len() - 1
+            ),
         };
-        let help = if calls_itself { "end the recursion: jump or loop instead of calling" } else { "call from higher up" };
+        let help = if calls_itself {
+            "end the recursion: jump or loop instead of calling"
+        } else {
+            "call from higher up"
+        };
         // The calls that led here are all alike: their places would say nothing.
-        let finding = crate::Finding::new(&META, cx.range(), message).label("called once too often").note(note).help(help);
+        let finding = crate::Finding::new(&META, cx.range(), message)
+            .label("called once too often")
+            .note(note)
+            .help(help);
         report.add(finding);
     }
 }
@@ -74,22 +86,37 @@ mod tests {
 
     #[test]
     fn the_call_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\nM97 P10\nM30\nN10 G0 X1.\nM97 P10\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM97 P10\nM30\nN10 G0 X1.\nM97 P10\nM99\n",
+            &expect![[r#"
             5 | M97 P10
               | ^^^^^^^ error[calls-nested-too-deep] program calls itself without end
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "o1 sub\no1 call\no1 endsub\no1 call\nM2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\no1 call\no1 endsub\no1 call\nM2\n",
+            &expect![[r#"
             2 | o1 call
               | ^^^^^^^ error[calls-nested-too-deep] program calls itself without end
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn two_programs_that_call_each_other() {
-        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nM98 P3\nM99\nO3\nM98 P2\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nM98 P2\nM30\nO2\nM98 P3\nM99\nO3\nM98 P2\nM99\n",
+            &expect![[r#"
             8 | M98 P2
               | ^^^^^^ error[calls-nested-too-deep] program calls itself without end
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

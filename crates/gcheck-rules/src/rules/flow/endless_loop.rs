@@ -120,18 +120,33 @@ mod tests {
 
     #[test]
     fn the_head_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "O1\n#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\n#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nEND1\nM30\n",
+            &expect![[r#"
             3 | WHILE [#1 LT 5] DO1
               | ^^^^^^^^^^^^^^^^^^^ warning[endless-loop] loop never ends
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "#1=0\no1 while [#1 LT 5]\nG0 X1\no1 endwhile\nM2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#1=0\no1 while [#1 LT 5]\nG0 X1\no1 endwhile\nM2\n",
+            &expect![[r#"
             2 | o1 while [#1 LT 5]
               | ^^^^^^^^^^^^^^^^^^ warning[endless-loop] loop never ends
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "o1 do\nG0 X1\no1 while [1]\nM2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 do\nG0 X1\no1 while [1]\nM2\n",
+            &expect![[r#"
             2 | G0 X1
               | ^^^^^ warning[endless-loop] loop never ends
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -142,18 +157,28 @@ mod tests {
 
     #[test]
     fn a_loop_around_a_call_is_told_where_the_call_comes_back() {
-        check_rule(&RULE, "haas-mill", "N10 G0 X1.\nM97 P100\nG0 X2.\nGOTO 10\nM30\nN100 G0 X0.\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "N10 G0 X1.\nM97 P100\nG0 X2.\nGOTO 10\nM30\nN100 G0 X0.\nM99\n",
+            &expect![[r#"
             3 | G0 X2.
               | ^^^^^^ warning[endless-loop] loop never ends
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn two_states_that_take_turns_are_found() {
-        check_rule(&RULE, "fanuc-mill", "O1\n#1=1\nN10 #1=0-#1\nG0 X#1\nGOTO 10\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\n#1=1\nN10 #1=0-#1\nG0 X#1\nGOTO 10\nM30\n",
+            &expect![[r#"
             3 | N10 #1=0-#1
               | ^^^^^^^^^^^ warning[endless-loop] loop never ends
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -80,9 +80,12 @@ impl PathRule for FallIntoSubprogram {
             Some(entry) if !(entry..=cx.origin().at.block).contains(&frame.entry.block) => entry,
             _ => return,
         };
-        let is_program = cx.program.file(0).is_some_and(|file| file.loaded.outline().part_of(entry).start == entry);
+        let is_program =
+            cx.program.file(0).is_some_and(|file| file.loaded.outline().part_of(entry).start == entry);
         let came_from_above = match frame.kind {
-            FrameKind::Main | FrameKind::Subprogram | FrameKind::Macro => !is_program || frame.entry.block < entry,
+            FrameKind::Main | FrameKind::Subprogram | FrameKind::Macro => {
+                !is_program || frame.entry.block < entry
+            }
             FrameKind::Local => is_program && frame.entry.block < entry,
             FrameKind::OWord => false,
         };
@@ -122,8 +125,11 @@ fn entries(cx: &PathCx<'_>) -> BTreeSet<u32> {
     let mut entries = BTreeSet::new();
     for jump in &cx.survey.jumps {
         let Some(number) = jump.target.filter(|_| is_call(jump.code)) else { continue };
-        let is_also_jumped_to =
-            cx.survey.jumps.iter().any(|other| other.target.is_none_or(|n| n == number) && !is_call(other.code));
+        let is_also_jumped_to = cx
+            .survey
+            .jumps
+            .iter()
+            .any(|other| other.target.is_none_or(|n| n == number) && !is_call(other.code));
         let mut blocks = outline.labels(number);
         if let (Some(block), None, false) = (blocks.next(), blocks.next(), is_also_jumped_to) {
             entries.insert(block);

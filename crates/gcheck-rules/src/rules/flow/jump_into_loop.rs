@@ -7,7 +7,7 @@ use gcheck_program::{BlockFlags, StatementKind};
 
 use crate::meta::declare_rule;
 use crate::usage::blocks_with;
-use crate::{FinishCx, Finding, PathRule, Report, Run, Watch};
+use crate::{Finding, FinishCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// `GOTO` leads between a `DO` and its `END` from outside.

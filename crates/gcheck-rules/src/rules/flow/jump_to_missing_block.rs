@@ -55,9 +55,11 @@ impl PathRule for JumpToMissingBlock {
         let literal = cx.survey.jumps.iter().any(|jump| {
             jump.target == Some(*number)
                 && block.contains(&jump.range.start)
-                && !cx.scene.control().code_at(jump.code).is_some_and(|code| {
-                    code.entry().words.iter().any(|word| word.elsewhere)
-                })
+                && !cx
+                    .scene
+                    .control()
+                    .code_at(jump.code)
+                    .is_some_and(|code| code.entry().words.iter().any(|word| word.elsewhere))
         });
         // `M99 P…` of a program that is called from another file names a block there.
         let is_elsewhere = is_called_from_elsewhere(cx.survey) && cx.state().frames().len() <= 1;
@@ -69,7 +71,9 @@ impl PathRule for JumpToMissingBlock {
             .finding(&META, block, message)
             .label(format!("looks for `N{number}` here"))
             .note("the control looks for the number when the block runs, and alarms if it is not found")
-            .help(format!("add `N{number}` at the block to go to, or correct what the number is computed from"));
+            .help(format!(
+                "add `N{number}` at the block to go to, or correct what the number is computed from"
+            ));
         report.add(finding);
     }
 }
@@ -83,18 +87,33 @@ mod tests {
 
     #[test]
     fn the_block_that_jumps_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nGOTO #1\nN1 M30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#1= 3\nGOTO #1\nN1 M30\n",
+            &expect![[r#"
             3 | GOTO #1
               | ^^^^^^^ error[jump-to-missing-block] jump to `N3`, which does not exist
-        "#]]);
-        check_rule(&RULE, "haas-mill", "O1\n#1= 3\nM97 P#1\nN1 M30\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#1= 3\nM97 P#1\nN1 M30\n",
+            &expect![[r#"
             3 | M97 P#1
               | ^^^^^^^ error[jump-to-missing-block] jump to `N3`, which does not exist
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nM99 P50\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nM98 P2\nM30\nO2\nM99 P50\n",
+            &expect![[r#"
             5 | M99 P50
               | ^^^^^^^ error[jump-to-missing-block] jump to `N50`, which does not exist
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

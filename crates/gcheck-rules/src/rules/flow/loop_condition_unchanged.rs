@@ -9,7 +9,7 @@ use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, Place, StatementKind, Tar
 
 use crate::meta::declare_rule;
 use crate::usage::blocks_with;
-use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// The condition of a loop asks for variables that the loop does not set, and nothing else leads out of it.
@@ -243,7 +243,9 @@ mod tests {
 
     #[test]
     fn ways_out_and_writes_of_any_kind_count() {
-        for body in ["#100=#100+1", "IF [#1 EQ 2] GOTO 5", "M98 P10", "G65 P10", "#[#2]=1", "M30", "M0", "#3000=1"] {
+        for body in
+            ["#100=#100+1", "IF [#1 EQ 2] GOTO 5", "M98 P10", "G65 P10", "#[#2]=1", "M30", "M0", "#3000=1"]
+        {
             let program = format!("O1\nWHILE [#100 LT 5] DO1\n{body}\nEND1\nN5 M30\nO10\nM99\n");
             check_rule(&RULE, "fanuc-mill", &program, &expect![[""]]);
         }

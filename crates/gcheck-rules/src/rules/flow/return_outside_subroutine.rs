@@ -60,6 +60,14 @@ mod tests {
 
     #[test]
     fn the_block_is_marked() {
-        check_rule(&RULE, "linuxcnc", "o1 if [#100 GT 1]\no1 return\no1 endif\nM2\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 if [#100 GT 1]\no1 return\no1 endif\nM2\n",
+            &expect![[r#"
+            2 | o1 return
+              | ^^^^^^^^^ error[return-outside-subroutine] return outside a subroutine
+        "#]],
+        );
     }
 }

@@ -68,7 +68,9 @@ impl PathRule for SubprogramWithoutReturn {
 
 fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     let Some(frame) = cx.state().frames().last() else { return };
-    if frame.entry.file != 0 || !matches!(frame.kind, FrameKind::Subprogram | FrameKind::Local | FrameKind::Macro) {
+    if frame.entry.file != 0
+        || !matches!(frame.kind, FrameKind::Subprogram | FrameKind::Local | FrameKind::Macro)
+    {
         return;
     }
     let Some(entry) = cx.range_of(frame.entry) else { return };
@@ -89,7 +91,10 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     let (message, label) = if at_end_of_text {
         ("called program has no return (`M99`)", "runs to the end of the text")
     } else {
-        ("called program ends the whole job: no return (`M99`)", "ends here, and does not go back to its caller")
+        (
+            "called program ends the whole job: no return (`M99`)",
+            "ends here, and does not go back to its caller",
+        )
     };
     let finding = cx
         .finding(&META, cx.range(), message)
@@ -108,19 +113,34 @@ mod tests {
 
     #[test]
     fn the_end_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "O1\nM98 P2\nM30\nO2\nG0 X1.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nM98 P2\nM30\nO2\nG0 X1.\nM30\n",
+            &expect![[r#"
             6 | M30
               | ^^^ warning[subprogram-without-return] called program ends the whole job: no return (`M99`)
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", "O1\nG65 P2 A1.\nM30\nO2\nG0 X#1\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG65 P2 A1.\nM30\nO2\nG0 X#1\n",
+            &expect![[r#"
             5 | G0 X#1
               | ^^^^^^ warning[subprogram-without-return] called program has no return (`M99`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn the_end_of_a_job_on_purpose_stands_beside_a_return() {
-        check_rule(&RULE, "haas-mill", "O1\nM97 P10\nM30\nN10 IF [#500 EQ 1] GOTO 20\nM99\nN20 M30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM97 P10\nM30\nN10 IF [#500 EQ 1] GOTO 20\nM99\nN20 M30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

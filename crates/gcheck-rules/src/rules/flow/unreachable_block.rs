@@ -8,7 +8,7 @@ use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
 use crate::meta::declare_rule;
 use crate::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
-use crate::{FinishCx, Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// No path of the program comes to these blocks: they stand behind an end, a return or a jump, and no jump, call or
@@ -83,7 +83,8 @@ impl PathRule for UnreachableBlock {
             return;
         }
         // With one position of the switch only, the other ways are not known.
-        let one_position = cx.others.is_empty() && cx.result.assumptions.iter().any(|a| matches!(a, Assumption::BlockSkip(_)));
+        let one_position = cx.others.is_empty()
+            && cx.result.assumptions.iter().any(|a| matches!(a, Assumption::BlockSkip(_)));
         if one_position || goes_anywhere(cx) {
             return;
         }
@@ -129,8 +130,10 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
     let profiles = profiles(cx);
     let mut groups = Vec::new();
     for part in outline.programs() {
-        let is_reached = |block: u32| cx.result.reach(At { file: 0, block }) != Reach::Never
-            || !cx.is_never_reached(At { file: 0, block });
+        let is_reached = |block: u32| {
+            cx.result.reach(At { file: 0, block }) != Reach::Never
+                || !cx.is_never_reached(At { file: 0, block })
+        };
         // A program of its own that nothing here calls is not for this rule to judge.
         if !part.blocks.clone().any(is_reached) {
             continue;
@@ -160,7 +163,8 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                     let above = last_reached.and_then(|block| file.loaded.place(block, cx.scene.dialect));
                     let range = place.range();
                     // Behind a call, the program that is called may not come back: that is not told by its caller.
-                    open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block).map(|cause| Group { range, blocks: 1, cause });
+                    open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block)
+                        .map(|cause| Group { range, blocks: 1, cause });
                     if open.is_none() {
                         last_reached = None;
                     }
@@ -183,9 +187,10 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
     let outline = outline.loaded.outline();
     let is_called = outline.sub_around(block).is_some() || !outline.main().contains(&block);
     let decides = above.block().flags.contains(BlockFlags::STATEMENT)
-        && !above.table.statements(above.ix).any(|statement| {
-            matches!(statement.kind, StatementKind::OWord { keyword: OKeyword::Call, .. })
-        });
+        && !above
+            .table
+            .statements(above.ix)
+            .any(|statement| matches!(statement.kind, StatementKind::OWord { keyword: OKeyword::Call, .. }));
     (decides && !is_called).then(|| Cause::Decided(above.range()))
 }
 
@@ -210,7 +215,11 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
     let is_flow = |code| {
         matches!(
             cx.model.effect(code),
-            Effect::CallLocal | Effect::Return | Effect::JumpUnlessInput | Effect::CallProgram | Effect::MacroCall
+            Effect::CallLocal
+                | Effect::Return
+                | Effect::JumpUnlessInput
+                | Effect::CallProgram
+                | Effect::MacroCall
         )
     };
     let named: Vec<_> =
@@ -271,15 +280,18 @@ fn finding(group: Group) -> Finding {
     let (message, help) = if group.blocks == 1 {
         ("no path reaches this block".to_owned(), "remove the block, or let a jump or call lead to it")
     } else {
-        (format!("no path reaches these {} blocks", group.blocks), "remove the blocks, or let a jump or call lead to them")
+        (
+            format!("no path reaches these {} blocks", group.blocks),
+            "remove the blocks, or let a jump or call lead to them",
+        )
     };
     let finding = Finding::new(&META, group.range, message).label("never executed").help(help);
     match group.cause {
         Cause::LedAway(range) => finding.also(range, "execution goes elsewhere here"),
         // A program with settings at its top leaves out what they do not ask for.
-        Cause::Decided(range) => {
-            finding.also(range, "the values that the program sets always decide this one way").at_most(Severity::Hint)
-        }
+        Cause::Decided(range) => finding
+            .also(range, "the values that the program sets always decide this one way")
+            .at_most(Severity::Hint),
     }
 }
 
@@ -334,10 +346,15 @@ mod tests {
     #[test]
     fn both_positions_of_the_block_delete_switch_count() {
         check_rule(&RULE, "fanuc-mill", "O1\n/GOTO 10\nG0 X1.\nN10 M30\n", &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", "O1\nGOTO 10\n/G0 X1.\nN10 M30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nGOTO 10\n/G0 X1.\nN10 M30\n",
+            &expect![[r#"
             3 | /G0 X1.
               | ^^^^^^^ warning[unreachable-block] no path reaches this block
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

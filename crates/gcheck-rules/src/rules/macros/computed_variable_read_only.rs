@@ -5,7 +5,7 @@ use gcheck_engine::Fault;
 use gcheck_program::{StatementKind, Target};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, limit, Watch};
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// The number of the variable that is assigned to is computed, and comes to one that a program may only read.
@@ -42,8 +42,8 @@ impl PathRule for ComputedVariableReadOnly {
         let Fault::ReadOnlyVariable(number) = fault else { return };
         let Some(place) = cx.place() else { return };
         let mut statements = place.table.statements(place.ix);
-        let computed = statements
-            .find(|s| matches!(&s.kind, StatementKind::Assign { target: Target::Computed(_), .. }));
+        let computed =
+            statements.find(|s| matches!(&s.kind, StatementKind::Assign { target: Target::Computed(_), .. }));
         // A number as it stands is told without executing the block.
         let Some(statement) = computed else { return };
         let range = place.base + statement.range.start..place.base + statement.range.end;

@@ -77,20 +77,35 @@ mod tests {
 
     #[test]
     fn the_condition_is_marked() {
-        check_rule(&RULE, "haas-mill", "IF [100 GT 5] GOTO 10\nN10 M30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "IF [100 GT 5] GOTO 10\nN10 M30\n",
+            &expect![[r#"
             1 | IF [100 GT 5] GOTO 10
               | ^^^^^^^^^^^^^ hint[condition-always-same] condition is the same every time
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "o1 if [1 GT 5]\no1 elseif [2]\no1 endif\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 if [1 GT 5]\no1 elseif [2]\no1 endif\n",
+            &expect![[r#"
             1 | o1 if [1 GT 5]
               | ^^^^^^^^^^^^^^ hint[condition-always-same] condition is the same every time
             2 | o1 elseif [2]
               | ^^^^^^^^^^^^^ hint[condition-always-same] condition is the same every time
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn any_variable_makes_it_a_question() {
-        check_rule(&RULE, "haas-mill", "IF [#100 GT 5] GOTO 10\nIF [#0 EQ #1] GOTO 10\nN10 M30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "IF [#100 GT 5] GOTO 10\nIF [#0 EQ #1] GOTO 10\nN10 M30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -50,12 +50,16 @@ impl PathRule for ExpressionWithoutValue {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Value(fault) = fault else { return };
         let (message, label, help) = match fault {
-            ValueFault::DivisionByZero => {
-                ("division by zero", "the divisor is zero here", "see that the divisor is set, and not zero, before this block")
-            }
-            ValueFault::NegativeRoot => {
-                ("root of a negative number (`SQRT`)", "the number is below zero here", "check the numbers that go into the root")
-            }
+            ValueFault::DivisionByZero => (
+                "division by zero",
+                "the divisor is zero here",
+                "see that the divisor is set, and not zero, before this block",
+            ),
+            ValueFault::NegativeRoot => (
+                "root of a negative number (`SQRT`)",
+                "the number is below zero here",
+                "check the numbers that go into the root",
+            ),
             ValueFault::LogarithmOfNonPositive => (
                 "logarithm of a number that is not above zero (`LN`)",
                 "the number is zero or below here",
@@ -71,9 +75,11 @@ impl PathRule for ExpressionWithoutValue {
                 "the base is below zero here",
                 "check the numbers that go into the power",
             ),
-            ValueFault::NotFinite => {
-                ("number too large to compute with", "the result has no end", "check the numbers that go into the expression")
-            }
+            ValueFault::NotFinite => (
+                "number too large to compute with",
+                "the result has no end",
+                "check the numbers that go into the expression",
+            ),
             // Rules of the token and block tier speak of these.
             ValueFault::Malformed | ValueFault::NoSuchFunction => return,
         };
@@ -82,7 +88,9 @@ impl PathRule for ExpressionWithoutValue {
             return;
         }
         let mut finding = cx.finding(&META, place(cx, *fault), message).label(label).help(help);
-        if *fault == ValueFault::DivisionByZero && cx.model.semantics().unset == gcheck_controls::Unset::Vacant {
+        if *fault == ValueFault::DivisionByZero
+            && cx.model.semantics().unset == gcheck_controls::Unset::Vacant
+        {
             finding = finding.note("a variable that was never set counts as zero in arithmetic");
         }
         report.add(finding);
@@ -140,10 +148,15 @@ mod tests {
 
     #[test]
     fn a_variable_never_set_is_zero() {
-        check_rule(&RULE, "haas-mill", "#2= 10 / #1\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "#2= 10 / #1\nM30\n",
+            &expect![[r#"
             1 | #2= 10 / #1
               |    ^^^^^^^^ error[expression-without-value] division by zero
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -54,7 +54,11 @@ impl PathRule for MaybeVariableUnset {
             return;
         }
         // A macro is given its variables, or not, on purpose.
-        if cx.state().frames().iter().any(|frame| frame.kind != FrameKind::Main && frame.kind != FrameKind::Local)
+        if cx
+            .state()
+            .frames()
+            .iter()
+            .any(|frame| frame.kind != FrameKind::Main && frame.kind != FrameKind::Local)
             || is_called_from_elsewhere(cx.survey)
         {
             return;
@@ -70,7 +74,8 @@ impl PathRule for MaybeVariableUnset {
             for op in ops {
                 let Op::Variable(variable) = op else { continue };
                 let Some(value) = cx.state().local(*variable) else { continue };
-                let may_be_unset = Abstract::is_vacant(value) == Truth::Unknown && *value != AbstractValue::Unknown;
+                let may_be_unset =
+                    Abstract::is_vacant(value) == Truth::Unknown && *value != AbstractValue::Unknown;
                 if !may_be_unset || !self.told.insert(*variable) {
                     continue;
                 }

@@ -140,22 +140,37 @@ mod tests {
 
     #[test]
     fn the_name_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G0 X#<width>\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X#<width>\nM2\n",
+            &expect![[r#"
             1 | G0 X#<width>
               |       ^^^^^ error[named-parameter-unset] named parameter `#<width>` is read before it is set
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "#<a>=1\nG0 X[#<a>+#<b>]\nM2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#<a>=1\nG0 X[#<a>+#<b>]\nM2\n",
+            &expect![[r#"
             2 | G0 X[#<a>+#<b>]
               |             ^ error[named-parameter-unset] named parameter `#<b>` is read before it is set
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_global_may_be_set_before_the_program() {
-        check_rule(&RULE, "linuxcnc", "G0 X#<_width>\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X#<_width>\nM2\n",
+            &expect![[r#"
             1 | G0 X#<_width>
               |       ^^^^^^ warning[named-parameter-unset] named parameter `#<_width>` is read before it is set
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -165,11 +180,6 @@ mod tests {
 
     #[test]
     fn a_name_that_some_path_sets_is_not_judged() {
-        check_rule(
-            &RULE,
-            "linuxcnc",
-            "o1 if [#100 GT 0]\n#<a>=1\no1 endif\nG0 X#<a>\nM2\n",
-            &expect![[""]],
-        );
+        check_rule(&RULE, "linuxcnc", "o1 if [#100 GT 0]\n#<a>=1\no1 endif\nG0 X#<a>\nM2\n", &expect![[""]]);
     }
 }

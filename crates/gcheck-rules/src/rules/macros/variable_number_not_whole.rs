@@ -67,10 +67,15 @@ mod tests {
 
     #[test]
     fn the_block_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= 0.5\n#[100 + #1]= 3\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#1= 0.5\n#[100 + #1]= 3\nM30\n",
+            &expect![[r#"
             3 | #[100 + #1]= 3
               | ^^^^^^^^^^^^^^ warning[variable-number-not-whole] computed number names no variable (`#[…]`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -94,7 +94,13 @@ impl PathRule for VariableReadBeforeSet {
         let Some(place) = cx.place() else { return };
         let Some((usage, range)) = usage(cx, &place, variable) else { return };
         let argument = in_macro
-            .then(|| cx.model.semantics().argument_letters.iter().find(|(_, number)| u32::from(**number) == variable))
+            .then(|| {
+                cx.model
+                    .semantics()
+                    .argument_letters
+                    .iter()
+                    .find(|(_, number)| u32::from(**number) == variable)
+            })
             .flatten();
         let severity = match usage {
             Use::Tested | Use::HandedOn => return,
@@ -105,7 +111,9 @@ impl PathRule for VariableReadBeforeSet {
         };
         self.told.insert(variable);
         let message = match argument {
-            Some((letter, _)) => format!("the call gives no `{letter}`, but the macro computes with it (`#{variable}`)"),
+            Some((letter, _)) => {
+                format!("the call gives no `{letter}`, but the macro computes with it (`#{variable}`)")
+            }
             None => format!("variable `#{variable}` is read before it is set"),
         };
         let label = match usage {
@@ -113,7 +121,9 @@ impl PathRule for VariableReadBeforeSet {
             _ => "holds nothing here, and counts as zero",
         };
         let help = match argument {
-            Some((letter, _)) => format!("give `{letter}` in the call, or test `#{variable}` for `#0` before it is used"),
+            Some((letter, _)) => {
+                format!("give `{letter}` in the call, or test `#{variable}` for `#0` before it is used")
+            }
             None => format!("set `#{variable}` before this block"),
         };
         report.add(cx.finding(&META, range, message).label(label).help(help).at_most(severity));
@@ -197,10 +207,15 @@ mod tests {
 
     #[test]
     fn counting_from_nothing_is_worth_knowing() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= #1 + 1\nG0 X#1\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#1= #1 + 1\nG0 X#1\nM30\n",
+            &expect![[r#"
             2 | #1= #1 + 1
               | ^^^^^^^^^^ info[variable-read-before-set] variable `#1` is read before it is set
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -228,6 +243,11 @@ mod tests {
 
     #[test]
     fn a_variable_that_another_way_may_have_set() {
-        check_rule(&RULE, "fanuc-mill", "O1\nIF [#500 EQ 1] GOTO 10\n#1=5.\nN10 G0 X#1\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nIF [#500 EQ 1] GOTO 10\n#1=5.\nN10 G0 X#1\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -86,10 +86,16 @@ impl PathRule for RestartWithChangedMode {
         for (role, first) in &self.relied_on {
             let Some(last) = cx.state().mode(*role).only().filter(|last| last != first) else { continue };
             let control = cx.scene.control();
-            let (Some(first), Some(last)) = (control.code_at(*first), control.code_at(last)) else { continue };
+            let (Some(first), Some(last)) = (control.code_at(*first), control.code_at(last)) else {
+                continue;
+            };
             let (was, is) = (&first.entry().code, &last.entry().code);
             let finding = cx
-                .finding(&META, cx.range(), format!("the next pass begins with `{is}`, the first with `{was}`"))
+                .finding(
+                    &META,
+                    cx.range(),
+                    format!("the next pass begins with `{is}`, the first with `{was}`"),
+                )
                 .label("starts the program again")
                 .assuming(format!("`{was}` is in effect at the start"))
                 .help(format!("set `{was}` at the top of the program, or before this block"));
@@ -107,10 +113,15 @@ mod tests {
 
     #[test]
     fn the_return_is_marked() {
-        check_rule(&RULE, "haas-mill", "T1 M6\nG0 X1.\nG91 X1.\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG0 X1.\nG91 X1.\nM99\n",
+            &expect![[r#"
             4 | M99
               | ^^^ info[restart-with-changed-mode] the next pass begins with `G91`, the first with `G90`
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -67,17 +67,27 @@ mod tests {
 
     #[test]
     fn the_code_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G90 M72\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 M72\nM2\n",
+            &expect![[r#"
             1 | G90 M72
               |     ^^^ error[saved-modes-missing] modes are restored (`M72`) that were never saved
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn what_was_forgotten_is_not_there() {
-        check_rule(&RULE, "linuxcnc", "M70\nM71\nM72\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "M70\nM71\nM72\nM2\n",
+            &expect![[r#"
             3 | M72
               | ^^^ error[saved-modes-missing] modes are restored (`M72`) that were never saved
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -62,7 +62,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if survey.calls.is_empty() || survey.has_mistakes {
         return;
     }
-    let is_computed = |target: &CallKind| matches!(target, CallKind::Unknown | CallKind::OWord(OLabel::Computed));
+    let is_computed =
+        |target: &CallKind| matches!(target, CallKind::Unknown | CallKind::OWord(OLabel::Computed));
     if survey.calls.iter().any(|call| is_computed(&call.target)) {
         return;
     }
@@ -134,7 +135,11 @@ fn o_words(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
     // Where a file is one subroutine, its own name calls it.
     let own = survey.first_block.as_ref().map(|first| first.start);
-    for sub in survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub && own.is_none_or(|own| o.range.start > own)) {
+    for sub in survey
+        .o_words
+        .iter()
+        .filter(|o| o.keyword == OKeyword::Sub && own.is_none_or(|own| o.range.start > own))
+    {
         if sub.label != OLabel::Computed && !calls(&sub.label) {
             let name = match &sub.label {
                 OLabel::Number(number) => format!("o{number}"),
@@ -159,10 +164,15 @@ mod tests {
 
     #[test]
     fn the_head_of_the_program_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\nM98 P2\nM30\nO2\nM99\nO3\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\nM98 P2\nM30\nO2\nM99\nO3\nM99\n",
+            &expect![[r#"
             6 | O3
               | ^^ info[program-never-called] nothing in this file calls `O3`
-        "#]]);
+        "#]],
+        );
         check_rule(
             &RULE,
             "linuxcnc",

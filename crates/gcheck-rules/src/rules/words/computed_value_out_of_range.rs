@@ -55,9 +55,8 @@ impl PathRule for ComputedValueOutOfRange {
             return;
         }
         // A number as it stands is judged without executing the block.
-        let range = cx.find_word(cx.origin().at, |word| {
-            word.letter == *letter && matches!(word.value, Value::Expr(_))
-        });
+        let range = cx
+            .find_word(cx.origin().at, |word| word.letter == *letter && matches!(word.value, Value::Expr(_)));
         let Some(range) = range else { return };
         let name = char::from(letter.ascii());
         let mut finding = cx
@@ -80,14 +79,24 @@ mod tests {
 
     #[test]
     fn the_word_is_marked() {
-        check_rule(&RULE, "haas-mill", "O1\n#1= 2.5\nM98 P#1\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#1= 2.5\nM98 P#1\nM30\n",
+            &expect![[r#"
             3 | M98 P#1
               |     ^^^ error[computed-value-out-of-range] computed value of `P` cannot be used here
-        "#]]);
-        check_rule(&RULE, "linuxcnc", "#1=-5\nM3 S#1\nM2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "#1=-5\nM3 S#1\nM2\n",
+            &expect![[r#"
             2 | M3 S#1
               |    ^^^ error[computed-value-out-of-range] computed value of `S` cannot be used here
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
