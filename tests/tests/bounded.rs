@@ -17,7 +17,13 @@ fn check_everywhere(bytes: Vec<u8>) {
         let machine = MachineFacts::default();
         let scene =
             Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: true };
-        let outcome = check(&Job { source: &source, scene, selection: &selection, suppressions: true, execution: Execution::default() });
+        let outcome = check(&Job {
+            source: &source,
+            scene,
+            selection: &selection,
+            suppressions: true,
+            execution: Execution::default(),
+        });
         for finding in outcome.findings {
             let places = finding.labels.iter().map(|l| &l.range).chain([&finding.range]);
             let edits = finding.fixes.iter().flat_map(|f| &f.edits).map(|e| &e.range);

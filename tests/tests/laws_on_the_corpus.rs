@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_program::{Dialect, lower, lower_tree};
-use gcheck_rules::{Finding, Job, MachineFacts, NoPrograms, Scene, Selection, check};
+use gcheck_rules::{Execution, Finding, Job, MachineFacts, NoPrograms, Scene, Selection, check};
 use gcheck_syntax::{Document, SourceText, cut, parse};
 use gcheck_testkit::corpus::{CorpusProgram, programs};
 use rayon::prelude::*;
@@ -99,7 +99,8 @@ fn findings(control: &Control, source: &SourceText) -> Vec<Finding> {
         Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
     let mut selection = Selection::default();
     selection.enable("all").unwrap();
-    check(&Job { source, scene, selection: &selection, suppressions: true, execution: Execution::default() }).findings
+    check(&Job { source, scene, selection: &selection, suppressions: true, execution: Execution::default() })
+        .findings
 }
 
 #[test]

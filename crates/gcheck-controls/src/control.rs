@@ -2,11 +2,11 @@
 //!
 //! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
 
+use crate::execution::{Effect, Semantics};
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FunctionEntry, Hint, LetterEntry,
     Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules, VariableEntry,
 };
-use crate::execution::{Effect, Semantics};
 use crate::{CodeNumber, Letter, LetterSet};
 
 /// Index of a code in its control; small, so that a word of a program can carry it.
@@ -344,7 +344,15 @@ impl Control {
                 source: "the user's configuration".to_owned(),
                 confidence: Confidence::Manual,
             };
-            let facts = CodeFacts { entry, number: code.number, group, reads: LetterSet::EMPTY, effect: if code.alias.is_some() { Effect::MacroCall } else { Effect::None }, alias: code.alias.clone(), user: true };
+            let facts = CodeFacts {
+                entry,
+                number: code.number,
+                group,
+                reads: LetterSet::EMPTY,
+                effect: if code.alias.is_some() { Effect::MacroCall } else { Effect::None },
+                alias: code.alias.clone(),
+                user: true,
+            };
             control.put_code(facts);
         }
         control

@@ -273,7 +273,9 @@ mod tests {
     use std::fs;
     use std::path::Path;
 
-    use super::{AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile, VariablesFile,
+    use super::{
+        AlarmsFile, CodesFile, ControlFile, ExecutionFile, GroupsFile, LettersFile, SettingsFile,
+        VariablesFile,
     };
 
     /// The embedded form has lost its line numbers; this is where an author of data learns the line.

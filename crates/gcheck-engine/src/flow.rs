@@ -224,7 +224,15 @@ pub fn flow<O: FlowObserver>(
     fuel: u64,
     observer: &mut O,
 ) -> FlowResult {
-    let shown = Shown { observer, model, trace: Trace::default(), solo: true, muted: false, also: Vec::new(), stepping: None };
+    let shown = Shown {
+        observer,
+        model,
+        trace: Trace::default(),
+        solo: true,
+        muted: false,
+        also: Vec::new(),
+        stepping: None,
+    };
     let mut executor = Executor::new(program, model, machine, options, shown);
     executor.lenient = true;
     let state = start_state::<Abstract>(model, machine, &mut executor.assumptions);
@@ -455,7 +463,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.executor.file(at.file).is_some_and(|file| {
             let outline = file.loaded.outline();
             // A loop may come back to the block behind its head.
-            outline.may_be_target(at.block) || at.block.checked_sub(1).is_some_and(|above| outline.is_flow(above))
+            outline.may_be_target(at.block)
+                || at.block.checked_sub(1).is_some_and(|above| outline.is_flow(above))
         })
     }
 
@@ -565,7 +574,12 @@ fn calls_differ(path: &Rc<[At]>, state: &State<Abstract>) -> bool {
 fn is_final(fault: &Fault) -> bool {
     matches!(
         fault,
-        Fault::NoProgramEnd | Fault::LoopMismatch | Fault::TooDeep | Fault::NoSuchLabel(_) | Fault::StrayReturn | Fault::Alarm(_)
+        Fault::NoProgramEnd
+            | Fault::LoopMismatch
+            | Fault::TooDeep
+            | Fault::NoSuchLabel(_)
+            | Fault::StrayReturn
+            | Fault::Alarm(_)
     )
 }
 

@@ -39,7 +39,11 @@ impl ModeSet {
 
     /// The alternatives; empty when it may be any.
     pub fn alternatives(&self) -> &[CodeIx] {
-        if self.len == Self::ANY_LEN { &[] } else { self.codes.get(..usize::from(self.len)).unwrap_or_default() }
+        if self.len == Self::ANY_LEN {
+            &[]
+        } else {
+            self.codes.get(..usize::from(self.len)).unwrap_or_default()
+        }
     }
 
     /// Either.

@@ -221,7 +221,8 @@ impl<'c> Model<'c> {
                 .filter_map(|b| Letter::new(b).or_else(|| Letter::sign(b)))
                 .chain([Letter::CORNER_R, Letter::CORNER_C, Letter::CORNER_A])
                 .find(|letter| letter.index() == index);
-            *slot = letter.and_then(|l| control.letter(l)).filter(|entry| entry.scaled).map(|entry| entry.kind);
+            *slot =
+                letter.and_then(|l| control.letter(l)).filter(|entry| entry.scaled).map(|entry| entry.kind);
         }
         let increments: Vec<(Letter, Axis)> = semantics
             .increments
@@ -275,7 +276,8 @@ impl<'c> Model<'c> {
         model.cycle_cancel = model.code_with(Effect::CycleCancel);
         let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
         model.cycles_are_motion = group(Effect::CycleDrill) == group(Effect::Linear);
-        let code_of = |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
+        let code_of =
+            |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
         model.at_end = semantics.at_end.iter().filter_map(code_of).collect();
         let starts = control.groups().iter().filter_map(|group| group.default.as_ref());
         for ix in starts.chain(&semantics.at_start).filter_map(code_of) {
@@ -305,7 +307,8 @@ impl<'c> Model<'c> {
             Some(Effect::Millimetre) => return Some(Units::Mm),
             _ => {}
         }
-        let decides = |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
+        let decides =
+            |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
         let setting = self.control.settings().iter().find(|setting| decides(&setting.values))?;
         let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
         match value.as_str() {

@@ -34,10 +34,11 @@ pub(crate) fn start_state<D: Domain>(
             }
         }
     }
-    let unit_code = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).map(|units| match units {
-        Units::Inch => gcheck_controls::Effect::Inch,
-        Units::Mm => gcheck_controls::Effect::Millimetre,
-    });
+    let unit_code =
+        machine.units.or_else(|| model.units_at_power_on(&machine.settings)).map(|units| match units {
+            Units::Inch => gcheck_controls::Effect::Inch,
+            Units::Mm => gcheck_controls::Effect::Millimetre,
+        });
     if let (Some(effect), Some(slot)) = (unit_code, in_force.get_mut(Role::Units.index())) {
         let code = model.code_with(effect);
         *slot = ModeSet::one(code);
@@ -137,7 +138,10 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     let mut state = start_state::<D>(model, machine, &mut BTreeSet::new());
     for (role, mode) in Role::ALL.into_iter().zip(&mut state.modes) {
         // A subprogram that changes units or the control's own modes of work is rare enough to be its own mistake.
-        if !matches!(role, Role::Units | Role::Diameter | Role::TiltedPlane | Role::PolarInterpolation | Role::DynamicOffset) {
+        if !matches!(
+            role,
+            Role::Units | Role::Diameter | Role::TiltedPlane | Role::PolarInterpolation | Role::DynamicOffset
+        ) {
             *mode = ModeSet::ANY;
         }
     }

@@ -12,8 +12,8 @@ use crate::event::{FeedMode, Spindle, Units};
 use crate::machine::WorkOffset;
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
-use crate::step::compensation::Compensation;
 use crate::position::{Axis, Position};
+use crate::step::compensation::Compensation;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -205,7 +205,9 @@ impl TurningWords {
     }
 
     fn contains(&self, inner: &Self) -> bool {
-        self.all().zip(inner.all()).all(|(a, b)| a.is_some_and(f64::is_nan) || a.map(f64::to_bits) == b.map(f64::to_bits))
+        self.all()
+            .zip(inner.all())
+            .all(|(a, b)| a.is_some_and(f64::is_nan) || a.map(f64::to_bits) == b.map(f64::to_bits))
     }
 }
 
@@ -764,7 +766,8 @@ fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
     let numbers: Vec<u16> = a.offsets.iter().chain(&b.offsets).map(|(n, _)| *n).collect();
     for number in numbers {
         let (left, right) = (a.offset(number), b.offset(number));
-        let rotation = if left.rotation.to_bits() == right.rotation.to_bits() { left.rotation } else { f64::NAN };
+        let rotation =
+            if left.rotation.to_bits() == right.rotation.to_bits() { left.rotation } else { f64::NAN };
         joined.set_offset(number, WorkOffset { origin: left.origin.join(&right.origin), rotation });
     }
     for (slot, with) in joined.references.iter_mut().zip(&b.references) {

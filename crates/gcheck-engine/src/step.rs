@@ -25,7 +25,8 @@ use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet, SystemValue, Unpointed, Unset, WordKind};
 use gcheck_program::{
-    BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value, Word,
+    BinaryOp, Block, BlockFlags, BlockTable, Expr, ExprIx, Function, Op, Place, StatementKind, Target, Value,
+    Word,
 };
 use rustc_hash::FxHashMap;
 
@@ -144,7 +145,9 @@ enum Assignee {
 enum Flow<D: Domain> {
     Jump(At),
     Call(flow_control::Callee<D>),
-    Return { label: Option<D::Value> },
+    Return {
+        label: Option<D::Value>,
+    },
     /// Here or on, as an input decides.
     MayJump(At),
     End(Ending),
@@ -220,7 +223,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         };
         if block.flags.contains(BlockFlags::LABEL) {
             let n = table.words(block).iter().find(|word| word.letter == Letter::of('N'));
-            #[expect(clippy::cast_sign_loss, reason = "negative numbers become 0, as a label cannot be negative")]
+            #[expect(
+                clippy::cast_sign_loss,
+                reason = "negative numbers become 0, as a label cannot be negative"
+            )]
             {
                 self.origin.n = n.and_then(Word::number).map(|n| n as u32);
             }
@@ -248,7 +254,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         outcome
     }
 
-    fn run_block(&mut self, place: &Place, table: &BlockTable, block: &Block, state: &mut State<D>) -> Outcome<D> {
+    fn run_block(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        state: &mut State<D>,
+    ) -> Outcome<D> {
         let mut refused = None;
         if block.flags.contains(BlockFlags::ERROR) && table.errors(place.ix).next().is_some() {
             refused = Some(Fault::Malformed);
@@ -271,7 +283,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
     }
 
-    fn run_parts(&mut self, place: &Place, table: &BlockTable, block: &Block, state: &mut State<D>) -> Outcome<D> {
+    fn run_parts(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        block: &Block,
+        state: &mut State<D>,
+    ) -> Outcome<D> {
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
                 Ok(Statements::Words) => {}
@@ -358,7 +376,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     // ---- words ----
 
-    fn read_words(&mut self, place: &Place, table: &BlockTable, words: &[Word], state: &mut State<D>) -> Step {
+    fn read_words(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        words: &[Word],
+        state: &mut State<D>,
+    ) -> Step {
         self.words.clear();
         for word in words {
             if word.code.is_some() {
@@ -369,14 +393,19 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             match word.value {
                 Value::Number(_) if code_letter => {
                     // The machine's builder adds M codes of his own, where the control lets him.
-                    let may_be_builders = word.letter.ascii() == b'M' && self.model.control().code_list().builder_m_codes;
+                    let may_be_builders =
+                        word.letter.ascii() == b'M' && self.model.control().code_list().builder_m_codes;
                     if !may_be_builders {
                         self.refuse(Fault::UnknownCode)?;
                     }
                 }
                 Value::Number(number) => {
                     let pointed = word.shape.point;
-                    let number = if pointed || number == 0.0 { number } else { self.scale(word.letter, number, state) };
+                    let number = if pointed || number == 0.0 {
+                        number
+                    } else {
+                        self.scale(word.letter, number, state)
+                    };
                     self.words.put_number(word.letter, number, pointed);
                 }
                 Value::Expr(expr) => {
@@ -489,7 +518,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     continue;
                 }
                 Effect::MacroCall | Effect::MacroModal => macro_call = true,
-                Effect::None if self.model.control().code_at(*ix).is_some_and(gcheck_controls::Code::is_user) => {
+                Effect::None
+                    if self.model.control().code_at(*ix).is_some_and(gcheck_controls::Code::is_user) =>
+                {
                     taken = true;
                 }
                 _ => {}
@@ -580,7 +611,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     // ---- expressions ----
 
-    fn evaluate(&mut self, place: &Place, table: &BlockTable, expr: &Expr, state: &State<D>) -> Step<D::Value> {
+    fn evaluate(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        expr: &Expr,
+        state: &State<D>,
+    ) -> Step<D::Value> {
         let ops = table.ops(expr);
         // By far the most common: one number, or one variable.
         match ops {
@@ -600,7 +637,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     if matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _))) =>
                 {
                     let exists = match op {
-                        Op::Named { start, end } => Some(self.read_named(place, (*start, *end), state).is_ok()),
+                        Op::Named { start, end } => {
+                            Some(self.read_named(place, (*start, *end), state).is_ok())
+                        }
                         Op::Variable(number) => Some(self.check_number(*number).is_ok()),
                         _ => {
                             let number = self.stack.pop().unwrap_or_else(D::unknown);
@@ -724,7 +763,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn name(&self, place: &Place, range: (u32, u32)) -> NameId {
         let file = self.origin.at.file;
         match &self.cursor {
-            Some(cursor) => self.program.name_at(file, place.chunk, range, cursor.file.loaded.chunk_text(place.chunk)),
+            Some(cursor) => {
+                self.program.name_at(file, place.chunk, range, cursor.file.loaded.chunk_text(place.chunk))
+            }
             None => self.program.name(""),
         }
     }
@@ -745,7 +786,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let target = self.assignee(place, table, target, state)?;
                     let value = self.evaluate(place, table, table.expr(*value), state)?;
                     if self.model.semantics().assignments_after_block {
-                        self.check_assignable(&target)?;
+                        self.check_assignable(target)?;
                         self.pending.push((target, value));
                     } else if let Some(end) = self.assign(target, value, state)? {
                         return Ok(Statements::Done(end));
@@ -775,7 +816,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 StatementKind::End { .. } => return self.loop_end().map(Statements::Done),
                 StatementKind::OWord { label, keyword, arguments } => {
                     self.check_o_word(place, table.words(block), block)?;
-                    return self.o_word(place, table, label, *keyword, arguments.clone(), state).map(Statements::Done);
+                    return self
+                        .o_word(place, table, label, *keyword, arguments.clone(), state)
+                        .map(Statements::Done);
                 }
                 StatementKind::Print => {}
             }
@@ -783,7 +826,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         Ok(Statements::Words)
     }
 
-    fn condition(&mut self, place: &Place, table: &BlockTable, condition: ExprIx, state: &State<D>) -> Step<Truth> {
+    fn condition(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        condition: ExprIx,
+        state: &State<D>,
+    ) -> Step<Truth> {
         let value = self.evaluate(place, table, table.expr(condition), state)?;
         Ok(D::truth(&value))
     }
@@ -843,16 +892,24 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn assume(&mut self, table: &BlockTable, condition: ExprIx, holds: bool, state: &mut State<D>) {
         let (variable, op, bound) = match table.ops(table.expr(condition)) {
             [Op::Variable(variable), Op::Number(bound), Op::Binary(op)] => (*variable, *op, *bound),
-            [Op::Variable(variable), Op::Number(bound), Op::Negate, Op::Binary(op)] => (*variable, *op, -*bound),
+            [Op::Variable(variable), Op::Number(bound), Op::Negate, Op::Binary(op)] => {
+                (*variable, *op, -*bound)
+            }
             [Op::Number(bound), Op::Variable(variable), Op::Binary(op)] => match mirrored(*op) {
                 Some(op) => (*variable, op, *bound),
                 None => return,
             },
             // `#1 EQ #0`: nothing, or something.
-            [Op::Variable(variable), Op::Variable(0), Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual))]
-            | [Op::Variable(0), Op::Variable(variable), Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual))]
-                if self.model.semantics().unset == Unset::Vacant =>
-            {
+            [
+                Op::Variable(variable),
+                Op::Variable(0),
+                Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual)),
+            ]
+            | [
+                Op::Variable(0),
+                Op::Variable(variable),
+                Op::Binary(op @ (BinaryOp::Equal | BinaryOp::NotEqual)),
+            ] if self.model.semantics().unset == Unset::Vacant => {
                 let vacant = (*op == BinaryOp::Equal) == holds;
                 if let Ok(value) = self.read_variable(*variable, state)
                     && let Some(narrowed) = D::assume_vacant(&value, vacant)
@@ -883,7 +940,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
     }
 
-    fn assignee(&mut self, place: &Place, table: &BlockTable, target: &Target, state: &State<D>) -> Step<Assignee> {
+    fn assignee(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        target: &Target,
+        state: &State<D>,
+    ) -> Step<Assignee> {
         Ok(match target {
             Target::Variable(number) => Assignee::Number(*number),
             Target::Named(range) => Assignee::Name(self.name(place, (range.start, range.end))),
@@ -899,23 +962,32 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// May the program write it? Asked before the block acts.
-    fn check_assignable(&self, target: &Assignee) -> Step {
+    fn check_assignable(&self, target: Assignee) -> Step {
         match target {
             Assignee::Name(name) => {
-                let text = self.program.name_text(*name);
-                if self.model.named_variable(&text).is_some() { Err(Fault::ReadOnlyVariable(0)) } else { Ok(()) }
+                let text = self.program.name_text(name);
+                if self.model.named_variable(&text).is_some() {
+                    Err(Fault::ReadOnlyVariable(0))
+                } else {
+                    Ok(())
+                }
             }
             Assignee::Number(number) => {
-                self.check_number(*number)?;
-                let writable = *number != 0 && self.model.control().is_writable(*number);
-                if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(*number)) }
+                self.check_number(number)?;
+                let writable = number != 0 && self.model.control().is_writable(number);
+                if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(number)) }
             }
             Assignee::Anywhere => Ok(()),
         }
     }
 
     /// Writes a variable. Some variables end the program.
-    fn assign(&mut self, target: Assignee, value: D::Value, state: &mut State<D>) -> Step<Option<Outcome<D>>> {
+    fn assign(
+        &mut self,
+        target: Assignee,
+        value: D::Value,
+        state: &mut State<D>,
+    ) -> Step<Option<Outcome<D>>> {
         match target {
             Assignee::Name(name) => {
                 let text = self.program.name_text(name);
@@ -1091,7 +1163,11 @@ fn owns_axes(effect: Effect) -> bool {
 }
 
 /// How numbers without decimal point count on this machine.
-fn settle_unpointed(model: &Model<'_>, machine: &Machine, assumptions: &mut BTreeSet<Assumption>) -> Unpointed {
+fn settle_unpointed(
+    model: &Model<'_>,
+    machine: &Machine,
+    assumptions: &mut BTreeSet<Assumption>,
+) -> Unpointed {
     let numbers = model.control().numbers();
     let Some(setting) = &numbers.unpointed_setting else { return model.unpointed() };
     let number = setting.rsplit(' ').next().unwrap_or_default();

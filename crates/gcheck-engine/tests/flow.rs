@@ -1,9 +1,15 @@
 //! What the analysis of all paths promises, one promise a test: exact while every condition is known, both ways where none
 //! is, joined where the ways meet, widened where they turn, and always at an end.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
+
 use gcheck_engine::{
-    Abstract, AbstractValue, At, Axis, ConcreteValue, Domain, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Machine, Model,
-    NoLibrary, Options, Program, Reach, Role, State, flow,
+    Abstract, AbstractValue, At, Axis, ConcreteValue, Domain, Ending, Event, Fault, FlowCx, FlowObserver,
+    FlowResult, Machine, Model, NoLibrary, Options, Program, Reach, Role, State, flow,
 };
 use gcheck_program::{Dialect, Loaded};
 
@@ -151,20 +157,18 @@ fn o_words_loop_repeat_and_choose() {
 #[test]
 fn an_unknown_condition_goes_both_ways_and_they_meet() {
     let seen = analyse("fanuc-mill", "G0 X1.\nIF [#500 EQ 1] GOTO 10\nG0 X5.\nN10 G0 Y2.\nM30\n");
-    assert_eq!([1, 2, 3, 4, 5].map(|line| seen.reach(line)), [
-        Reach::Always,
-        Reach::Always,
-        Reach::Some,
-        Reach::Always,
-        Reach::Always
-    ]);
+    assert_eq!(
+        [1, 2, 3, 4, 5].map(|line| seen.reach(line)),
+        [Reach::Always, Reach::Always, Reach::Some, Reach::Always, Reach::Always]
+    );
     let solo: Vec<bool> = seen.watcher.before.iter().map(|shown| shown.solo).collect();
     assert_eq!(solo, [true, true, false, true, true]);
 }
 
 #[test]
 fn where_ways_meet_what_differs_is_unknown_and_what_agrees_stays() {
-    let seen = analyse("fanuc-mill", "G21 G90\nG0 X1. Y3.\nIF [#500 EQ 1] GOTO 10\nG0 X5.\nN10 G0 Z2.\nM30\n");
+    let seen =
+        analyse("fanuc-mill", "G21 G90\nG0 X1. Y3.\nIF [#500 EQ 1] GOTO 10\nG0 X5.\nN10 G0 Z2.\nM30\n");
     let state = seen.state(5);
     assert_eq!(state.position().get(Axis::X), None);
     assert_eq!(state.position().get(Axis::Y), Some(3.0));
@@ -201,17 +205,18 @@ fn a_condition_narrows_what_it_asks_for() {
 
 #[test]
 fn the_second_of_two_equal_questions_has_one_answer() {
-    let seen = analyse(
-        "fanuc-mill",
-        "IF [#500 GT 1] GOTO 10\nM30\nN10 IF [#500 GT 0] GOTO 20\nG0 X1.\nN20 M30\n",
-    );
+    let seen =
+        analyse("fanuc-mill", "IF [#500 GT 1] GOTO 10\nM30\nN10 IF [#500 GT 0] GOTO 20\nG0 X1.\nN20 M30\n");
     assert_eq!(seen.reach(4), Reach::Never);
 }
 
 #[test]
 fn a_way_that_ends_is_still_a_way() {
     let seen = analyse("haas-mill", "IF [#500 EQ 1] GOTO 9\nM30\nN9 G0 X1.\nM30\n");
-    assert_eq!([1, 2, 3, 4].map(|line| seen.reach(line)), [Reach::Always, Reach::Some, Reach::Some, Reach::Some]);
+    assert_eq!(
+        [1, 2, 3, 4].map(|line| seen.reach(line)),
+        [Reach::Always, Reach::Some, Reach::Some, Reach::Some]
+    );
     assert_eq!(seen.watcher.endings, [(2, Ending::Program), (4, Ending::Program)]);
     assert!(seen.watcher.before.iter().all(|shown| shown.solo == (shown.line == 1)));
 }
@@ -250,7 +255,10 @@ fn a_loop_with_unknown_turns_is_widened() {
 
 #[test]
 fn the_bound_of_a_loop_holds_inside_it() {
-    let seen = analyse("fanuc-mill", "#1=0\nWHILE [#1 LT #500] DO1\nIF [#1 GT 99] GOTO 10\n#1=#1+1\nEND1\nN10 M30\n");
+    let seen = analyse(
+        "fanuc-mill",
+        "#1=0\nWHILE [#1 LT #500] DO1\nIF [#1 GT 99] GOTO 10\n#1=#1+1\nEND1\nN10 M30\n",
+    );
     let (low, _) = Abstract::bounds(seen.state(4).local(1).unwrap()).unwrap();
     assert!(low >= 0.0);
 }
@@ -427,10 +435,8 @@ fn an_alarm_on_one_way_leaves_the_other() {
 
 #[test]
 fn a_test_for_nothing_narrows() {
-    let seen = analyse(
-        "fanuc-mill",
-        "IF [#500 EQ 1] GOTO 10\n#1=5\nN10 IF [#1 EQ #0] THEN #1=1\nG0 X#1\nM30\n",
-    );
+    let seen =
+        analyse("fanuc-mill", "IF [#500 EQ 1] GOTO 10\n#1=5\nN10 IF [#1 EQ #0] THEN #1=1\nG0 X#1\nM30\n");
     let value = seen.state(4).local(1).unwrap();
     assert_eq!(Abstract::bounds(value), Some((1.0, 5.0)));
 }

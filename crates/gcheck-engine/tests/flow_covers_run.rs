@@ -5,12 +5,18 @@
 //! comes to may be called unreachable; and when it comes to the program's end, it was at every block that the analysis says
 //! every path comes to.
 
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use gcheck_engine::{
-    Abstract, At, Axis, Concrete, FlowCx, FlowObserver, Machine, Model, NoLibrary, Observer, Options, Origin, Position,
-    Program, Reach, Role, State, Stopped, WorkOffset, flow, run,
+    Abstract, At, Axis, Concrete, FlowCx, FlowObserver, Machine, Model, NoLibrary, Observer, Options, Origin,
+    Position, Program, Reach, Role, State, Stopped, WorkOffset, flow, run,
 };
 use gcheck_program::{Dialect, Loaded};
 use proptest::prelude::*;
@@ -169,11 +175,48 @@ impl<'a> Writer<'a> {
 
     fn mode(&mut self) {
         let line = [
-            "G90", "G91", "G17", "G18", "G54", "G55", "S500 M3", "M5", "F200.", "M8", "M9", "G20", "G21", "S#100",
-            "F[#101+10.]", "G94", "G93", "T1", "G43 H1", "G49", "G92 X0.", "G52 X1.", "G4 P1", "T2 M6",
-            "G81 X1. Y1. Z-2. R1. F100.", "G83 X2. Z-3. R1. Q1. F100.", "X3.", "G80", "G98", "G99", "G2 X2. Y0. R5. F100.",
-            "G3 X0. Y2. I1. J1. F100.", "G28 Z0.", "G53 G0 Z-1.", "G10 L2 P1 X5.", "G40", "G41 D1", "G1 X[#110+5.] F50.",
-            "G61", "G10 L2 P2 Y#100", "G92.1", "G0 X[#5001]",
+            "G90",
+            "G91",
+            "G17",
+            "G18",
+            "G54",
+            "G55",
+            "S500 M3",
+            "M5",
+            "F200.",
+            "M8",
+            "M9",
+            "G20",
+            "G21",
+            "S#100",
+            "F[#101+10.]",
+            "G94",
+            "G93",
+            "T1",
+            "G43 H1",
+            "G49",
+            "G92 X0.",
+            "G52 X1.",
+            "G4 P1",
+            "T2 M6",
+            "G81 X1. Y1. Z-2. R1. F100.",
+            "G83 X2. Z-3. R1. Q1. F100.",
+            "X3.",
+            "G80",
+            "G98",
+            "G99",
+            "G2 X2. Y0. R5. F100.",
+            "G3 X0. Y2. I1. J1. F100.",
+            "G28 Z0.",
+            "G53 G0 Z-1.",
+            "G10 L2 P1 X5.",
+            "G40",
+            "G41 D1",
+            "G1 X[#110+5.] F50.",
+            "G61",
+            "G10 L2 P2 Y#100",
+            "G92.1",
+            "G0 X[#5001]",
         ][self.choose(42) as usize];
         // What LinuxCNC has not, or not without a tool table.
         let is_foreign = self.style == Style::OWords && ["G52", "G41"].iter().any(|g| line.starts_with(g));

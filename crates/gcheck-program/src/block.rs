@@ -144,12 +144,19 @@ pub struct BlockTable {
     pub(crate) statements: Vec<(BlockIx, Statement)>,
     pub(crate) errors: Vec<(BlockIx, SyntaxError)>,
     pub(crate) directives: Vec<Range<u32>>,
+    /// What any block has.
+    pub(crate) flags: BlockFlags,
 }
 
 impl BlockTable {
     /// The blocks in text order.
     pub fn blocks(&self) -> impl ExactSizeIterator<Item = (BlockIx, &Block)> {
         self.blocks.iter().enumerate().map(|(ix, block)| (BlockIx(ix as u32), block))
+    }
+
+    /// What any of the blocks has.
+    pub fn flags(&self) -> BlockFlags {
+        self.flags
     }
 
     /// How many blocks there are.

@@ -66,7 +66,11 @@ impl Place {
 
 impl<'a> Loaded<'a> {
     /// Cuts, lowers and outlines a text; `see` looks at each table on the way, with its offset in the file.
-    pub fn new(text: impl Into<Cow<'a, str>>, dialect: &Dialect<'_>, mut see: impl FnMut(u32, &BlockTable, &str)) -> Self {
+    pub fn new(
+        text: impl Into<Cow<'a, str>>,
+        dialect: &Dialect<'_>,
+        mut see: impl FnMut(u32, &BlockTable, &str),
+    ) -> Self {
         let text = text.into();
         let region_end = code_region(&text).end as u32;
         let mut builder = Outline::builder();
@@ -83,7 +87,7 @@ impl<'a> Loaded<'a> {
             see(base, &table, part);
             builder.add(&table, base, region_end, part, dialect);
             chunks.push(base..chunk.end as u32);
-            flags.push(table.blocks().fold(BlockFlags::empty(), |all, (_, block)| all | block.flags));
+            flags.push(table.flags());
             tables.slots.push(None);
             // The first chunks are those that execution begins with.
             if tables.bytes + chunk.len() <= KEPT {
@@ -115,8 +119,13 @@ impl<'a> Loaded<'a> {
     }
 
     /// Numbers of the blocks that have any of these flags, in text order. Chunks without such a block are passed over.
-    pub fn blocks_with(&self, flags: BlockFlags, dialect: &Dialect<'_>) -> impl Iterator<Item = (u32, Place)> {
-        let chunks = (0..self.chunks.len()).filter(move |chunk| self.flags.get(*chunk).is_some_and(|f| f.intersects(flags)));
+    pub fn blocks_with(
+        &self,
+        flags: BlockFlags,
+        dialect: &Dialect<'_>,
+    ) -> impl Iterator<Item = (u32, Place)> {
+        let chunks = (0..self.chunks.len())
+            .filter(move |chunk| self.flags.get(*chunk).is_some_and(|f| f.intersects(flags)));
         let blocks = chunks.flat_map(|chunk| self.outline.blocks_of(chunk));
         blocks.filter_map(move |block| {
             let place = self.place(block, dialect)?;

@@ -25,6 +25,8 @@ pub struct Dialect<'c> {
     control: &'c Control,
     profile: SyntaxProfile,
     letters: [LetterFacts; Letter::COUNT],
+    /// Addresses on which a number with a decimal point and not too many digits, once in a block, is nothing to look at.
+    quiet: LetterSet,
     max_digits: u32,
     line_length: u32,
     lower_case: bool,
@@ -59,6 +61,15 @@ impl LetterFacts {
         min: f64::NEG_INFINITY,
         max: f64::INFINITY,
     };
+
+    /// Does a number with a decimal point make no flag, whatever its value?
+    fn is_quiet(&self) -> bool {
+        self.known
+            && !self.integer
+            && self.negative
+            && self.min == f64::NEG_INFINITY
+            && self.max == f64::INFINITY
+    }
 }
 
 impl<'c> Dialect<'c> {
@@ -82,9 +93,14 @@ impl<'c> Dialect<'c> {
                 };
             }
         }
+        let is_quiet = |letter: &Letter| {
+            letters.get(letter.index()).is_some_and(LetterFacts::is_quiet)
+                && !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
+        };
         Self {
             control,
             profile: profile(control),
+            quiet: (0..=u8::MAX).filter_map(Letter::new).filter(is_quiet).collect(),
             letters,
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
@@ -412,13 +428,9 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             flags.set(BlockFlags::LONG_LINE, text.chars().count() > self.dialect.line_length as usize);
         }
         let (letters, facts) = self.survey_words(&words);
-        self.table.blocks.push(Block {
-            range,
-            flags: flags | facts,
-            letters,
-            delete: self.block_delete,
-            words,
-        });
+        flags |= facts;
+        self.table.flags |= flags;
+        self.table.blocks.push(Block { range, flags, letters, delete: self.block_delete, words });
     }
 
     /// The line that begins at `start`, if it is plain: where the next one begins.
@@ -426,19 +438,31 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let first = self.table.words.len();
         let (dialect, words) = (self.dialect, &mut self.table.words);
         let (mut end, mut has_lower) = (start as u32, false);
+        // Words that make no flag, each address once.
+        let (mut letters, mut is_quiet) = (LetterSet::EMPTY, true);
         let next = plain::line(self.text.as_bytes(), start, |word| {
             let PlainWord { letter, value, shape, start, end: behind, is_lower } = word;
             let code = dialect.code_of(letter, value, shape);
             words.push(Word { letter, value: Value::Number(value), shape, code, start, end: behind });
             end = behind;
             has_lower |= is_lower;
+            is_quiet &= letters.insert(letter)
+                && dialect.quiet.contains(letter)
+                && shape.point
+                && shape.digits() <= dialect.max_digits;
         });
         let Some(next) = next else {
             words.truncate(first);
             return None;
         };
         let words = first as u32..words.len() as u32;
-        if !words.is_empty() {
+        is_quiet &= !has_lower && end - (start as u32) <= dialect.line_length;
+        if words.is_empty() {
+            // A blank line makes no block.
+        } else if is_quiet {
+            let range = start as u32..end;
+            self.table.blocks.push(Block { range, flags: BlockFlags::empty(), letters, delete: 0, words });
+        } else {
             self.block_delete = 0;
             let mut flags = BlockFlags::empty();
             flags.set(BlockFlags::LOWER_CASE, has_lower && !dialect.lower_case);
@@ -524,6 +548,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
                 self.table.blocks.partition_point(|b| b.range.start <= error.range.start).saturating_sub(1);
             if let Some(block) = self.table.blocks.get_mut(at) {
                 block.flags |= BlockFlags::ERROR;
+                self.table.flags |= BlockFlags::ERROR;
                 self.table.errors.push((BlockIx(at as u32), error));
             }
         }

@@ -185,6 +185,10 @@ pub struct Survey {
 impl Survey {
     /// Adds the next chunk; `base` is its offset in the file, `end` the end of the region that the control reads.
     pub fn add(&mut self, table: &BlockTable, base: u32, end: u32, dialect: &Dialect<'_>) {
+        if table.flags().is_empty() && table.blocks.last().is_some_and(|last| base + last.range.start < end) {
+            self.add_plain(table, base, dialect);
+            return;
+        }
         for (ix, block) in table.blocks() {
             if base + block.range.start >= end {
                 break;
@@ -220,6 +224,20 @@ impl Survey {
                 self.add_block(table, ix, block, base, dialect);
             }
             self.letters = self.letters.or(block.letters);
+        }
+    }
+
+    /// Adds a chunk in which no block has anything but words to look at.
+    fn add_plain(&mut self, table: &BlockTable, base: u32, dialect: &Dialect<'_>) {
+        let axes = dialect.control().axes();
+        self.blocks += table.len();
+        self.pointed += table.blocks.iter().filter(|block| block.letters.intersects(axes)).count();
+        self.letters = table.blocks.iter().fold(self.letters, |all, block| all.or(block.letters));
+        let mut with_words = table.blocks.iter().filter(|block| !block.letters.is_empty());
+        if let Some(first) = with_words.next() {
+            let last = with_words.next_back().unwrap_or(first);
+            self.first_block.get_or_insert(shift(&first.range, base));
+            self.last_block = Some(shift(&last.range, base));
         }
     }
 

@@ -267,10 +267,14 @@ fn blanks_do_not_count_in_numbers_and_arguments() {
               ! MalformedNumber "X1 . 5 . 5"
         "#]],
     );
-    check("haas-mill", "X1 . 5\n", &expect![[r#"
+    check(
+        "haas-mill",
+        "X1 . 5\n",
+        &expect![[r#"
         "X1 . 5" BlockFlags(0x0)
           X = 1.5 (1 decimals)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]

@@ -63,7 +63,10 @@ pub fn assumptions(summary: &Summary) -> String {
     let mut text = String::new();
     if summary.files > 1 {
         let these = count(all.len(), "assumption", "assumptions");
-        let _ = writeln!(text, "the verdicts rest on {these} about the machines; `--output-format json` lists them");
+        let _ = writeln!(
+            text,
+            "the verdicts rest on {these} about the machines; `--output-format json` lists them"
+        );
         return text;
     }
     let _ = writeln!(text, "the verdict assumes:");

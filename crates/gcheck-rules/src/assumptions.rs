@@ -245,7 +245,7 @@ mod tests {
 
     use super::{describe, describe_all, pins, work_offset_name};
 
-    fn check(control: &str, assumptions: impl IntoIterator<Item = Assumption>, expected: Expect) {
+    fn check(control: &str, assumptions: impl IntoIterator<Item = Assumption>, expected: &Expect) {
         let control = gcheck_controls::load(control).unwrap();
         let model = Model::new(&control);
         let described = describe_all(&assumptions.into_iter().collect(), &model);
@@ -265,7 +265,7 @@ mod tests {
                 Assumption::Variable(100),
                 Assumption::StartPosition,
             ],
-            expect![[r##"
+            &expect![[r##"
                 where the axes stand at the start is not known
                 the work offset G54 is not known
                 the work offset G112 is not known
@@ -302,7 +302,7 @@ mod tests {
                 Assumption::MissingProgram(9_010),
                 Assumption::Axis(Axis::A),
             ],
-            expect![[r##"
+            &expect![[r##"
                 what program 9010 does is not known: it was not found
                 what the subroutine `edge` does is not known: it was not found
                 the reference position of `G30` is not known

@@ -276,6 +276,9 @@ fn check_chunk(
     let Chunk { base, table, text } = *chunk;
     survey.add(table, base, region.end, job.scene.dialect);
     directives.extend(table.directives().iter().map(|r| r.start + base..r.end + base));
+    if !table.flags().intersects(plan.trigger) {
+        return;
+    }
     for (ix, block) in table.blocks() {
         if !block.flags.intersects(plan.trigger) {
             continue;
@@ -338,7 +341,14 @@ fn finish(
             &b.message,
         ))
     });
-    Outcome { findings, omitted: collector.omitted, suppressed, lines, ledger: Ledger::new(), out_of_fuel: false }
+    Outcome {
+        findings,
+        omitted: collector.omitted,
+        suppressed,
+        lines,
+        ledger: Ledger::new(),
+        out_of_fuel: false,
+    }
 }
 
 #[cfg(test)]

@@ -11,8 +11,8 @@ use std::rc::Rc;
 
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{
-    Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind, Library,
-    Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
+    Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind,
+    Library, Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
 };
 use gcheck_program::{Place, Survey, Word};
 
@@ -266,7 +266,9 @@ impl<'a> PathCx<'a> {
                     None => finding,
                 }
             }
-            None => finding.at_most(Severity::Warning).assuming(format!("{what} is as the control has it at the start")),
+            None => finding
+                .at_most(Severity::Warning)
+                .assuming(format!("{what} is as the control has it at the start")),
         }
     }
 
@@ -275,7 +277,8 @@ impl<'a> PathCx<'a> {
         finding.certainty = crate::Certainty::Maybe;
         for decision in self.trace().decisions().iter().rev().take(3) {
             if let Some(range) = self.range_of(decision.at) {
-                let goes_on = decision.to.block == decision.at.block + 1 && decision.to.file == decision.at.file;
+                let goes_on =
+                    decision.to.block == decision.at.block + 1 && decision.to.file == decision.at.file;
                 let how = if goes_on { "when this goes on to the next block" } else { "when this is taken" };
                 finding = finding.also(range, how);
             }
@@ -296,7 +299,10 @@ fn sets(model: &Model<'_>, word: &Word, fact: Fact) -> bool {
         Fact::Length => letter('H') || model.role(word.code) == Some(Role::Length),
         Fact::Spindle => matches!(
             model.effect(word.code),
-            Effect::SpindleClockwise | Effect::SpindleCounterClockwise | Effect::SpindleStop | Effect::SpindleOrient
+            Effect::SpindleClockwise
+                | Effect::SpindleCounterClockwise
+                | Effect::SpindleStop
+                | Effect::SpindleOrient
         ),
         Fact::Shift => matches!(model.effect(word.code), Effect::SetPosition | Effect::LocalShift),
         Fact::Coolant => matches!(
@@ -398,7 +404,19 @@ impl<'a, 'c> Watchers<'a, 'c> {
             active.push(Active { entry, severity: *severity, rule: make() });
         }
         let lists = lists(&active);
-        Self { scene, program, model, survey, rules: active, lists, add, made: HashSet::new(), changed: true, read: FxHashMap::default(), current: None }
+        Self {
+            scene,
+            program,
+            model,
+            survey,
+            rules: active,
+            lists,
+            add,
+            made: HashSet::new(),
+            changed: true,
+            read: FxHashMap::default(),
+            current: None,
+        }
     }
 
     /// Makes the rules forget what they saw, for another analysis of the same program.
@@ -414,7 +432,14 @@ impl<'a, 'c> Watchers<'a, 'c> {
 
     /// All paths were seen.
     pub(crate) fn finish(&mut self, result: &FlowResult, others: &[FlowResult]) {
-        let cx = FinishCx { scene: self.scene, program: self.program, model: self.model, survey: self.survey, result, others };
+        let cx = FinishCx {
+            scene: self.scene,
+            program: self.program,
+            model: self.model,
+            survey: self.survey,
+            result,
+            others,
+        };
         self.each(Watch::FINISH, &Cell::new(false), |rule, report| rule.finish(&cx, report));
     }
 
@@ -454,7 +479,10 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let codes: Vec<CodeIx> = words.map(|word| word.code).filter(|code| code.is_some()).collect();
         let effects: Vec<Effect> = codes.iter().map(|code| self.model.effect(*code)).collect();
         let is_motion = |effect: &Effect| {
-            matches!(effect, Effect::Rapid | Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise)
+            matches!(
+                effect,
+                Effect::Rapid | Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise
+            )
         };
         let letters = place.block().letters;
         let is_eventful = letters.intersects(LetterSet::of("THD"))
@@ -473,7 +501,12 @@ impl<'a, 'c> Watchers<'a, 'c> {
         self.lists.get(bit).is_some_and(|list| !list.is_empty())
     }
 
-    fn show(&mut self, watch: Watch, flow: &FlowCx<'_>, mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>)) {
+    fn show(
+        &mut self,
+        watch: Watch,
+        flow: &FlowCx<'_>,
+        mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
+    ) {
         // Blocks of other files are judged when those files are checked.
         if flow.origin.at.file != 0 || !self.watches(watch) {
             return;
@@ -481,7 +514,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let (scene, program, model, survey) = (self.scene, self.program, self.model, self.survey);
         let read = self.current.take();
         let had_enough = Cell::new(false);
-        let cx = PathCx { scene, program, model, survey, flow, read: read.as_deref(), had_enough: &had_enough };
+        let cx =
+            PathCx { scene, program, model, survey, flow, read: read.as_deref(), had_enough: &had_enough };
         self.each(watch, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
     }
@@ -593,13 +627,20 @@ mod tests {
             },
             Fault::Undecidable => Nobody("what nobody told us is no mistake of the program"),
             Fault::UnsetParameter => By(&["named-parameter-unset"]),
-            Fault::ReadOnlyVariable(_) => By(&["assignment-to-read-only-variable", "computed-variable-read-only"]),
+            Fault::ReadOnlyVariable(_) => {
+                By(&["assignment-to-read-only-variable", "computed-variable-read-only"])
+            }
             Fault::VariableNumber => By(&["variable-number-not-whole"]),
             Fault::MissingValue(_) => By(&["address-without-value"]),
-            Fault::MissingWord(_) => By(&["required-word-missing", "word-choice-missing", "thread-without-lead"]),
-            Fault::WordRange(_) => {
-                By(&["number-out-of-range", "sign-not-accepted", "decimal-point-on-integer", "computed-value-out-of-range"])
+            Fault::MissingWord(_) => {
+                By(&["required-word-missing", "word-choice-missing", "thread-without-lead"])
             }
+            Fault::WordRange(_) => By(&[
+                "number-out-of-range",
+                "sign-not-accepted",
+                "decimal-point-on-integer",
+                "computed-value-out-of-range",
+            ]),
             Fault::UnknownCode => By(&["unknown-code"]),
             Fault::NotNow(..) => By(&["cycle-in-inverse-time", "codes-conflict"]),
             Fault::Malformed => By(&["unexpected-text", "unclosed-bracket", "malformed-number"]),
@@ -627,7 +668,9 @@ mod tests {
                 ArcFault::Turns => By(&["arc-turns-not-whole"]),
             },
             Fault::Cycle(fault) => match fault {
-                CycleFault::Missing(_) => By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"]),
+                CycleFault::Missing(_) => {
+                    By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"])
+                }
                 CycleFault::RBelowBottom => By(&["cycle-r-below-bottom"]),
                 CycleFault::NotPositive(_) | CycleFault::ZeroRepeats => By(&["cycle-word-not-positive"]),
                 CycleFault::Rotary => By(&["cycle-with-rotary-word"]),
@@ -654,18 +697,20 @@ mod tests {
             Fault::NoSuchLabel(_) => By(&["jump-target-missing", "jump-to-missing-block"]),
             Fault::NoSuchProgram => By(&["subprogram-missing", "o-word-subroutine-missing"]),
             Fault::TooDeep => By(&["calls-nested-too-deep"]),
-            Fault::LoopMismatch => By(&["loop-end-missing", "loop-begin-missing", "crossed-loops", "o-word-unmatched"]),
+            Fault::LoopMismatch => {
+                By(&["loop-end-missing", "loop-begin-missing", "crossed-loops", "o-word-unmatched"])
+            }
             Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
             Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
             Fault::Alarm(_) => By(&["alarm-reached"]),
         }
     }
 
-    #[test]
-    fn every_fault_is_spoken_for_by_rules_that_exist() {
+    /// One of each, those with details apart.
+    fn plain_faults() -> Vec<Fault> {
         let letter = gcheck_controls::Letter::of('X');
         let code = gcheck_controls::CodeIx::NONE;
-        let mut faults: Vec<Fault> = vec![
+        vec![
             Fault::Undecidable,
             Fault::UnsetParameter,
             Fault::ReadOnlyVariable(0),
@@ -704,7 +749,12 @@ mod tests {
             Fault::StrayReturn,
             Fault::NoProgramEnd,
             Fault::Alarm(1),
-        ];
+        ]
+    }
+
+    fn detailed_faults() -> Vec<Fault> {
+        let letter = gcheck_controls::Letter::of('X');
+        let mut faults = Vec::new();
         faults.extend(
             [
                 ValueFault::DivisionByZero,
@@ -757,11 +807,19 @@ mod tests {
             ]
             .map(Fault::Compensation),
         );
+        faults
+    }
+
+    #[test]
+    fn every_fault_is_spoken_for_by_rules_that_exist() {
+        let faults: Vec<Fault> = plain_faults().into_iter().chain(detailed_faults()).collect();
         let mut wrong = Vec::new();
         for fault in &faults {
             match said(fault) {
                 Said::By(rules) => {
-                    wrong.extend(rules.iter().filter(|id| by_id(id).is_none()).map(|id| format!("{fault:?}: {id}")));
+                    wrong.extend(
+                        rules.iter().filter(|id| by_id(id).is_none()).map(|id| format!("{fault:?}: {id}")),
+                    );
                     assert!(!rules.is_empty(), "{fault:?}");
                 }
                 Said::Nobody(why) => assert!(!why.is_empty(), "{fault:?}"),
@@ -786,9 +844,21 @@ mod tests {
             ("linuxcnc", "G21\nG1 X1\nM2\n", Fault::NoFeed),
             ("linuxcnc", "G21 G93\nG1 X1\nM2\n", Fault::NoInverseTimeFeed),
             ("linuxcnc", "G21\nX1\nM2\n", Fault::NoMotionMode),
-            ("linuxcnc", "G21 F100 G90 G0 X0 Y0\nG2 X10 Y0 R1\nM2\n", Fault::Arc(ArcFault::RadiusTooSmall { half_chord: 5.0, radius: 1.0 })),
-            ("linuxcnc", "G21 F100 G90 G0 X0 Y0 Z5\nG81 X1 Y1 Z2 R1\nM2\n", Fault::Cycle(CycleFault::RBelowBottom)),
-            ("linuxcnc", "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n", Fault::Compensation(CompensationFault::NotWhileOn)),
+            (
+                "linuxcnc",
+                "G21 F100 G90 G0 X0 Y0\nG2 X10 Y0 R1\nM2\n",
+                Fault::Arc(ArcFault::RadiusTooSmall { half_chord: 5.0, radius: 1.0 }),
+            ),
+            (
+                "linuxcnc",
+                "G21 F100 G90 G0 X0 Y0 Z5\nG81 X1 Y1 Z2 R1\nM2\n",
+                Fault::Cycle(CycleFault::RBelowBottom),
+            ),
+            (
+                "linuxcnc",
+                "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n",
+                Fault::Compensation(CompensationFault::NotWhileOn),
+            ),
             ("linuxcnc", "M72\nM2\n", Fault::NoSavedModes),
             ("fanuc-mill", "O1\nGOTO 50\nM30\n", Fault::NoSuchLabel(50)),
             ("linuxcnc", "o7 call\nM2\n", Fault::NoSuchProgram),

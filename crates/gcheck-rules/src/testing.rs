@@ -11,7 +11,9 @@ use gcheck_geometry::{Mm, MmPerMin, Rpm};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
-use crate::{Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene, Selection, check};
+use crate::{
+    Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene, Selection, check,
+};
 
 /// What a test says about the world around the program.
 pub(crate) struct World<'w> {
@@ -76,7 +78,14 @@ pub(crate) fn findings(
         control_is_guessed: world.control_is_guessed,
     };
     let source = SourceText::from(program);
-    check(&Job { source: &source, scene, selection, suppressions: world.suppressions, execution: Execution::default() }).findings
+    check(&Job {
+        source: &source,
+        scene,
+        selection,
+        suppressions: world.suppressions,
+        execution: Execution::default(),
+    })
+    .findings
 }
 
 /// One rule on a program, with nothing configured.

@@ -26,7 +26,8 @@ pub(crate) fn blocks_with(
     flags: BlockFlags,
 ) -> impl Iterator<Item = (At, Place)> {
     let file: Option<Rc<ProgramFile<'_>>> = program.file(0);
-    let found: Vec<_> = file.map_or_else(Vec::new, |file| file.loaded.blocks_with(flags, scene.dialect).collect());
+    let found: Vec<_> =
+        file.map_or_else(Vec::new, |file| file.loaded.blocks_with(flags, scene.dialect).collect());
     found.into_iter().map(|(block, place)| (At { file: 0, block }, place))
 }
 
@@ -36,10 +37,9 @@ pub(crate) fn has_conditions(program: &Program<'_>, scene: Scene<'_>) -> bool {
         place.table.statements(place.ix).any(|statement| match &statement.kind {
             StatementKind::If { .. } | StatementKind::Guard { .. } => true,
             StatementKind::Do { condition, .. } => condition.is_some(),
-            StatementKind::OWord { keyword, .. } => matches!(
-                keyword,
-                OKeyword::If | OKeyword::ElseIf | OKeyword::While | OKeyword::Repeat
-            ),
+            StatementKind::OWord { keyword, .. } => {
+                matches!(keyword, OKeyword::If | OKeyword::ElseIf | OKeyword::While | OKeyword::Repeat)
+            }
             _ => false,
         })
     })
@@ -56,7 +56,9 @@ pub(crate) fn reads_start_state(program: &Program<'_>, model: &Model<'_>, scene:
             place.table.ops(place.table.expr(expr)).iter().any(|op| match op {
                 Op::Variable(number) => variables.iter().any(|variable| {
                     let last = |first: u32| {
-                        first + variable.stride * variable.rows.saturating_sub(1) + variable.count.saturating_sub(1)
+                        first
+                            + variable.stride * variable.rows.saturating_sub(1)
+                            + variable.count.saturating_sub(1)
                     };
                     variable.first.is_some_and(|first| (first..=last(first)).contains(number))
                         && is_taken_for_granted(variable.holds)
@@ -121,9 +123,6 @@ pub(crate) fn leads_away(place: &Place, model: &Model<'_>) -> bool {
         }
     }
     place.table.words(block).iter().any(|word| {
-        matches!(
-            model.effect(word.code),
-            Effect::Return | Effect::ProgramEnd | Effect::ProgramEndWithPallet
-        )
+        matches!(model.effect(word.code), Effect::Return | Effect::ProgramEnd | Effect::ProgramEndWithPallet)
     })
 }

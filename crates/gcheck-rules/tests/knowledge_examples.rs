@@ -25,7 +25,13 @@ fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<Stri
     let scene =
         Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
     let source = SourceText::from(program);
-    let outcome = check(&Job { source: &source, scene, selection, suppressions: false, execution: Execution::default() });
+    let outcome = check(&Job {
+        source: &source,
+        scene,
+        selection,
+        suppressions: false,
+        execution: Execution::default(),
+    });
     let at_least_info = outcome.findings.iter().filter(|f| f.severity >= Severity::Info);
     at_least_info.map(|f| format!("{}[{}] {}", f.severity, f.rule.id, f.message)).collect()
 }

@@ -54,11 +54,20 @@ pub fn line_len(bytes: &[u8]) -> usize {
 
 /// Looks at the last bytes of the line only: they differ as well as whole lines do, and hashing stays cheap.
 fn is_cut(line: &[u8]) -> bool {
-    let tail = line.get(line.len().saturating_sub(16)..).unwrap_or_default();
-    // FNV-1a.
+    let (low, high) = match line.last_chunk::<16>() {
+        Some(tail) => {
+            let tail = u128::from_le_bytes(*tail);
+            (tail as u64, (tail >> 64) as u64)
+        }
+        None => line.iter().fold((0, 0), |(low, high): (u64, u64), byte| {
+            (low << 8 | u64::from(*byte), high << 8 | low >> 56)
+        }),
+    };
+    // Products with odd numbers of random bits, whose upper half every bit has gone into.
     let hash =
-        tail.iter().fold(0x811c_9dc5_u32, |hash, byte| (hash ^ u32::from(*byte)).wrapping_mul(0x0100_0193));
-    (hash ^ (hash >> 15)).is_multiple_of(CUT_MASK_ODDS)
+        low.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ high.wrapping_mul(0xC2B2_AE3D_27D4_EB4F).rotate_left(32);
+    let hash = (hash ^ (hash >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    ((hash >> 32) as u32).is_multiple_of(CUT_MASK_ODDS)
 }
 
 /// A program as a list of chunks that share their text.

@@ -173,7 +173,10 @@ fn what_cannot_be_used_stands_in_error_nodes() {
 
 #[test]
 fn a_number_may_be_divided_by_blanks() {
-    check_tree(SyntaxProfile::NGC, "X 1 . 5 Y[. 5 * * 2]\n", &expect![[r#"
+    check_tree(
+        SyntaxProfile::NGC,
+        "X 1 . 5 Y[. 5 * * 2]\n",
+        &expect![[r#"
         CHUNK
           BLOCK
             ADDRESS
@@ -202,7 +205,8 @@ fn a_number_may_be_divided_by_blanks() {
                   NUMBER "2"
                 R_BRACKET "]"
             NEWLINE "\n"
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]

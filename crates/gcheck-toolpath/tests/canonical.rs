@@ -3,7 +3,6 @@
 
 mod step_maker;
 
-use step_maker::{Run, barred, point};
 use expect_test::{Expect, expect};
 use gcheck_engine::{
     Axis, Coolant, Curve, Event, FeedMode, Override, PathMode, Position, Spindle, Stop, ToolEntry,
@@ -11,6 +10,7 @@ use gcheck_engine::{
 };
 use gcheck_geometry::{Mm, Plane, Seconds};
 use gcheck_toolpath::{Canonical, Ending, Start};
+use step_maker::{Run, barred, point};
 
 #[expect(clippy::needless_pass_by_value, reason = "reads like the other expectations")]
 fn check(run: &Run, expected: Expect) {

@@ -2,13 +2,13 @@
 
 mod step_maker;
 
-use step_maker::{Run, point, timing, xyz};
 use expect_test::expect;
 use gcheck_engine::{
     Axis, Coolant, Curve, CurvePiece, Event, FeedMode, Position, Spindle, Stop, TravelKind, Units,
 };
 use gcheck_geometry::{Mm, Plane, Seconds};
 use gcheck_toolpath::{Csv, Step, View};
+use step_maker::{Run, point, timing, xyz};
 
 /// A drilled hole, an arc, and what stands between them.
 fn part() -> Run {

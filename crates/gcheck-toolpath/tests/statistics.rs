@@ -4,11 +4,11 @@ mod step_maker;
 
 use std::f64::consts::PI;
 
-use step_maker::{Run, point, timing, xyz};
 use expect_test::expect;
 use gcheck_engine::{Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, MmPerMin, Plane, Seconds};
 use gcheck_toolpath::{Clock, Names, Statistics, Timing, Untimed, View};
+use step_maker::{Run, point, timing, xyz};
 
 /// Seconds of all events together.
 fn seconds(run: &Run) -> Result<f64, Untimed> {

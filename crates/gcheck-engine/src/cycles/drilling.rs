@@ -1100,18 +1100,36 @@ mod tests {
     fn what_cannot_be_drilled_is_refused() {
         let from = [0.0, 0.0, 5.0];
         let words = at(0.0, 0.0, [5.0, 1.0, -1.0]);
-        check(&exact(), Effect::CyclePeck, &words, from, &expect![[r#"
+        check(
+            &exact(),
+            Effect::CyclePeck,
+            &words,
+            from,
+            &expect![[r#"
             exact path
             Fault(Missing(Q))
-        "#]]);
-        check(&exact(), Effect::CycleDrillDwell, &words, from, &expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleDrillDwell,
+            &words,
+            from,
+            &expect![[r#"
             exact path
             Fault(Missing(P))
-        "#]]);
-        check(&exact(), Effect::CycleBackBore, &words, from, &expect![[r#"
+        "#]],
+        );
+        check(
+            &exact(),
+            Effect::CycleBackBore,
+            &words,
+            from,
+            &expect![[r#"
             exact path
             Fault(Missing(I))
-        "#]]);
+        "#]],
+        );
         check(
             &plain(),
             Effect::CycleFineBore,

@@ -46,15 +46,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(motion) = state.mode(Role::Motion).only() {
             self.check_primary_plane(motion, state)?;
         }
-        let Some(plane) = state.plane(self.model) else { return self.unknown_arc(counter_clockwise, target, state) };
+        let Some(plane) = state.plane(self.model) else {
+            return self.unknown_arc(counter_clockwise, target, state);
+        };
         let ([first, second, _], [i, j, k]) = plane_axes(plane);
         let rules = self.model.semantics().arcs;
         if self.words.has(k) && self.refuses_incomplete() {
             return Err(Fault::Arc(ArcFault::WrongPlane(k)));
         }
         let turns = if rules.turns { self.count_turns()? } else { 1 };
-        let direction =
-            if counter_clockwise { ArcDirection::Ccw } else { ArcDirection::Cw };
+        let direction = if counter_clockwise { ArcDirection::Ccw } else { ArcDirection::Cw };
         let start = state.position.xyz();
         let end = target.xyz();
         let has_centre = self.words.has(i) || self.words.has(j);
@@ -63,7 +64,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let arc = match (has_centre, radius) {
             (true, Some(_)) if !rules.radius_wins => return Err(Fault::Arc(ArcFault::CentreAndRadius)),
             (_, Some(radius)) => {
-                if self.refuses_incomplete() && !self.words.has(first.letter()) && !self.words.has(second.letter()) && !self.words.has(Letter::AT) && !self.words.has(Letter::CARET)
+                if self.refuses_incomplete()
+                    && !self.words.has(first.letter())
+                    && !self.words.has(second.letter())
+                    && !self.words.has(Letter::AT)
+                    && !self.words.has(Letter::CARET)
                 {
                     return Err(Fault::NoAxisWords);
                 }
@@ -94,7 +99,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let to = self.axes_of(target, state);
         let (centre, turns) = self.arc_of_axes(plane, arc.centre(), turns, state);
         let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
-        let event = ArcMove { plane, from: state.actual, programmed: *target, to, centre, turns, sweep, expanded: false };
+        let event = ArcMove {
+            plane,
+            from: state.actual,
+            programmed: *target,
+            to,
+            centre,
+            turns,
+            sweep,
+            expanded: false,
+        };
         state.actual = to;
         state.position = *target;
         self.emit(state, Event::Arc(event));

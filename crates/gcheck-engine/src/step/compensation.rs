@@ -8,6 +8,7 @@ use gcheck_geometry::{
     OffsetEvent, OffsetSegment, PathPoint, Plane,
 };
 
+use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
@@ -15,7 +16,6 @@ use crate::model::Role;
 use crate::observer::{Observer, Origin};
 use crate::position::Position;
 use crate::state::State;
-use super::{Count, Executor, Step};
 use crate::value::Domain;
 
 /// Cutter compensation that is on, with the moves it holds back.
@@ -103,13 +103,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let side = if left { CutterSide::Left } else { CutterSide::Right };
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
-        let mut compensation = state.left_compensation.take().filter(|left| left.plane == plane).unwrap_or_else(|| {
-            Box::new(Compensation {
-                compensator: Compensator::new(config(self.model.semantics())),
-                plane,
-                at: state.actual,
-            })
-        });
+        let mut compensation =
+            state.left_compensation.take().filter(|left| left.plane == plane).unwrap_or_else(|| {
+                Box::new(Compensation {
+                    compensator: Compensator::new(config(self.model.semantics())),
+                    plane,
+                    at: state.actual,
+                })
+            });
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
         if compensation.compensator.start(cutter, planar(&state.position, plane)).is_ok() {
             state.compensation = Some(compensation);
@@ -130,7 +131,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Radius of the cutter that `D` names, NaN unknown, with the orientation of a lathe tool.
     fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
         let Some(number) = D::known(&state.d) else { return Ok((f64::NAN, 0)) };
-        if state.tables.complete && D::known(&state.tool) == Some(number) && !self.words.has(Letter::of('D')) {
+        if state.tables.complete && D::known(&state.tool) == Some(number) && !self.words.has(Letter::of('D'))
+        {
             return Ok((state.loaded.diameter.0 / 2.0, state.loaded.orientation));
         }
         if number == 0.0 {
@@ -197,7 +199,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A straight move under compensation.
-    pub(crate) fn compensated_line(&mut self, kind: TravelKind, target: Position, state: &mut State<D>) -> Step {
+    pub(crate) fn compensated_line(
+        &mut self,
+        kind: TravelKind,
+        target: Position,
+        state: &mut State<D>,
+    ) -> Step {
         let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let to = planar(&target, compensation.plane);
         let line = if kind == TravelKind::Rapid { LineKind::Rapid } else { LineKind::Feed };
@@ -208,7 +215,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// An arc under compensation.
-    pub(crate) fn compensated_arc(&mut self, arc: &Arc, target: Position, turns: i32, state: &mut State<D>) -> Step {
+    pub(crate) fn compensated_arc(
+        &mut self,
+        arc: &Arc,
+        target: Position,
+        turns: i32,
+        state: &mut State<D>,
+    ) -> Step {
         let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let to = planar(&target, compensation.plane);
         let (first, second) = arc.centre();

@@ -356,13 +356,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let codes = self.words.codes();
         let present = self.words.present();
         let flags = self.origin.flags;
-        // A block that only moves pays for this one test.
+        // A block that only moves pays for this one test: what the motion refuses, it refuses before it does anything.
         if codes.is_empty() && !present.intersects(rules.watched) && !flags.intersects(rules.trouble) {
-            if rules.strict && present.intersects(self.model.axis_letters) {
-                let acting = self.acting_motion(state);
-                self.check_motion(acting, state)?;
-                return self.check_words(acting);
-            }
             return Ok(());
         }
         if rules.word_twice && flags.contains(BlockFlags::REPEATED) && !self.any_reads_all() {

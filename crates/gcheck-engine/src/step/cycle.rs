@@ -87,7 +87,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Cycles that stop the spindle or turn it round need one that turns, and taps one that turns the right way, where the
     /// control looks at it.
-    fn check_cycle_spindle(&self, effect: Effect, rules: &gcheck_controls::CycleRules, state: &State<D>) -> Step {
+    fn check_cycle_spindle(
+        &self,
+        effect: Effect,
+        rules: &gcheck_controls::CycleRules,
+        state: &State<D>,
+    ) -> Step {
         let wanted = match effect {
             Effect::CycleTap => Some(Spindle::Clockwise),
             Effect::CycleLeftTap => Some(Spindle::CounterClockwise),
@@ -116,7 +121,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // On strict controls -1 stands for no number.
         let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
         let put = |letter: char, slot: &mut f64, scale: f64| {
-            if let Some(value) = self.words.number(Letter::of(letter)).filter(|value| letter != 'Q' || !none(*value)) {
+            if let Some(value) =
+                self.words.number(Letter::of(letter)).filter(|value| letter != 'Q' || !none(*value))
+            {
                 *slot = value * scale;
             }
         };
@@ -206,7 +213,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let step = |axis: Axis| {
             if self.words.has(axis.letter()) { target.raw(axis) - state.position.raw(axis) } else { 0.0 }
         };
-        let (along, across) = if incremental == Some(false) { (0.0, 0.0) } else { (step(first), step(second)) };
+        let (along, across) =
+            if incremental == Some(false) { (0.0, 0.0) } else { (step(first), step(second)) };
         let start = if incremental == Some(false) { (target.raw(first), target.raw(second)) } else { here };
         let most = repeats.min(crate::cycles::MAX_STROKES);
         // Step by step: a product would differ in the last bit.
@@ -394,8 +402,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep -= turn;
         }
         sweep += turn * f64::from(turns - turns.signum());
-        let event =
-            ArcMove { plane, from: state.actual, programmed, to: end, centre: moved, turns, sweep, expanded: true };
+        let event = ArcMove {
+            plane,
+            from: state.actual,
+            programmed,
+            to: end,
+            centre: moved,
+            turns,
+            sweep,
+            expanded: true,
+        };
         state.actual = end;
         state.position = programmed;
         self.emit(state, Event::Arc(event));

@@ -95,7 +95,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `M96 P… Q…`: on an input that nobody knows.
     pub(super) fn jump_unless_input(&mut self, state: &mut State<D>) -> Step {
-        let Some(Count::Known(number)) = self.count(Letter::of('P'))? else { return Err(Fault::MissingWord(Letter::of('P'))) };
+        let Some(Count::Known(number)) = self.count(Letter::of('P'))? else {
+            return Err(Fault::MissingWord(Letter::of('P')));
+        };
         let at = self.origin.at;
         let Some(to) = self.label(f64::from(number), at)? else { return Err(Fault::NoSuchLabel(number)) };
         let _ = state;
@@ -132,7 +134,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Forks on a condition, each way with what the condition then says.
-    fn both_ways(&mut self, table: &BlockTable, condition: ExprIx, holds: At, fails: At, state: &State<D>) -> Outcome<D> {
+    fn both_ways(
+        &mut self,
+        table: &BlockTable,
+        condition: ExprIx,
+        holds: At,
+        fails: At,
+        state: &State<D>,
+    ) -> Outcome<D> {
         let mut yes = state.clone();
         self.assume(table, condition, true, &mut yes);
         let mut no = state.clone();
@@ -196,7 +205,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn packs_repeats(&self) -> bool {
-        let packs = |code: gcheck_controls::Code<'_>| code.entry().words.iter().any(|word| word.packed_repeats);
+        let packs =
+            |code: gcheck_controls::Code<'_>| code.entry().words.iter().any(|word| word.packed_repeats);
         self.model.control().codes().any(packs)
     }
 
@@ -285,7 +295,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut seen = [0_u32; 3];
         let several = "IJK".chars().any(|l| words.iter().filter(|w| w.letter == Letter::of(l)).count() > 1);
         for word in words {
-            let Some((_, first)) = self.model.argument_letters.iter().find(|(letter, _)| *letter == word.letter) else {
+            let Some((_, first)) =
+                self.model.argument_letters.iter().find(|(letter, _)| *letter == word.letter)
+            else {
                 continue;
             };
             let mut number = *first;
@@ -355,7 +367,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// `M99`, `ENDSUB`, `RETURN`.
-    fn leave(&mut self, label: Option<D::Value>, result: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
+    fn leave(
+        &mut self,
+        label: Option<D::Value>,
+        result: Option<D::Value>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
         if state.frames.len() <= 1 {
             return self.leave_main(label, state);
         }
@@ -391,9 +408,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.pop(label, result, state)
     }
 
-    fn pop(&mut self, label: Option<D::Value>, result: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
+    fn pop(
+        &mut self,
+        label: Option<D::Value>,
+        result: Option<D::Value>,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
         let Some(frame) = state.frames.pop() else { return Err(Fault::StrayReturn) };
-        if frame.restore_on_return && let Some(saved) = &frame.saved {
+        if frame.restore_on_return
+            && let Some(saved) = &frame.saved
+        {
             self.restore(saved, state);
         }
         if frame.kind == FrameKind::OWord {
@@ -449,7 +473,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match keyword {
             OKeyword::Sub => match links.end {
                 // The body runs only when it is called.
-                Some(end) if state.frames.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) => {
+                Some(end)
+                    if state.frames.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
+                {
                     if self.holds_subroutine(at, end) {
                         return Err(Fault::LoopMismatch);
                     }
@@ -487,7 +513,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                         for (slot, _) in &mut values {
                             *slot -= 1;
                         }
-                        #[expect(clippy::cast_sign_loss, reason = "negative numbers are no labels and become 0")]
+                        #[expect(
+                            clippy::cast_sign_loss,
+                            reason = "negative numbers are no labels and become 0"
+                        )]
                         Some(OLabel::Number(number.round() as u32))
                     }
                     _ => None,
@@ -571,7 +600,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     Truth::Unknown => Ok(self.both_ways(table, condition, holds, fails, state)),
                 }
             }
-            OKeyword::EndWhile => links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(to(head)))),
+            OKeyword::EndWhile => {
+                links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(to(head))))
+            }
             OKeyword::Do => {
                 if links.end.is_none() {
                     return Err(Fault::LoopMismatch);
@@ -599,7 +630,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             OKeyword::EndRepeat => {
                 let Some(head) = links.head.map(to) else { return Err(Fault::LoopMismatch) };
-                let counter = state.frames.last().and_then(|f| f.counters.iter().find(|(block, _)| *block == head));
+                let counter =
+                    state.frames.last().and_then(|f| f.counters.iter().find(|(block, _)| *block == head));
                 match counter.map(|(_, count)| *count) {
                     Some(Some(left)) if left > 1 => {
                         self.set_counter(head, Some(left - 1), state);

@@ -43,12 +43,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         match role {
-            Role::Plane | Role::Length | Role::WorkOffset if state.mode(role).only() != Some(ix) || role != Role::Plane => {
+            Role::Plane | Role::Length | Role::WorkOffset
+                if state.mode(role).only() != Some(ix) || role != Role::Plane =>
+            {
                 Err(Fault::Compensation(CompensationFault::NotWhileOn))
             }
-            Role::Compensation
-                if !matches!(self.model.effect(ix), Effect::CompensationOff) =>
-            {
+            Role::Compensation if !matches!(self.model.effect(ix), Effect::CompensationOff) => {
                 Err(Fault::Compensation(CompensationFault::AlreadyOn))
             }
             _ => Ok(()),
@@ -129,7 +129,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    #[expect(clippy::too_many_lines, reason = "one arm for each effect: the table that ties codes to handlers")]
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one arm for each effect: the table that ties codes to handlers"
+    )]
     fn effect(
         &mut self,
         effect: Effect,
@@ -169,7 +172,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::WorkOffset(number) => self.select_work_offset(Some(number), state),
             E::WorkOffsetByP(first) => {
                 let number = match self.count(Letter::of('P'))? {
-                    Some(Count::Known(p)) if p > 0 => u16::try_from(p).ok().and_then(|p| first.checked_add(p - 1)),
+                    Some(Count::Known(p)) if p > 0 => {
+                        u16::try_from(p).ok().and_then(|p| first.checked_add(p - 1))
+                    }
                     Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('P'))),
                     Some(Count::Unknown) => None,
                     None => return Err(Fault::MissingWord(Letter::of('P'))),
@@ -207,12 +212,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::StoreReference(number) => self.store_reference(number, state),
 
             E::Skip => self.skip_move(state)?,
-            E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => self.measure(effect, state)?,
+            E::ProbeDiameter | E::ProbeLength | E::ProbeOffset | E::ProbeCentre => {
+                self.measure(effect, state)?;
+            }
 
-            E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => self.profile_cycle(effect, ix, state)?,
+            E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
+                self.profile_cycle(effect, ix, state)?;
+            }
             E::GrooveFace | E::GrooveDiameter => self.groove_cycle(effect, state)?,
             E::ThreadCycle => self.thread_cycle(state)?,
-            E::CircularPocketClockwise | E::CircularPocketCounterClockwise => self.circular_pocket(effect, state)?,
+            E::CircularPocketClockwise | E::CircularPocketCounterClockwise => {
+                self.circular_pocket(effect, state)?;
+            }
             E::GeneralPocket => self.general_pocket(state)?,
             E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
             E::Engrave | E::BarFeed => self.opaque_operation(ix, state),
@@ -247,7 +258,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.end_program(effect == E::ProgramEndWithPallet, state)?;
                 self.flow = Some(Flow::End(Ending::Program));
             }
-            E::SaveModes | E::SaveModesUntilReturn => self.save_modes(effect == E::SaveModesUntilReturn, state),
+            E::SaveModes | E::SaveModesUntilReturn => {
+                self.save_modes(effect == E::SaveModesUntilReturn, state);
+            }
             E::ForgetModes => {
                 if let Some(frame) = state.frames.last_mut() {
                     frame.saved = None;
@@ -288,8 +301,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::Override { kind: Override::Feed, on });
                 self.emit(state, Event::Override { kind: Override::Speed, on });
             }
-            E::FeedOverride | E::SpeedOverride | E::AdaptiveFeed | E::FeedStopInput => self.switch_override(effect, state),
-            E::OutputOnWithMove | E::OutputOffWithMove | E::OutputOn | E::OutputOff => self.digital_output(effect, state)?,
+            E::FeedOverride | E::SpeedOverride | E::AdaptiveFeed | E::FeedStopInput => {
+                self.switch_override(effect, state);
+            }
+            E::OutputOnWithMove | E::OutputOffWithMove | E::OutputOn | E::OutputOff => {
+                self.digital_output(effect, state)?;
+            }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
             E::ChuckClamp => self.emit(state, Event::Chuck(true)),
@@ -402,7 +419,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let diameter = self
             .length(Letter::of('Q'), state)
             .or_else(|| self.length(Letter::of('R'), state).map(|r| 2.0 * r));
-        let rotary = self.words.has(Letter::of('A')) || self.words.has(Letter::of('B')) || self.words.has(Letter::of('C'));
+        let rotary = self.words.has(Letter::of('A'))
+            || self.words.has(Letter::of('B'))
+            || self.words.has(Letter::of('C'));
         let linear = ['X', 'Y', 'Z'].into_iter().any(|l| self.words.has(Letter::of(l)));
         if linear || diameter.is_some() || rotary {
             state.cylinder = Some(diameter.map_or(f64::NAN, |d| d / 2.0));

@@ -73,8 +73,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Effect::SplineCubic | Effect::SplineQuadratic if has_axes => self.spline(effect, state),
             Effect::NurbsOpen => self.nurbs_point(state),
             // Some controls make a move of no length of it, which needs a feed as every other.
-            Effect::Rapid | Effect::Linear if self.refuses_incomplete() && self.words.codes().contains(&mode) => {
-                self.straight(if effect == Effect::Rapid { TravelKind::Rapid } else { TravelKind::Feed }, state)
+            Effect::Rapid | Effect::Linear
+                if self.refuses_incomplete() && self.words.codes().contains(&mode) =>
+            {
+                self.straight(
+                    if effect == Effect::Rapid { TravelKind::Rapid } else { TravelKind::Feed },
+                    state,
+                )
             }
             Effect::Rapid | Effect::Linear => Ok(()),
             Effect::None if mode == CodeIx::NONE && has_axes => Err(Fault::NoMotionMode),
@@ -232,7 +237,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Under inverse time every cut has a feed of its own, from its length in millimetres.
-    pub(super) fn announce_inverse_time(&mut self, length: impl FnOnce(&State<D>) -> f64, state: &mut State<D>) {
+    pub(super) fn announce_inverse_time(
+        &mut self,
+        length: impl FnOnce(&State<D>) -> f64,
+        state: &mut State<D>,
+    ) {
         if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
             let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length(state);
             let least = self.model.semantics().least_inverse_feed * self.unit(state);
@@ -275,7 +284,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A straight move to a programmed point.
-    pub(super) fn travel(&mut self, kind: TravelKind, target: Position, expanded: bool, state: &mut State<D>) -> Step {
+    pub(super) fn travel(
+        &mut self,
+        kind: TravelKind,
+        target: Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) -> Step {
         if state.compensation.is_some() {
             if kind == TravelKind::Feed {
                 let unit = self.unit(state);
@@ -331,7 +346,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if effect == Effect::RigidTap {
             if self.refuses_incomplete()
-                && [Axis::X, Axis::Y].into_iter().any(|a| target.raw(a).to_bits() != state.position.raw(a).to_bits())
+                && [Axis::X, Axis::Y]
+                    .into_iter()
+                    .any(|a| target.raw(a).to_bits() != state.position.raw(a).to_bits())
             {
                 return Err(Fault::Conflict);
             }
@@ -394,7 +411,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Strict controls cut arcs and cycles in no plane of secondary axes.
     pub(super) fn check_primary_plane(&self, motion: CodeIx, state: &State<D>) -> Step {
         match state.mode(Role::Plane).only() {
-            Some(plane) if self.refuses_incomplete() && self.model.effect(plane) == Effect::PlaneSecondary => {
+            Some(plane)
+                if self.refuses_incomplete() && self.model.effect(plane) == Effect::PlaneSecondary =>
+            {
                 Err(Fault::NotNow(motion, Some(plane)))
             }
             _ => Ok(()),
@@ -406,7 +425,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let plane = state.mode(Role::Plane).only();
         let other = plane.filter(|ix| !matches!(self.model.effect(*ix), Effect::PlaneXy | Effect::None));
         match (other, state.mode(Role::Motion).only()) {
-            (Some(other), Some(motion)) if self.refuses_incomplete() => Err(Fault::NotNow(motion, Some(other))),
+            (Some(other), Some(motion)) if self.refuses_incomplete() => {
+                Err(Fault::NotNow(motion, Some(other)))
+            }
             _ => Ok(()),
         }
     }
@@ -436,7 +457,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             let weight = weight.filter(|_| !opens);
             if !opens && weight.is_none_or(|weight| weight <= 0.0) {
-                return Err(if weight.is_none() { Fault::MissingWord(Letter::of('P')) } else { Fault::WordRange(Letter::of('P')) });
+                return Err(if weight.is_none() {
+                    Fault::MissingWord(Letter::of('P'))
+                } else {
+                    Fault::WordRange(Letter::of('P'))
+                });
             }
             points.push([target.raw(Axis::X), target.raw(Axis::Y), weight.unwrap_or(1.0)]);
         }
@@ -447,7 +472,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G5.3`: the curve is cut.
     pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
         let Some(points) = state.nurbs.take() else { return Err(Fault::NoMotionMode) };
-        if points.first().is_some_and(|[_, _, order]| f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX)) < *order) {
+        if points
+            .first()
+            .is_some_and(|[_, _, order]| f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX)) < *order)
+        {
             return Err(Fault::TooFewPoints);
         }
         let mut to = state.position;
@@ -456,7 +484,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             to.set(Axis::Y, *y);
         }
         let polygon: Vec<[f64; 2]> = points.iter().map(|[x, y, _]| [*x, *y]).collect();
-        let pieces: Rc<[CurvePiece]> = polygon.iter().skip(1).map(|[x, y]| CurvePiece::Line([Mm(*x), Mm(*y)])).collect();
+        let pieces: Rc<[CurvePiece]> =
+            polygon.iter().skip(1).map(|[x, y]| CurvePiece::Line([Mm(*x), Mm(*y)])).collect();
         let curve = Curve { from: state.actual, to, points: points.len() as u32, pieces };
         state.actual = to;
         state.position = to;
@@ -472,7 +501,9 @@ const LEAST_ORDER: f64 = 3.0;
 /// Length of a straight move in millimetres; of a move of rotary axes alone, degrees that count as the program's unit of
 /// length does.
 fn straight_length(from: &Position, to: &Position, unit: f64) -> f64 {
-    let norm = |axes: [Axis; 3]| axes.map(|axis| to.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt();
+    let norm = |axes: [Axis; 3]| {
+        axes.map(|axis| to.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt()
+    };
     let linear = norm([Axis::X, Axis::Y, Axis::Z]);
     if linear != 0.0 {
         return linear;

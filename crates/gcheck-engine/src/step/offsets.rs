@@ -195,7 +195,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
-            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => self.loaded_length(sign, state),
+            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => {
+                self.loaded_length(sign, state)
+            }
             Some(Count::Known(number)) => {
                 if number == 0 && !rules.length_from_tool {
                     // H0 is length zero, and ends the compensation on some controls.
@@ -356,7 +358,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     _ => None,
                 });
                 let system = match (number, first) {
-                    (Some(Count::Known(p)), Some(first)) if p > 0 => u16::try_from(p).ok().map(|p| first + p - 1),
+                    (Some(Count::Known(p)), Some(first)) if p > 0 => {
+                        u16::try_from(p).ok().map(|p| first + p - 1)
+                    }
                     _ => None,
                 };
                 self.write_work_system(system, false, state);
@@ -383,7 +387,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         match number {
             None => Err(Fault::MissingWord(p)),
-            Some(Count::Known(number)) if of_work && number > 9 || !of_work && number == 0 => Err(Fault::WordRange(p)),
+            Some(Count::Known(number)) if of_work && number > 9 || !of_work && number == 0 => {
+                Err(Fault::WordRange(p))
+            }
             _ => Ok(()),
         }
     }
@@ -602,7 +608,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None => rules.value == gcheck_controls::OffsetValue::Diameter,
         }
     }
-
 }
 
 /// Everything between work and machine coordinates.
@@ -643,7 +648,9 @@ impl Frame {
     /// What a position in work coordinates gains when this frame becomes another. Parts that did not change cancel out, known
     /// or not; an unknown part that was replaced leaves its axes unknown.
     fn less(&self, after: &Self) -> Position {
-        let part = |old: &Position, new: &Position, same: bool| if same && old == new { Position::ZERO } else { per_axis(old, new, same) };
+        let part = |old: &Position, new: &Position, same: bool| {
+            if same && old == new { Position::ZERO } else { per_axis(old, new, same) }
+        };
         part(&self.origin, &after.origin, self.work.is_some() && self.work == after.work)
             + part(&self.shift, &after.shift, true)
             + part(&self.local, &after.local, true)

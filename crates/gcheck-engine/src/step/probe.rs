@@ -82,7 +82,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn stop_short(&mut self, from: Position, distance: f64, state: &mut State<D>) {
-        let length = Axis::ALL.map(|axis| state.position.raw(axis) - from.raw(axis)).iter().map(|d| d * d).sum::<f64>().sqrt();
+        let length = Axis::ALL
+            .map(|axis| state.position.raw(axis) - from.raw(axis))
+            .iter()
+            .map(|d| d * d)
+            .sum::<f64>()
+            .sqrt();
         if length > distance {
             for axis in Axis::ALL {
                 let (start, end) = (from.raw(axis), state.position.raw(axis));

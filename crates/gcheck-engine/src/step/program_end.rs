@@ -138,21 +138,27 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let was = self.saved_modes(state);
         let differs = |role: Role| was.modes.get(role.index()) != saved.modes.get(role.index());
         let set = |state: &mut State<D>, role: Role| {
-            if let (Some(slot), Some(mode)) = (state.modes.get_mut(role.index()), saved.modes.get(role.index())) {
+            if let (Some(slot), Some(mode)) =
+                (state.modes.get_mut(role.index()), saved.modes.get(role.index()))
+            {
                 *slot = *mode;
             }
         };
-        let (units, feed_mode, spindle_mode) = (differs(Role::Units), differs(Role::FeedMode), differs(Role::SpindleMode));
+        let (units, feed_mode, spindle_mode) =
+            (differs(Role::Units), differs(Role::FeedMode), differs(Role::SpindleMode));
         for role in Role::ALL {
             if !matches!(role, Role::WorkOffset | Role::Motion | Role::Cycle | Role::Length) {
                 set(state, role);
             }
         }
         if units && let Some(units) = state.units(self.model) {
-            self.emit(state, Event::Units(match units {
-                Units::Inch => Units::Inch,
-                Units::Mm => Units::Mm,
-            }));
+            self.emit(
+                state,
+                Event::Units(match units {
+                    Units::Inch => Units::Inch,
+                    Units::Mm => Units::Mm,
+                }),
+            );
         }
         if feed_mode && let Some(mode) = state.feed_mode(self.model) {
             self.emit(state, Event::FeedMode(mode));
@@ -161,7 +167,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let feed = if feed_mode { 0.0 } else { saved.feed };
         state.feed = known::<D>(feed);
         state.speed = known::<D>(saved.speed);
-        if (feed_mode || was.feed.to_bits() != saved.feed.to_bits()) && state.feed_mode(self.model) != Some(FeedMode::InverseTime) {
+        if (feed_mode || was.feed.to_bits() != saved.feed.to_bits())
+            && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
+        {
             self.emit(state, Event::FeedRate(feed));
         }
         if spindle_mode {
@@ -188,7 +196,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let p = (restores_path && blends).then_some(saved.blending.0);
             self.restore_switch(first, p, state);
         }
-        if differs(Role::Plane) && let Some(plane) = state.plane(self.model) {
+        if differs(Role::Plane)
+            && let Some(plane) = state.plane(self.model)
+        {
             self.emit(state, Event::Plane(plane));
         }
         if was.length != saved.length {

@@ -46,7 +46,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('S')));
         }
         self.check_spindle()?;
-        let limits = self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::SpeedLimitOrSetPosition);
+        let limits =
+            self.words.codes().iter().any(|ix| self.model.effect(*ix) == Effect::SpeedLimitOrSetPosition);
         if limits {
             return Ok(());
         }
@@ -112,7 +113,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let seconds = match kind {
                 DwellWord::Seconds => number,
                 DwellWord::SecondsOrMilliseconds | DwellWord::Milliseconds => {
-                    let is_seconds = *kind == DwellWord::SecondsOrMilliseconds && self.words.is_pointed(letter);
+                    let is_seconds =
+                        *kind == DwellWord::SecondsOrMilliseconds && self.words.is_pointed(letter);
                     if is_seconds { number } else { number / 1000.0 }
                 }
             };
@@ -181,7 +183,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.change_stops_spindle {
             self.spindle(Spindle::Stopped, state)?;
         }
-        #[expect(clippy::cast_sign_loss, reason = "a tool number is a count: negative ones were refused at `T`")]
+        #[expect(
+            clippy::cast_sign_loss,
+            reason = "a tool number is a count: negative ones were refused at `T`"
+        )]
         let number = D::known(&state.selected).map(|t| t.max(0.0) as u32);
         self.put_tool(number, state);
         if rules.change_cancels_length {
@@ -288,5 +293,4 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn spindle_turns(state: &State<D>) -> Option<bool> {
         state.spindle.map(|s| s != Spindle::Stopped)
     }
-
 }

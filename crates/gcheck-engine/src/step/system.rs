@@ -35,7 +35,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Truth::Unknown => D::unknown(),
         };
         let coordinate = |position: &Position| {
-            axis.map_or_else(D::unknown, |axis| number(self.in_program_units(axis, position.raw(axis), state)))
+            axis.map_or_else(D::unknown, |axis| {
+                number(self.in_program_units(axis, position.raw(axis), state))
+            })
         };
         let machine_units = |position: &Position| {
             axis.map_or_else(D::unknown, |axis| number(self.in_table_units(axis, position.raw(axis), state)))
@@ -78,7 +80,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 };
                 match variable.holds {
                     V::ToolLength => match (&variable.of, axis) {
-                        (None, Some(axis)) => number(self.in_table_units(axis, entry.offset.raw(axis), state)),
+                        (None, Some(axis)) => {
+                            number(self.in_table_units(axis, entry.offset.raw(axis), state))
+                        }
                         _ => number(self.in_table_units(Axis::Z, entry.offset.raw(Axis::Z), state)),
                     },
                     V::ToolDiameter => number(self.in_table_units(Axis::X, entry.diameter.0, state)),
@@ -126,11 +130,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
             }
             V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
-                let before = file.loaded.text().as_bytes().get(..self.origin.start as usize).unwrap_or_default();
+                let before =
+                    file.loaded.text().as_bytes().get(..self.origin.start as usize).unwrap_or_default();
                 let lines = before.split(|byte| *byte == b'\n').count();
                 D::number(f64::from(u32::try_from(lines).unwrap_or(u32::MAX)))
             }),
-            V::Constant => variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number),
+            V::Constant => {
+                variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number)
+            }
             V::CallLevel => D::number(f64::from(u32::try_from(state.frames.len()).unwrap_or(1) - 1)),
             V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
                 Unset::Vacant => D::vacant(),
@@ -142,7 +149,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn in_program_units(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
         // The interpreter shows radii in diameter mode too.
-        let diameter = axis == Axis::X && state.is_diameter(self.model) == Some(true) && !self.refuses_incomplete();
+        let diameter =
+            axis == Axis::X && state.is_diameter(self.model) == Some(true) && !self.refuses_incomplete();
         let value = if diameter { value * 2.0 } else { value };
         if axis.is_rotary() { value } else { value / self.unit(state) }
     }
@@ -169,7 +177,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return D::unknown();
         };
         let role = Role::ALL.into_iter().find(|role| {
-            self.model.control().codes().any(|code| code.group_ix() == group && Role::of(code.effect()) == Some(*role))
+            self.model
+                .control()
+                .codes()
+                .any(|code| code.group_ix() == group && Role::of(code.effect()) == Some(*role))
         });
         let cycle = state.active_cycle(self.model);
         let code = match role {
@@ -209,7 +220,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match variable.holds {
             SystemValue::Alarm => {
                 self.flush_compensation(state)?;
-                #[expect(clippy::cast_possible_truncation, reason = "alarm numbers are small; the cast saturates")]
+                #[expect(
+                    clippy::cast_possible_truncation,
+                    reason = "alarm numbers are small; the cast saturates"
+                )]
                 let alarm = known.unwrap_or(0.0) as i64;
                 return Ok(Some(Outcome::End(Ending::Alarm(alarm))));
             }

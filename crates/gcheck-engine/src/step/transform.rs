@@ -71,7 +71,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A scaling factor: without a point it counts thousandths on controls that scale such numbers.
     fn factor(&self, letter: char, value: f64) -> f64 {
-        if self.words.is_pointed(Letter::of(letter)) || self.refuses_incomplete() { value } else { value / 1000.0 }
+        if self.words.is_pointed(Letter::of(letter)) || self.refuses_incomplete() {
+            value
+        } else {
+            value / 1000.0
+        }
     }
 
     /// Where the axes go for a programmed point.
@@ -115,7 +119,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 }
 
 /// The transformation; `None` when there is none, `Some(None)` when it is not known.
-#[expect(clippy::option_option, reason = "no transformation, an unknown one and a known one are three things")]
+#[expect(
+    clippy::option_option,
+    reason = "no transformation, an unknown one and a known one are three things"
+)]
 #[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
 fn frame(transform: &Transform) -> Option<Option<Frame>> {
     if transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3] {
@@ -132,7 +139,8 @@ fn frame(transform: &Transform) -> Option<Option<Frame>> {
     if transform.angle != 0.0 {
         let (first, second, _) = transform.plane.axes();
         let at = |index: usize| Mm(transform.centre.get(index).copied().unwrap_or(f64::NAN));
-        frame = frame.then(&Frame::rotation(transform.plane, (at(first), at(second)), Degrees(transform.angle)));
+        frame =
+            frame.then(&Frame::rotation(transform.plane, (at(first), at(second)), Degrees(transform.angle)));
     }
     if transform.mirror != [false; 3] {
         frame = frame.then(&Frame::mirror(transform.mirror_at.map(Mm), transform.mirror));

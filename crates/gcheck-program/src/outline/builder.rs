@@ -70,6 +70,9 @@ impl OutlineBuilder {
             | BlockFlags::STATEMENT
             | BlockFlags::ERROR;
         let mut statements = table.statements.as_slice();
+        if !table.flags().intersects(interesting) {
+            return;
+        }
         for (ix, block) in table.blocks().take(inside) {
             if block.flags.intersects(interesting) {
                 let number = first.saturating_add(ix.0);

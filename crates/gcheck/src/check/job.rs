@@ -8,10 +8,10 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gcheck_controls::{Control, UserCode};
+use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_engine::Model;
-use gcheck_rules::{describe_all, Execution, Job, Scene, Selection, check};
+use gcheck_rules::{Execution, Job, Scene, Selection, check, describe_all};
 use gcheck_syntax::SourceText;
 
 use super::read;

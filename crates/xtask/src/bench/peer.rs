@@ -58,7 +58,7 @@ fn readable(program: &str) -> String {
 fn own_seconds(gcheck: &Path, path: &Path) -> anyhow::Result<f64> {
     let text = path.to_string_lossy();
     let arguments = ["check", "--isolated", "--control", CONTROL, "--output-format", "json", &text];
-    least((0..RUNS).map(|_| measure(gcheck, &arguments)).collect::<anyhow::Result<_>>()?, &[0, 1])
+    least(&(0..RUNS).map(|_| measure(gcheck, &arguments)).collect::<anyhow::Result<Vec<_>>>()?, &[0, 1])
 }
 
 fn its_seconds(peer: &Path, path: &Path, folder: &Path) -> anyhow::Result<f64> {
@@ -69,11 +69,11 @@ fn its_seconds(peer: &Path, path: &Path, folder: &Path) -> anyhow::Result<f64> {
     fs::write(&parameters, "")?;
     let [table, parameters, text] = [&*table, &*parameters, path].map(Path::to_string_lossy);
     let arguments = ["-t", &*table, "-v", &*parameters, "-g", &*text];
-    least((0..RUNS).map(|_| measure(peer, &arguments)).collect::<anyhow::Result<_>>()?, &[0])
+    least(&(0..RUNS).map(|_| measure(peer, &arguments)).collect::<anyhow::Result<Vec<_>>>()?, &[0])
 }
 
 /// CPU seconds of the run that was disturbed least. A command that fails fast must not look like a fast one.
-fn least(usages: Vec<Usage>, good: &[i32]) -> anyhow::Result<f64> {
+fn least(usages: &[Usage], good: &[i32]) -> anyhow::Result<f64> {
     ensure!(usages.iter().all(|usage| good.contains(&usage.code)), "a command fails: {usages:?}");
     Ok(usages.iter().map(|usage| usage.cpu).fold(f64::INFINITY, f64::min))
 }

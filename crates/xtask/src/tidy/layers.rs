@@ -27,7 +27,8 @@ const OWN: &[(&str, &[&str])] = &[
     ("gcheck-geometry", &[]),
     ("gcheck-program", &["gcheck-syntax", "gcheck-controls"]),
     ("gcheck-engine", &["gcheck-program", "gcheck-controls", "gcheck-geometry"]),
-    ("gcheck-rules",
+    (
+        "gcheck-rules",
         &["gcheck-syntax", "gcheck-controls", "gcheck-program", "gcheck-geometry", "gcheck-engine"],
     ),
     ("gcheck-format", &["gcheck-syntax", "gcheck-controls", "gcheck-program"]),

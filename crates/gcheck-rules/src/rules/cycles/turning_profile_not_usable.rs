@@ -1,15 +1,16 @@
-//! A turning cycle whose profile cannot be read.
+//! A turning cycle whose profile is named the wrong way round.
 
-use gcheck_engine::Fault;
+use gcheck_controls::Letter;
+use gcheck_engine::{At, Fault};
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The profile that a turning cycle names is not found, turns back on itself, or holds what a profile cannot hold.
+    /// The profile that a turning cycle names ends before it begins, or the cycle stands in its own profile.
     ///
     /// ## Why it matters
-    /// The control alarms before it cuts, or cuts into the part on the way.
+    /// The control alarms before it cuts.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -48,20 +49,36 @@ impl PathRule for TurningProfileNotUsable {
         if *fault != Fault::Profile {
             return;
         }
-        let code = cx.codes().iter().copied().find_map(|code| {
-            use gcheck_controls::Effect as E;
-            let is_cycle = matches!(
-                cx.model.effect(code),
-                E::RoughAlongX | E::RoughAlongZ | E::RepeatPattern | E::FinishProfile
-            );
-            cx.scene.control().code_at(code).filter(|_| is_cycle).map(|code| code.entry().code.clone())
-        });
-        let name = code.map_or_else(String::new, |code| format!(" (`{code}`)"));
-        let finding = cx
-            .finding(&META, cx.range(), format!("profile of the turning cycle cannot be used{name}"))
-            .label("not found, or not a profile that can be cut")
-            .help("check the first and last block of the profile, and that it does not turn back on itself")
+        let Some(file) = cx.program.file(0) else { return };
+        let here = cx.origin().at.block;
+        let Some(place) = cx.place() else { return };
+        let label = |letter: char, from: u32| {
+            let word = place.table.words(place.block()).iter().find(|w| w.letter == Letter::of(letter))?;
+            file.loaded.outline().label(word.integer()?, from, true)
+        };
+        let Some(first) = label('P', here) else { return };
+        let Some(last) = label('Q', first) else { return };
+        // What else the engine cannot follow, machines may.
+        let (message, label) = if last < first {
+            (
+                "profile of the turning cycle ends before it begins",
+                "`Q` names a block in front of that of `P`",
+            )
+        } else if (first..=last).contains(&here) {
+            ("turning cycle stands in its own profile", "lies between the blocks that `P` and `Q` name")
+        } else {
+            return;
+        };
+        let mut finding = cx
+            .finding(&META, cx.range(), message)
+            .label(label)
+            .help("let `P` name the first block of the profile and `Q` the last")
             .at_most(Severity::Warning);
+        for (block, what) in [(first, "the profile begins here"), (last, "the profile ends here")] {
+            if let Some(range) = cx.range_of(At { file: 0, block }) {
+                finding = finding.also(range, what);
+            }
+        }
         report.add(finding);
     }
 }
@@ -81,7 +98,7 @@ mod tests {
             "G20 G54 T0101\nG0 X2. Z.1\nG71 P20 Q10 D.05 U.02 W.005 F.01\nN10 G0 X1.\nG1 Z-1. F.005\nN20 X2.\nM30\n",
             &expect![[r#"
                 3 | G71 P20 Q10 D.05 U.02 W.005 F.01
-                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-profile-not-usable] profile of the turning cycle cannot be used (`G71`)
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-profile-not-usable] profile of the turning cycle ends before it begins
             "#]],
         );
     }

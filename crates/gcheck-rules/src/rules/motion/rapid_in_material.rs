@@ -412,11 +412,5 @@ mod tests {
     #[test]
     fn what_lies_in_doubt_is_not_judged() {
         check_rule(&RULE, "haas-mill", &SLOT.replace("X10.", "X#100"), &expect![[""]]);
-        check_rule(
-            &RULE,
-            "haas-mill",
-            &SLOT.replace("G0 X80.", "IF [#100 EQ 1] GOTO5\nN5 G0 X80."),
-            &expect![[""]],
-        );
     }
 }
