@@ -76,7 +76,7 @@ fn few_digits(text: &[u8], at: usize) -> Option<Digits> {
     let bytes = u64::from_le_bytes(*text.get(at..)?.first_chunk::<8>()?);
     // A digit becomes its value, any other byte more than nine; of those the highest bit is then set.
     let values = bytes ^ (EACH * 0x30);
-    let others = ((values & (EACH * 0x7F)) + EACH * 0x76 | values) & (EACH * 0x80);
+    let others = (((values & (EACH * 0x7F)) + EACH * 0x76) | values) & (EACH * 0x80);
     let whole = (others.trailing_zeros() / 8) as usize;
     if whole == 8 {
         return None;

@@ -227,7 +227,12 @@ mod tests {
                 "{text}"
             );
         }
-        let modules = ["spindle_block_stopped", "spindle_program_stopped", "spindle_token_stopped"];
+        let modules = [
+            "spindle_block_stopped",
+            "spindle_path_stopped",
+            "spindle_program_stopped",
+            "spindle_token_stopped",
+        ];
         assert_eq!(
             groups(&root.path().join(RULES)).unwrap(),
             [("spindle".to_owned(), modules.map(str::to_owned).to_vec())]

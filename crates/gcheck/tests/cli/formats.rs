@@ -43,7 +43,6 @@ fn concise() {
         jobs/part.nc:4:1: error[unknown-code] unknown code `G999`
         ! jobs/other.nc and 1 more file: control haas-mill, set by `--control`
         ! 1 error, 2 warnings in 2 files (11 lines)
-        ! the verdicts rest on 2 assumptions about the machines; `--output-format json` lists them
         exit 1
     "#]]
     .assert_eq(&run.to_string());

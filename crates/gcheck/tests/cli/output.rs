@@ -161,7 +161,6 @@ fn statistics_count_by_rule() {
         2  unknown-code           code that the control does not have
         1  missing-decimal-point  no decimal point where the control counts smallest steps
         2 errors, 1 warning in 3 files (15 lines)
-        the verdicts rest on 2 assumptions about the machines; `--output-format json` lists them
     "#]]
     .assert_eq(&run.stderr);
     let run = shop.gcheck("check --control haas-mill --statistics --output-format json");

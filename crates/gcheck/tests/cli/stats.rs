@@ -68,6 +68,7 @@ fn figures_close_with_what_they_rest_on() {
           axes and spindle reach their speed at once: real times are longer
 
         taken for granted
+          setting 28 (canned cycle act without X/Y) is `on`, as usual
           where the axes stand at the start is not known
           the work offset G54 is not known
           the work offset G55 is not known
@@ -75,6 +76,8 @@ fn figures_close_with_what_they_rest_on() {
           the length of tool 2 is not known
           in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
         gcheck.toml can say
+          [settings]
+          28 = true
           [offsets]
           G54 = { X = …, Y = …, Z = … }
           G55 = { X = …, Y = …, Z = … }
@@ -113,8 +116,12 @@ fn a_machine_file_leaves_little_to_assume() {
           axes and spindle reach their speed at once: real times are longer
 
         taken for granted
+          setting 28 (canned cycle act without X/Y) is `on`, as usual
           where the axes stand at the start is not known
           in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
+        gcheck.toml can say
+          [settings]
+          28 = true
         ! part.nc: control haas-mill, set in gcheck.toml
         exit 0
     "#]]
@@ -153,6 +160,7 @@ fn json_is_for_other_programs() {
     expect![[r#"
         [machine] rapid = …
         [machine] tool_change_seconds = …
+        [settings] 28 = true
         [offsets] G54 = { X = …, Y = …, Z = … }
         [offsets] G55 = { X = …, Y = …, Z = … }
         [tools] 1.length = …
