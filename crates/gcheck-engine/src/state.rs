@@ -82,6 +82,7 @@ pub(crate) struct SavedModes {
     pub(crate) length: Position,
     pub(crate) feed_override: Truth,
     pub(crate) speed_override: Truth,
+    /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
     pub(crate) speed_limit: f64,
     pub(crate) adaptive: Truth,
@@ -99,6 +100,8 @@ pub struct CycleWords {
     pub q: f64,
     /// Dwell in seconds.
     pub p: f64,
+    /// R and the depth word as they were given, lengths in millimetres: what increments count from may change.
+    pub given: [f64; 2],
     /// The last dwell of any series: some controls give it to taps without one of their own.
     pub last_dwell: f64,
     /// A threading cycle turned the feed override on, though the program has it off.
@@ -118,6 +121,7 @@ impl CycleWords {
         z: f64::NAN,
         q: f64::NAN,
         p: f64::NAN,
+        given: [f64::NAN; 2],
         last_dwell: f64::NAN,
         feed_override_on: false,
         ijk: [f64::NAN; 3],
@@ -131,9 +135,22 @@ impl CycleWords {
         Self { last_dwell, feed_override_on, initial, ..Self::NONE }
     }
 
-    fn bits(&self) -> ([u64; 10], bool) {
-        let [i, j, k] = self.ijk;
-        let numbers = [self.r, self.z, self.q, self.p, self.last_dwell, i, j, k, self.e, self.initial];
+    fn bits(&self) -> ([u64; 12], bool) {
+        let ([i, j, k], [given_r, given_z]) = (self.ijk, self.given);
+        let numbers = [
+            self.r,
+            self.z,
+            given_r,
+            given_z,
+            self.q,
+            self.p,
+            self.last_dwell,
+            i,
+            j,
+            k,
+            self.e,
+            self.initial,
+        ];
         (numbers.map(f64::to_bits), self.feed_override_on)
     }
 
@@ -146,6 +163,7 @@ impl CycleWords {
             z: pick(self.z, other.z),
             q: pick(self.q, other.q),
             p: pick(self.p, other.p),
+            given: [pick(self.given[0], other.given[0]), pick(self.given[1], other.given[1])],
             last_dwell: pick(self.last_dwell, other.last_dwell),
             feed_override_on: self.feed_override_on && other.feed_override_on,
             ijk: [pick(i, i2), pick(j, j2), pick(k, k2)],
@@ -304,6 +322,7 @@ pub struct State<D: Domain> {
     pub(crate) transform: Transform,
     /// Radius of the mapped cylinder, millimetres.
     pub(crate) cylinder: Option<f64>,
+    /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
     /// Point and result of the last probing move.
     pub(crate) probed: Position,

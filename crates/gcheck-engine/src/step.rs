@@ -121,6 +121,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     refused: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
     passes_exactly: bool,
+    /// A code of the block made the control forget the rest of it.
+    rest_is_lost: bool,
     /// The last `RETURN` or `ENDSUB` gave a value.
     returned: bool,
     /// Subroutines passed over, and whether another is defined inside.
@@ -196,6 +198,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             lenient: false,
             refused: None,
             passes_exactly: false,
+            rest_is_lost: false,
             returned: false,
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
@@ -333,14 +336,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// The file, chunk and table of a block.
     fn place(&mut self, at: At) -> Option<Place> {
-        if let Some(cursor) = &mut self.cursor
+        if let Some(cursor) = &self.cursor
             && cursor.file_index == at.file
             && at.block >= cursor.first
             && let Some(ix) = cursor.place.table.ix(at.block - cursor.first)
             && at.block < cursor.file.loaded.outline().blocks()
         {
-            cursor.place.ix = ix;
-            return Some(cursor.place.clone());
+            let Place { table, chunk, base, .. } = &cursor.place;
+            return Some(Place { table: Rc::clone(table), ix, chunk: *chunk, base: *base });
         }
         let file = self.program.file(at.file)?;
         let place = file.loaded.place(at.block, self.program.dialect())?;
@@ -558,6 +561,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 Action::Speed => self.speed_word(state)?,
                 Action::Tool => self.tool_word(state)?,
                 Action::Motion => self.motion(state)?,
+            }
+            if std::mem::take(&mut self.rest_is_lost) {
+                break;
             }
         }
         Ok(())

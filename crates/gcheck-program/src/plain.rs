@@ -90,7 +90,7 @@ fn few_digits(text: &[u8], at: usize) -> Option<Digits> {
         }
         // Without the point between them.
         let front = (1 << (8 * whole)) - 1;
-        (values & front | values >> 8 & !front, len)
+        ((values & front) | ((values >> 8) & !front), len)
     } else {
         (values, whole)
     };

@@ -48,6 +48,8 @@ bitflags::bitflags! {
         /// [`PathRule::block`]: blocks with a code, a statement, an expression, `F`, `S`, `T`, `H` or `D`, before they are
         /// executed.
         const ALL_BLOCKS = 1 << 10;
+        /// [`PathRule::moved`]: arcs alone.
+        const ARCS = 1 << 11;
     }
 }
 
@@ -370,7 +372,7 @@ pub(crate) struct Watchers<'a, 'c> {
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 11];
+type Lists = [Vec<usize>; 12];
 
 /// Which rules watch what.
 fn lists(rules: &[Active]) -> Lists {
@@ -556,6 +558,9 @@ impl FlowObserver for Watchers<'_, '_> {
             return;
         }
         self.show(Watch::MOVES, cx, |rule, cx, report| rule.moved(cx, event, report));
+        if matches!(event, Event::Arc(_)) {
+            self.show(Watch::ARCS, cx, |rule, cx, report| rule.moved(cx, event, report));
+        }
         if !cuts {
             self.show(Watch::RAPIDS, cx, |rule, cx, report| rule.rapid(cx, event, report));
         } else if self.changed && cx.origin.at.file == 0 {

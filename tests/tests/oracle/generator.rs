@@ -113,6 +113,9 @@ struct Writer {
     depth: usize,
     /// Whether percent signs stand around the program.
     percent: bool,
+    /// Whether it has a DO, and whether it breaks out of a WHILE: behind such a break the reference runs a DO once only.
+    has_do: bool,
+    has_break: bool,
 }
 
 impl Writer {
@@ -129,6 +132,8 @@ impl Writer {
             next_o: 100,
             depth: 0,
             percent: false,
+            has_do: false,
+            has_break: false,
         }
     }
 
@@ -582,6 +587,8 @@ impl Writer {
 
     fn units(&mut self) {
         self.inch = self.random.one_in(2);
+        // The reference does not convert a tool length that is in effect.
+        self.line("G49");
         self.line(if self.inch { "G20" } else { "G21" });
         let feed = self.feed();
         self.line(feed);
@@ -779,6 +786,8 @@ impl Writer {
         self.line(format!("#{counter}=[#{counter}+1]"));
         if self.random.one_in(3) {
             let (inner, word) = (self.o_number(), self.random.pick(&["break", "continue"]));
+            let word = if self.has_do { "continue" } else { word };
+            self.has_break |= word == "break";
             self.line(format!("o{inner} if [#{counter} eq 2]"));
             self.line(format!("o{o} {word}"));
             self.line(format!("o{inner} endif"));
@@ -789,6 +798,10 @@ impl Writer {
     }
 
     fn do_loop(&mut self) {
+        if self.has_break {
+            return self.while_loop();
+        }
+        self.has_do = true;
         let o = self.o_number();
         let counter = 60 + o;
         self.line(format!("#{counter}=0"));

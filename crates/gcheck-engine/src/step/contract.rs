@@ -10,6 +10,7 @@ use gcheck_controls::{
     BlockRules, Code, CodeIx, CodeNumber, Confidence, Control, Effect, GroupIx, Handling, Letter, LetterSet,
     Need, WordEntry, WordKind,
 };
+use gcheck_geometry::Plane;
 use gcheck_program::{Block, BlockFlags, Place, Value, Word};
 
 use super::{Executor, POLAR, Step};
@@ -444,7 +445,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 let Some(other_code) = self.model.code(*other) else { continue };
                 let same_group = contract.exclusive && other_code.group == code.group;
-                let refused = if other == ix { rules.code_twice } else { rules.two_of_a_group };
+                let cancels = code.effect == Effect::CycleCancel;
+                let refused = if other == ix { rules.code_twice && !cancels } else { rules.two_of_a_group };
                 if same_group && refused || contract.excludes(*other, other_code.group) {
                     return Err(Fault::Conflict);
                 }
@@ -567,6 +569,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         if polar && present.intersects(LetterSet::of("XY")) {
+            return Err(Fault::Conflict);
+        }
+        // The plane that the block itself chooses is not in effect yet.
+        if polar && state.plane(self.model).is_some_and(|plane| plane != Plane::Xy) {
             return Err(Fault::Conflict);
         }
         if has(Effect::MachineCoordinates) {

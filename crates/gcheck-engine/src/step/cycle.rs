@@ -149,18 +149,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if starts {
             words.initial = state.position.raw(depth);
         }
-        // Levels are kept as levels: in `G91` an increment counts in the block that gives it, and stays where it led.
         let relative = match state.is_incremental(self.model) {
             Some(incremental) => incremental && rules.incremental_r,
             None => return self.unknown_levels(words, state),
         };
-        let base = if rules.rise_to_r { state.position.raw(depth) } else { words.initial };
         let level = |letter: Letter| self.words.number(letter).map(|value| value * unit);
-        if let Some(r) = level(Letter::of('R')) {
-            words.r = if relative { base + r } else { r };
+        let (retract, bottom) = (level(Letter::of('R')), level(depth.letter()));
+        let [given_r, given_z] = &mut words.given;
+        *given_r = retract.unwrap_or(*given_r);
+        *given_z = bottom.unwrap_or(*given_z);
+        // Words that stay are counted anew in every block by some controls, as they stand. For others levels stay: an
+        // increment counts in the block that gives it, and the level stays where it led.
+        let counted = if rules.rise_to_r { (Some(*given_r), Some(*given_z)) } else { (retract, bottom) };
+        if let Some(level) = counted.0 {
+            words.r = if relative { words.initial + level } else { level };
         }
-        if let Some(z) = level(depth.letter()) {
-            words.z = if relative { words.r + z } else { z };
+        if let Some(level) = counted.1 {
+            words.z = if relative { words.r + level } else { level };
         }
         state.cycle = words;
         if self.words.number(Letter::of('R')).is_some_and(f64::is_nan) {

@@ -115,6 +115,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     state.set_mode(Role::Motion, CodeIx::NONE);
                 }
             }
+            Role::Plane if lasts => {
+                if state.mode(role).only() != Some(ix) && self.model.semantics().cycles.rise_to_r {
+                    // The level that a series began at was one of the other axis.
+                    state.cycle.initial = f64::NAN;
+                }
+                state.set_mode(role, ix);
+            }
             _ if lasts => state.set_mode(role, ix),
             _ => {}
         }
@@ -333,10 +340,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn blending(&mut self, state: &mut State<D>) {
-        let tolerance = self.length(Letter::of('P'), state).map_or(0.0, |p| p.max(0.0));
-        let naive = self.length(Letter::of('Q'), state).filter(|q| *q >= 0.0);
+        let tolerance = self.words.number(Letter::of('P')).map_or(0.0, |p| p.max(0.0));
+        let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0);
         state.blending = (tolerance, naive);
-        self.path_mode(blending_mode(state.blending), state);
+        let mode = self.blending_mode(state);
+        self.path_mode(mode, state);
     }
 
     /// The path mode in effect, as it is announced.
@@ -344,8 +352,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match state.effect(Role::PathControl, self.model) {
             Some(Effect::ExactPath) => PathMode::ExactPath,
             Some(Effect::ExactStop) => PathMode::ExactStop,
-            _ => blending_mode(state.blending),
+            _ => self.blending_mode(state),
         }
+    }
+
+    /// Blending as it is announced: its numbers count in the program's present units.
+    fn blending_mode(&self, state: &State<D>) -> PathMode {
+        let unit = self.unit(state);
+        let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
+        let (tolerance, naive) = state.blending;
+        PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
 
     fn switch_override(&mut self, effect: Effect, state: &mut State<D>) {
@@ -437,9 +453,4 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn shifts_are_one(&self) -> bool {
         self.model.semantics().local_shift == LocalShift::Shared
     }
-}
-
-/// Blending as it is announced.
-pub(super) fn blending_mode((tolerance, naive): (f64, Option<f64>)) -> PathMode {
-    PathMode::Blending { tolerance: Mm(tolerance), naive: naive.map(Mm) }
 }

@@ -98,7 +98,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A move whose mode is not known: the named axes end nobody knows where.
-    fn lose_position(&mut self, state: &mut State<D>) -> Step {
+    pub(super) fn lose_position(&mut self, state: &mut State<D>) -> Step {
         for letter in self.words.present().iter() {
             if let Some((axis, _)) = self.model.axis_of(letter) {
                 state.position.set(axis, f64::NAN);

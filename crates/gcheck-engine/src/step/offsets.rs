@@ -239,7 +239,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The length of the tool in the spindle, as it was loaded.
-    fn loaded_length(&mut self, sign: f64, state: &mut State<D>) -> Step {
+    pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) -> Step {
         state.h = state.tool.clone();
         let mut length = state.loaded.offset;
         for axis in Axis::ALL {
@@ -568,6 +568,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::ToolTableEntry(entry));
         if state.loaded_row == row {
             state.loaded = written;
+            state.tool = D::number(f64::from(number));
             self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
         }
         Ok(())

@@ -12,6 +12,7 @@ use crate::event::{Coolant, Event, FeedMode, Override, Spindle, Units};
 use crate::fault::Fault;
 use crate::model::Role;
 use crate::observer::Observer;
+use crate::position::Position;
 use crate::state::{At, SavedModes, State};
 use crate::step::Ending;
 use crate::value::{Domain, Truth};
@@ -127,7 +128,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn restore_modes(&mut self, state: &mut State<D>) -> Step {
         let saved = state.frames.last().and_then(|frame| frame.saved.clone());
         let Some(saved) = saved else { return Err(Fault::NoSavedModes) };
+        let before = self.saved_modes(state);
         self.restore(&saved, state);
+        // The interpreter restores by blocks of its own, which take the place of the one under way.
+        let after = self.saved_modes(state);
+        let numbers = |modes: &SavedModes| [modes.feed, modes.speed, modes.speed_limit];
+        if numbers(&before).into_iter().chain(numbers(&after)).any(f64::is_nan) {
+            // Whether it restored anything nobody knows, nor whether the block's move was made.
+            self.lose_position(state)?;
+            self.rest_is_lost = true;
+        } else {
+            self.rest_is_lost = after != before;
+        }
         Ok(())
     }
 
@@ -203,7 +215,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if was.length != saved.length {
             set(state, Role::Length);
-            self.set_length(saved.length, state);
+            // What it saves is whether there is a length, not which: `G43` brings that of the tool in the spindle.
+            if saved.length == Position::ZERO {
+                self.cancel_length(state);
+            } else {
+                // It cannot fail: nothing is looked up.
+                let _ = self.loaded_length(1.0, state);
+            }
         }
         if differs(Role::WorkOffset) {
             set(state, Role::WorkOffset);

@@ -231,6 +231,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     return Err(Fault::NoSuchTool(number));
                 }
                 state.tool = D::number(f64::from(number));
+                // Only its number: the data of the tool that was loaded stay in effect.
+                let row = state.tables.tools.iter().position(|(n, _)| *n == number);
+                state.loaded_row = row.map_or(0, |row| row as u32 + 1);
                 self.emit(state, Event::SetToolNumber(Some(number)));
             }
             Some(Count::Unknown) => {

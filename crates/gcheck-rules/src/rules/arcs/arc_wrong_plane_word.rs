@@ -42,7 +42,7 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS.union(Watch::MOVES), make: || Box::new(ArcWrongPlaneWord) },
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::ARCS), make: || Box::new(ArcWrongPlaneWord) },
     }
 }
 
