@@ -407,7 +407,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let number = if pointed || number == 0.0 {
                         number
                     } else {
-                        self.scale(word.letter, number, state)
+                        let units = match self.unpointed {
+                            Unpointed::LeastIncrement => self.units_of_block(words, state),
+                            _ => None,
+                        };
+                        self.scale(word.letter, number, units)
                     };
                     self.words.put_number(word.letter, number, pointed);
                 }
@@ -456,7 +460,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// A number without decimal point, as the control counts it.
-    fn scale(&mut self, letter: Letter, number: f64, state: &State<D>) -> f64 {
+    fn scale(&mut self, letter: Letter, number: f64, units: Option<Units>) -> f64 {
         let Some(kind) = self.model.scaled(letter) else { return number };
         match self.unpointed {
             Unpointed::AsWritten => number,
@@ -464,7 +468,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 let numbers = self.model.control().numbers();
                 let least = match kind {
                     WordKind::Angle => numbers.least_angle,
-                    _ => match state.units(self.model) {
+                    _ => match units {
                         Some(Units::Inch) => numbers.least_inch,
                         Some(Units::Mm) => numbers.least_mm,
                         None => f64::NAN,
@@ -478,6 +482,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 number
             }
         }
+    }
+
+    /// The units in which a block's numbers count: those that it names itself, wherever they stand in it.
+    fn units_of_block(&self, words: &[Word], state: &State<D>) -> Option<Units> {
+        let named = words.iter().rev().find_map(|word| match self.model.effect(word.code) {
+            Effect::Inch => Some(Units::Inch),
+            Effect::Millimetre => Some(Units::Mm),
+            _ => None,
+        });
+        named.or_else(|| state.units(self.model))
     }
 
     /// Puts the parts of the block in the control's order and executes them.
@@ -583,16 +597,20 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// A whole number not below zero; `None` when it does not stand, a fault when it is none.
     fn count(&self, letter: Letter) -> Step<Option<Count>> {
-        let Some(number) = self.words.number(letter) else { return Ok(None) };
+        self.words.number(letter).map(|number| Self::whole(letter, number)).transpose()
+    }
+
+    /// A number as a count.
+    fn whole(letter: Letter, number: f64) -> Step<Count> {
         if number.is_nan() {
-            return Ok(Some(Count::Unknown));
+            return Ok(Count::Unknown);
         }
         let whole = number.round();
         if (whole - number).abs() > 1e-4 || whole < 0.0 || whole > f64::from(u32::MAX) {
             return Err(Fault::WordRange(letter));
         }
         #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-        Ok(Some(Count::Known(whole as u32)))
+        Ok(Count::Known(whole as u32))
     }
 
     /// As [`Self::count`]; on strict controls, which do not mind decimals in some counts, rounded.

@@ -39,7 +39,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.skip_to_hole(state)?;
             return Err(fault);
         }
-        let repeats = match self.count(Letter::of(rules.repeat))? {
+        // The letter may be one of a length elsewhere; here it counts as it is written.
+        let repeat = self.raw(rules.repeat, state);
+        let repeats = match repeat.map(|n| Self::whole(Letter::of(rules.repeat), n)).transpose()? {
             None => 1,
             Some(Count::Known(n)) => n,
             Some(Count::Unknown) => return Err(Fault::Undecidable),
