@@ -23,7 +23,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.active_motion(state)?;
-        // `G66`: the macro runs behind every block that moves.
         if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
