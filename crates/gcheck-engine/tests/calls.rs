@@ -44,8 +44,12 @@ fn what_a_modal_macro_calls_does_not_call_it_again() {
 
 #[test]
 fn a_macro_called_in_the_usual_way_is_followed_by_the_modal_one() {
-    check("fanuc-mill", "G66 P2\nG65 P3\nG67\nM30\nO2\nG0 Z1.\nM99\nO3\nG0 X4.\nM99", &expect![[r#"
+    check(
+        "fanuc-mill",
+        "G66 P2\nG65 P3\nG67\nM30\nO2\nG0 Z1.\nM99\nO3\nG0 X4.\nM99",
+        &expect![[r#"
         rapid x4 y0 z0
         rapid x4 y0 z1
-        at x4 y0 z1"#]]);
+        at x4 y0 z1"#]],
+    );
 }

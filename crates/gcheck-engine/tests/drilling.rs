@@ -13,7 +13,10 @@ fn check(control: &str, text: &str, expected: &Expect) {
 
 #[test]
 fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
-    check("fanuc-mill", "G91 G99 G81 X5. Z-6. R-4. K2", &expect![[r#"
+    check(
+        "fanuc-mill",
+        "G91 G99 G81 X5. Z-6. R-4. K2",
+        &expect![[r#"
         rapid x0 y0 z5
         rapid x5 y0 z5
         rapid x5 y0 z1
@@ -22,8 +25,12 @@ fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
         rapid x10 y0 z1
         feed x10 y0 z-5
         rapid x10 y0 z1
-        at x10 y0 z1"#]]);
-    check("fanuc-mill", "G91 G99 G81 X5. Z-6. R-4. K2.", &expect![[r#"
+        at x10 y0 z1"#]],
+    );
+    check(
+        "fanuc-mill",
+        "G91 G99 G81 X5. Z-6. R-4. K2.",
+        &expect![[r#"
         rapid x0 y0 z5
         rapid x5 y0 z5
         rapid x5 y0 z1
@@ -32,17 +39,26 @@ fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
         rapid x10 y0 z1
         feed x10 y0 z-5
         rapid x10 y0 z1
-        at x10 y0 z1"#]]);
+        at x10 y0 z1"#]],
+    );
 }
 
 #[test]
 fn numbers_without_a_point_count_in_the_units_of_their_own_block() {
-    check("haas-mill", "G20\nG21 G0 X1500", &expect![[r#"
+    check(
+        "haas-mill",
+        "G20\nG21 G0 X1500",
+        &expect![[r#"
         rapid x0 y0 z5
         rapid x1.5 y0 z5
-        at x1.5 y0 z5"#]]);
-    check("fanuc-mill", "G20 X15000", &expect![[r#"
+        at x1.5 y0 z5"#]],
+    );
+    check(
+        "fanuc-mill",
+        "G20 X15000",
+        &expect![[r#"
         rapid x0 y0 z5
         rapid x38.1 y0 z5
-        at x38.1 y0 z5"#]]);
+        at x38.1 y0 z5"#]],
+    );
 }

@@ -258,7 +258,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         let unit = self.unit(state);
-        let mut machine = state.machine();
+        let mut machine = state.machine(self.model);
         let named = self.words.present().and(self.model.axis_letters);
         let diameter = state.is_diameter(self.model) == Some(true);
         for letter in named.iter() {
@@ -267,7 +267,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let value = if axis.is_rotary() { value } else { value * unit };
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
-        let target = state.from_machine(&machine);
+        let target = state.from_machine(&machine, self.model);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not.
         let mut to = state.actual;

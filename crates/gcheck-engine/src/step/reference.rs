@@ -40,7 +40,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.assumptions.insert(Assumption::ReferencePosition(number));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
-        let target = state.from_machine(&reference);
+        let target = state.from_machine(&reference, self.model);
         let mut to = state.actual;
         for axis in &axes {
             to.set(*axis, target.raw(*axis));
@@ -63,7 +63,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G28.1`, `G30.1`.
     pub(super) fn store_reference(&mut self, number: u8, state: &mut State<D>) {
-        let machine = state.machine();
+        let machine = state.machine(self.model);
         let tables = std::rc::Rc::make_mut(&mut state.tables);
         if let Some(slot) = tables.references.get_mut(usize::from(number.saturating_sub(1)).min(1)) {
             *slot = machine;

@@ -49,7 +49,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         Ok(match variable.holds {
             V::WorkPosition | V::EndPosition => coordinate(&state.actual),
-            V::MachinePosition => coordinate(&state.machine()),
+            V::MachinePosition => coordinate(&state.machine(self.model)),
             V::ProbePosition => coordinate(&state.probed),
             V::ProbeResult => truth(state.probe_result),
             V::LengthOffset => coordinate(&state.length),
