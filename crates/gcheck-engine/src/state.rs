@@ -324,6 +324,8 @@ pub struct State<D: Domain> {
     pub(crate) cylinder: Option<f64>,
     /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
+    /// The point that the last return to a reference position passed, programmed coordinates.
+    pub(crate) passed: Position,
     /// Point and result of the last probing move.
     pub(crate) probed: Position,
     pub(crate) probe_result: Truth,
@@ -355,7 +357,7 @@ pub struct Tables {
     pub(crate) offsets: Vec<(u16, WorkOffset)>,
     /// Offsets that nobody told us.
     pub(crate) other_offset: WorkOffset,
-    pub(crate) references: [Position; 2],
+    pub(crate) references: [Position; 4],
     pub(crate) tools: Vec<(u32, crate::machine::Tool)>,
     /// Tools not listed do not exist.
     pub(crate) complete: bool,
@@ -698,6 +700,7 @@ impl<D: Domain> State<D> {
         if self.blending != other.blending {
             joined.blending = (0.0, None);
         }
+        joined.passed = self.passed.join(&other.passed);
         joined.probed = self.probed.join(&other.probed);
         joined.probe_result = truth(self.probe_result, other.probe_result);
         joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
@@ -782,6 +785,7 @@ impl<D: Domain> PartialEq for State<D> {
             && format_bits(&self.transform) == format_bits(&other.transform)
             && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
             && self.blending == other.blending
+            && self.passed == other.passed
             && self.probed == other.probed
             && self.probe_result == other.probe_result
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)

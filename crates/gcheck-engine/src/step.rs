@@ -1171,6 +1171,8 @@ fn owns_axes(effect: Effect) -> bool {
             | E::ProbeLength
             | E::ProbeOffset
             | E::ProbeCentre
+            | E::TapHere
+            | E::LeftTapHere
             | E::ReturnReference(_)
             | E::ReturnFromReference
             | E::WriteOffsets

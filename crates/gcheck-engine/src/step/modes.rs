@@ -30,6 +30,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if needs_none && !is_motion && code.effect != Effect::ThreadCycle && self.compensates(state) {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
+        if code.role == Some(Role::Motion) && !code.modal {
+            return self.motion_of_block(code.effect, state);
+        }
         let followed = code.role != Some(Role::Length) || self.tool_is_upright(state);
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
@@ -232,6 +235,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::ClearShift => self.clear_shift(state, false),
             E::SuspendShift => self.clear_shift(state, true),
             E::RestoreShift => self.restore_shift(state),
+            E::TapHere | E::LeftTapHere => self.tap_here(effect == E::TapHere, state)?,
             E::ReturnReference(number) => self.return_reference(number, state)?,
             E::ReturnFromReference => self.return_from_reference(state)?,
             E::StoreReference(number) => self.store_reference(number, state),
