@@ -333,6 +333,9 @@ pub struct Semantics {
     /// Computed jumps and `GOTO` look forward first, then from the head of the program.
     #[serde(default)]
     pub goto_forward_first: bool,
+    /// Comments that are shown to the operator, by the word that they begin with: `(MSG, …)`.
+    #[serde(default)]
+    pub message_comments: BTreeMap<String, MessageComment>,
     /// System variables that the engine computes: first number of a row of axes or a single one.
     #[serde(default)]
     pub system_variables: Vec<SystemVariable>,
@@ -544,6 +547,16 @@ pub enum LocalShift {
     Shared,
     /// Two shifts that add up.
     Separate,
+}
+
+/// What a comment for the operator shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MessageComment {
+    /// Its text.
+    Text,
+    /// Its text with the values of its parameters, six decimals each.
+    Values,
 }
 
 /// How a dwell word counts.

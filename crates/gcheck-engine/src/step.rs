@@ -9,6 +9,7 @@ pub(crate) mod contract;
 mod cycle;
 mod flow_control;
 mod lathe;
+mod message;
 mod modes;
 mod motion;
 mod offsets;
@@ -293,6 +294,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         block: &Block,
         state: &mut State<D>,
     ) -> Outcome<D> {
+        if block.flags.contains(BlockFlags::COMMENT) {
+            self.message_comment(state);
+        }
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
                 Ok(Statements::Words) => {}
@@ -762,7 +766,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn read_named(&mut self, place: &Place, range: (u32, u32), state: &State<D>) -> Step<D::Value> {
-        let name = self.name(place, range);
+        self.read_name(self.name(place, range), state)
+    }
+
+    fn read_name(&mut self, name: NameId, state: &State<D>) -> Step<D::Value> {
         let local = state.frames.last().and_then(|frame| frame.locals.as_ref()).and_then(|l| l.named(name));
         if let Some(value) = local.or_else(|| state.variables.named(name)) {
             return Ok(value.clone());
@@ -844,7 +851,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                         .o_word(place, table, label, *keyword, arguments.clone(), state)
                         .map(Statements::Done);
                 }
-                StatementKind::Print => {}
+                StatementKind::Print => self.print(place, statement, state),
             }
         }
         Ok(Statements::Words)

@@ -80,8 +80,7 @@ impl ToolTiltLeftOn {
             let name = cx.name_of(code);
             let message = format!("{what} is still on {} (`{name}`)", place.words());
             // Some controls end it with the code that ends a rotation.
-            let cancel =
-                cx.cancel_of(off).or_else(|| cx.cancel_of(Effect::RotationOff)).unwrap_or_default();
+            let cancel = cx.cancel_of(off).or_else(|| cx.cancel_of(Effect::RotationOff)).unwrap_or_default();
             let finding = cx
                 .finding(&META, cx.boundary_range(place), message)
                 .label("coordinates do not run along the machine's axes here")
