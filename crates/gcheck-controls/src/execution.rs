@@ -266,13 +266,8 @@ pub struct Semantics {
     pub equal_within: f64,
     /// `ATAN[a]` may stand alone; else it needs `/[b]` after it.
     pub atan_alone: bool,
-    /// A computed value of an axis word is rounded to the least increment.
-    pub round_words: bool,
     /// A value that no decimal point follows, computed from an expression, counts as with a point.
     pub computed_words_are_pointed: bool,
-    /// Arguments of a macro call without decimal point are scaled as the control's page says (per letter).
-    #[serde(default)]
-    pub scale_arguments: bool,
     /// Assignments of a block act after all its values are read.
     pub assignments_after_block: bool,
     /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.
@@ -284,8 +279,6 @@ pub struct Semantics {
     pub locals_per_subprogram: bool,
     /// What `M99 P` does in a subprogram.
     pub return_to: ReturnTo,
-    /// What `M99` does in a main program.
-    pub return_in_main: ReturnInMain,
     /// The word that repeats a call.
     pub call_repeats: Option<char>,
     /// `L0` calls nothing; else it calls once.
@@ -410,16 +403,6 @@ pub enum ReturnTo {
     Ignored,
 }
 
-/// What `M99` does in a main program.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ReturnInMain {
-    /// Starts it again.
-    Restart,
-    /// Is refused.
-    Refused,
-}
-
 /// How circles are judged. Lengths in millimetres.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -441,8 +424,6 @@ pub struct ArcRules {
     pub zero_radius: f64,
     /// `P` counts turns.
     pub turns: bool,
-    /// Centre words left out count as zero.
-    pub centre_defaults_to_zero: bool,
     /// Centre words when both `R` and they stand: `R` wins, else refused.
     pub radius_wins: bool,
     /// How sure the tolerances are.
@@ -459,8 +440,6 @@ pub struct ArcRules {
 pub struct CycleRules {
     /// The letter that repeats a cycle: `L`, `K`.
     pub repeat: char,
-    /// Words that stay from block to block while a cycle is active.
-    pub sticky: Vec<String>,
     /// Peck drilling goes back to this far above the last depth.
     pub peck_clearance: f64,
     /// Chip breaking backs off by this much.

@@ -266,7 +266,7 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{letter}` counts repeats but is no address here"));
             }
         }
-        for letter in cycles.sticky.iter().chain(semantics.dwell.keys()).chain(semantics.increments.keys()) {
+        for letter in semantics.dwell.keys().chain(semantics.increments.keys()) {
             if !self.is_letter(letter) {
                 self.say(PLACE, format!("`{letter}` is no address here"));
             }

@@ -170,6 +170,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.selected = D::unknown();
     state.loaded.offset = Position::UNKNOWN;
     state.loaded.diameter = Mm::UNKNOWN;
+    state.cycle = state.cycle.unknown();
     state.transform.angle = f64::NAN;
     state.passed = Position::UNKNOWN;
     state.probed = Position::UNKNOWN;

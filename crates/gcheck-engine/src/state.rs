@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, Effect};
+use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::{Mm, Plane};
 
 use crate::event::{FeedMode, Spindle, Units};
@@ -89,9 +89,11 @@ pub(crate) struct SavedModes {
     pub(crate) feed_hold: Truth,
 }
 
-/// Words of a canned cycle that stay in effect, millimetres; NaN not given.
+/// Words of a canned cycle that stay in effect, millimetres; NaN not given, or not known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CycleWords {
+    /// Words of the series that were given, or may have been: their own letters, and `START` for its level.
+    may_have: LetterSet,
     /// Retract plane.
     pub r: f64,
     /// Bottom.
@@ -117,6 +119,7 @@ pub struct CycleWords {
 impl CycleWords {
     /// Nothing was given.
     pub const NONE: Self = Self {
+        may_have: LetterSet::EMPTY,
         r: f64::NAN,
         z: f64::NAN,
         q: f64::NAN,
@@ -129,13 +132,68 @@ impl CycleWords {
         initial: f64::NAN,
     };
 
-    /// Nothing of this series yet.
-    pub(crate) fn series(&self, initial: f64) -> Self {
-        let Self { last_dwell, feed_override_on, .. } = *self;
-        Self { last_dwell, feed_override_on, initial, ..Self::NONE }
+    /// Stands for the level that a series began at among the words that it may have.
+    const START: Letter = Letter::of('N');
+
+    /// Nothing of a new series yet, but the level that it began at where another cycle goes on from it.
+    pub(crate) fn series(&self, goes_on: bool) -> Self {
+        let Self { last_dwell, feed_override_on, initial, .. } = *self;
+        let new = Self { last_dwell, feed_override_on, ..Self::NONE };
+        if goes_on && self.has_begun() {
+            let may_have = [Self::START].into_iter().collect();
+            Self { initial, may_have, ..new }
+        } else {
+            new
+        }
     }
 
-    fn bits(&self) -> ([u64; 12], bool) {
+    /// Whether a series is under way, and with which words, is not known.
+    pub(crate) fn unknown(&self) -> Self {
+        let Self { last_dwell, feed_override_on, .. } = *self;
+        let may_have = LetterSet::of("RZQPIJKEXYN");
+        Self { last_dwell, feed_override_on, may_have, ..Self::NONE }
+    }
+
+    /// May the word have been given in this series? Then its NaN is a value that nobody knows.
+    pub(crate) fn may_have(&self, letter: Letter) -> bool {
+        self.may_have.contains(letter)
+    }
+
+    /// The block gives the word.
+    pub(crate) fn give(&mut self, letter: Letter) {
+        self.may_have.insert(letter);
+    }
+
+    /// A word's value: `None` not given, NaN unknown.
+    pub(crate) fn word(&self, letter: char, value: f64) -> Option<f64> {
+        (!value.is_nan() || self.may_have(Letter::of(letter))).then_some(value)
+    }
+
+    /// I, J and K are another's, and stay what they were.
+    pub(crate) fn take_back_ijk(&mut self, before: &Self) {
+        let letters = LetterSet::of("IJK");
+        self.ijk = before.ijk;
+        self.may_have = self.may_have.without(letters).or(before.may_have.and(letters));
+    }
+
+    /// Did a series begin, or may it have begun?
+    pub(crate) fn has_begun(&self) -> bool {
+        self.may_have(Self::START)
+    }
+
+    /// The series begins at a level.
+    pub(crate) fn begin(&mut self, level: f64) {
+        self.initial = level;
+        self.give(Self::START);
+    }
+
+    /// The series is over: the next cycle begins at a level of its own.
+    pub(crate) fn end(&mut self) {
+        self.initial = f64::NAN;
+        self.may_have = self.may_have.without([Self::START].into_iter().collect());
+    }
+
+    fn bits(&self) -> ([u64; 12], bool, LetterSet) {
         let ([i, j, k], [given_r, given_z]) = (self.ijk, self.given);
         let numbers = [
             self.r,
@@ -151,7 +209,7 @@ impl CycleWords {
             self.e,
             self.initial,
         ];
-        (numbers.map(f64::to_bits), self.feed_override_on)
+        (numbers.map(f64::to_bits), self.feed_override_on, self.may_have)
     }
 
     fn join(&self, other: &Self) -> Self {
@@ -159,6 +217,7 @@ impl CycleWords {
         let [i, j, k] = self.ijk;
         let [i2, j2, k2] = other.ijk;
         Self {
+            may_have: self.may_have.or(other.may_have),
             r: pick(self.r, other.r),
             z: pick(self.z, other.z),
             q: pick(self.q, other.q),
@@ -266,6 +325,31 @@ impl Transform {
         mirror: [false; 3],
         mirror_at: [0.0; 3],
     };
+
+    /// Each part that differs becomes unknown by itself, so that the code that ends it makes the whole known again.
+    fn join(&self, other: &Self) -> Self {
+        let mut joined = *self;
+        let bits = |numbers: &[f64; 3]| numbers.map(f64::to_bits);
+        let scales = bits(&self.scale) != bits(&Self::NONE.scale);
+        if bits(&self.scale) != bits(&other.scale)
+            || scales && bits(&self.scale_centre) != bits(&other.scale_centre)
+        {
+            joined.scale = [f64::NAN; 3];
+        }
+        let is_elsewhere = bits(&self.centre) != bits(&other.centre) || self.plane != other.plane;
+        if self.angle.to_bits() != other.angle.to_bits() || self.angle != 0.0 && is_elsewhere {
+            joined.angle = f64::NAN;
+        }
+        let sides = self.mirror.iter().zip(&other.mirror).zip(self.mirror_at.iter().zip(&other.mirror_at));
+        let slots = joined.mirror.iter_mut().zip(&mut joined.mirror_at);
+        for ((slot, at), ((mirrored, with), (here, there))) in slots.zip(sides) {
+            if mirrored != with || *mirrored && here.to_bits() != there.to_bits() {
+                *slot = true;
+                *at = f64::NAN;
+            }
+        }
+        joined
+    }
 }
 
 /// Everything that the next block may depend on.
@@ -689,9 +773,7 @@ impl<D: Domain> State<D> {
         if self.turning != other.turning {
             joined.turning = Some(Rc::new(self.turning().join(&other.turning())));
         }
-        if self.transform != other.transform {
-            joined.transform.angle = f64::NAN;
-        }
+        joined.transform = self.transform.join(&other.transform);
         joined.cylinder = match (self.cylinder, other.cylinder) {
             (None, None) => None,
             (Some(a), Some(b)) => Some(number(a, b)),

@@ -44,6 +44,14 @@ fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
 }
 
 #[test]
+fn a_word_whose_value_is_not_known_was_given_all_the_same() {
+    check("fanuc-mill", "G81 X5. Z-6. R#500 \nX6.\nN9 G80 X7.", &expect![[r#"
+        rapid x0 y0 z5
+        Cycle(Missing(R))
+        at x5 y0 z5"#]]);
+}
+
+#[test]
 fn numbers_without_a_point_count_in_the_units_of_their_own_block() {
     check(
         "haas-mill",

@@ -217,9 +217,12 @@ impl<'a> Writer<'a> {
             "G10 L2 P2 Y#100",
             "G92.1",
             "G0 X[#5001]",
-        ][self.choose(42) as usize];
+            "G68 X0. Y0. R30.",
+            "G69",
+        ][self.choose(44) as usize];
         // What LinuxCNC has not, or not without a tool table.
-        let is_foreign = self.style == Style::OWords && ["G52", "G41"].iter().any(|g| line.starts_with(g));
+        let is_foreign =
+            self.style == Style::OWords && ["G52", "G41", "G68", "G69"].iter().any(|g| line.starts_with(g));
         self.line(if is_foreign { "G92.1" } else { line });
     }
 

@@ -5,9 +5,9 @@
 use std::collections::HashSet;
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, WordKind};
+use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, LetterSet, WordKind};
 
-use crate::block::{Block, BlockFlags, BlockIx, BlockTable};
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Word};
 use crate::lower::Dialect;
 use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 
@@ -313,6 +313,8 @@ impl Survey {
         dialect: &Dialect<'_>,
     ) {
         let words = table.words(block);
+        // A block may be as long as a file: what the references of its codes ask for is gathered once.
+        let mut references = None;
         for word in words.iter().filter(|w| matches!(w.letter.ascii(), b'G' | b'M') && !w.letter.is_corner())
         {
             if let Some(number) = word.number().and_then(|n| CodeNumber::from_value(word.letter.ascii(), n))
@@ -339,14 +341,14 @@ impl Survey {
             if !dialect.refers(word.code) {
                 continue;
             }
+            let references = references.get_or_insert_with(|| References::of(words, dialect));
             for target in &entry.words {
                 let Some(letter) = Letter::parse(&target.letter) else { continue };
-                let Some(found) = words.iter().find(|w| w.letter == letter) else { continue };
                 // `G4 P1 M99`: which of two codes the word belongs to is not for us to say.
-                let readers = words.iter().filter_map(|w| dialect.control().code_at(w.code));
-                if readers.filter(|c| c.reads().contains(letter) || c.is_user()).count() > 1 {
+                if references.by_several.contains(letter) {
                     continue;
                 }
+                let Some(found) = references.first(letter) else { continue };
                 let range = shift(&found.range(), base);
                 match target.kind {
                     WordKind::Label => {
@@ -360,6 +362,44 @@ impl Survey {
                 }
             }
         }
+    }
+}
+
+/// Which words of a block its codes may refer with.
+struct References<'t> {
+    /// By address: its first word.
+    first: [Option<&'t Word>; Letter::COUNT],
+    /// Addresses that several codes of the block read.
+    by_several: LetterSet,
+}
+
+impl<'t> References<'t> {
+    fn of(words: &'t [Word], dialect: &Dialect<'_>) -> Self {
+        let mut first = [None; Letter::COUNT];
+        let (mut by_one, mut by_several) = (LetterSet::EMPTY, LetterSet::EMPTY);
+        let mut by_all = 0_u32;
+        for word in words {
+            if let Some(slot) = first.get_mut(word.letter.index()) {
+                slot.get_or_insert(word);
+            }
+            let Some(code) = dialect.control().code_at(word.code) else { continue };
+            if code.is_user() {
+                by_all += 1;
+                continue;
+            }
+            by_several = by_several.or(by_one.and(code.reads()));
+            by_one = by_one.or(code.reads());
+        }
+        match by_all {
+            0 => {}
+            1 => by_several = by_several.or(by_one),
+            _ => by_several = first.iter().flatten().map(|word| word.letter).collect(),
+        }
+        Self { first, by_several }
+    }
+
+    fn first(&self, letter: Letter) -> Option<&'t Word> {
+        self.first.get(letter.index()).copied().flatten()
     }
 }
 

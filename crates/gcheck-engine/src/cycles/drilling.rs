@@ -490,7 +490,6 @@ mod tests {
     fn exact() -> CycleRules {
         CycleRules {
             repeat: 'L',
-            sticky: Vec::new(),
             peck_clearance: 0.254,
             chip_break_retract: 0.254,
             motion_ends_cycle: true,

@@ -2,7 +2,7 @@
 //!
 //! Knows: words that stay from block to block, repeats, incremental levels. Must not know: the strokes of one hole ([`crate::cycles`]).
 
-use gcheck_controls::{CodeIx, DwellWord, Effect, Letter};
+use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
 use super::arc::plane_axes;
@@ -122,6 +122,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut words = state.cycle;
         // On strict controls -1 stands for no number.
         let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
+        for letter in self.words.present().and(LetterSet::of("RZQPIJKEXY")).iter() {
+            let is_none =
+                matches!(letter.ascii(), b'P' | b'Q') && self.words.number(letter).is_some_and(none);
+            if letter != Letter::of(rules.repeat) && !is_none {
+                words.give(letter);
+            }
+        }
         let put = |letter: char, slot: &mut f64, scale: f64| {
             if let Some(value) =
                 self.words.number(Letter::of(letter)).filter(|value| letter != 'Q' || !none(*value))
@@ -147,9 +154,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             words.p = if milliseconds { p / 1000.0 } else { p };
             words.last_dwell = words.p;
         }
-        let starts = words.initial.is_nan() && state.cycle.initial.is_nan();
-        if starts {
-            words.initial = state.position.raw(depth);
+        if !words.has_begun() {
+            words.begin(state.position.raw(depth));
         }
         let relative = match state.is_incremental(self.model) {
             Some(incremental) => incremental && rules.incremental_r,
@@ -170,13 +176,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             words.z = if relative { words.r + level } else { level };
         }
         state.cycle = words;
-        if self.words.number(Letter::of('R')).is_some_and(f64::is_nan) {
-            return Ok(());
-        }
-        if words.r.is_nan() && !self.words.has(Letter::of('R')) {
+        if words.word('R', words.r).is_none() {
             return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
         }
-        if words.z.is_nan() && !self.words.has(depth.letter()) && effect != Effect::CycleCancel {
+        if words.word(depth.name(), words.z).is_none() && effect != Effect::CycleCancel {
             return Err(Fault::Cycle(CycleFault::Missing(depth.letter())));
         }
         Ok(())
@@ -266,9 +269,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let incremental = state.is_incremental(self.model);
         let rules = &self.model.semantics().cycles;
         let words = state.cycle;
+        let [i, j, k] = words.ijk;
         let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
-        let number = |value: f64| if value.is_nan() { None } else { Some(value) };
         let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
         let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.p };
         let units = state.units(self.model).unwrap_or(Units::Mm);
@@ -281,9 +284,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 initial: Mm(words.initial),
                 r: Mm(r),
                 bottom: Mm(bottom),
-                dwell: number(dwell).map(Seconds),
-                peck: number(words.q).map(Mm),
-                ijk: words.ijk.map(|v| number(v).map(Mm)),
+                dwell: words.word('P', dwell).map(Seconds),
+                peck: words.word('Q', words.q).map(Mm),
+                ijk: [words.word('I', i).map(Mm), words.word('J', j).map(Mm), words.word('K', k).map(Mm)],
                 incremental: incremental == Some(true),
                 return_to_r,
                 first_of_block: turn == 0,

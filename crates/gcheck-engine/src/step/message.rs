@@ -53,12 +53,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         part(file.loaded.text().get(self.origin.start as usize..)?.lines().next()?)
     }
 
-    /// `#5` and `#<name>` become their values with six decimals; a parameter that nobody set becomes `######`.
+    /// `#5` and `#<name>` become their values, with six decimals, or as the last `%d`, `%f` (four) or `%.3f` before them says;
+    /// a parameter that nobody set becomes `######`.
     fn with_values(&mut self, text: &str, state: &State<D>) -> Rc<str> {
         let mut shown = String::with_capacity(text.len());
         let mut rest = text;
-        while let Some((before, behind)) = rest.split_once('#') {
+        let mut decimals = 6;
+        while let Some(at) = rest.find(['#', '%']) {
+            let (before, behind) = rest.split_at(at);
             shown.push_str(before);
+            if let Some(format) = behind.strip_prefix('%') {
+                if let Some((wanted, behind)) = decimals_of(format) {
+                    decimals = wanted;
+                    rest = behind;
+                } else {
+                    shown.push('%');
+                    rest = format;
+                }
+                continue;
+            }
+            let behind = behind.strip_prefix('#').unwrap_or_default();
             let digits = behind.chars().take_while(char::is_ascii_digit).count();
             let name = behind.strip_prefix('<').and_then(|name| name.split_once('>'));
             let value = if let Some((name, behind)) = name {
@@ -78,7 +92,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             };
             match value.as_ref().map(D::known) {
                 Some(Some(number)) => {
-                    let _ = write!(shown, "{number:.6}");
+                    let text = format!("{number:.decimals$}");
+                    // What rounds to zero has no sign.
+                    let is_zero = text.bytes().all(|byte| matches!(byte, b'-' | b'0' | b'.'));
+                    shown.push_str(text.strip_prefix('-').filter(|_| is_zero).unwrap_or(&text));
                 }
                 Some(None) => shown.push('?'),
                 None => shown.push_str("######"),
@@ -136,6 +153,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.emit(state, Event::Message(Rc::from(printed)));
     }
+}
+
+/// The decimals of a format behind its `%`, and what stands behind it.
+fn decimals_of(format: &str) -> Option<(usize, &str)> {
+    if let Some(behind) = format.strip_prefix('d') {
+        return Some((0, behind));
+    }
+    if let Some(behind) = format.strip_prefix('f') {
+        return Some((4, behind));
+    }
+    let digits = format.strip_prefix('.')?;
+    let digit = digits.chars().next()?.to_digit(10)?;
+    Some((digit as usize, digits.get(1..)?.strip_prefix('f')?))
 }
 
 /// Length of what stands in the brackets that the text begins with, brackets included; all of it when they stay open.

@@ -119,12 +119,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             Role::Cycle => {
-                let running = state.active_cycle(self.model).filter(|cycle| cycle.is_some());
-                match running {
-                    None => state.cycle = state.cycle.series(f64::NAN),
+                match state.active_cycle(self.model) {
+                    None => state.cycle = state.cycle.unknown(),
+                    Some(CodeIx::NONE) => state.cycle = state.cycle.series(false),
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
-                        state.cycle = state.cycle.series(state.cycle.initial);
+                        state.cycle = state.cycle.series(true);
                     }
                     Some(_) => {}
                 }
@@ -136,7 +136,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Role::Plane if lasts => {
                 if state.mode(role).only() != Some(ix) && self.model.semantics().cycles.rise_to_r {
                     // The level that a series began at was one of the other axis.
-                    state.cycle.initial = f64::NAN;
+                    state.cycle.end();
                 }
                 state.set_mode(role, ix);
             }
@@ -150,7 +150,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let cancel = self.model.cycle_cancel;
         if state.mode(Role::Cycle).only() != Some(cancel) {
             state.set_mode(Role::Cycle, cancel);
-            state.cycle.initial = f64::NAN;
+            state.cycle.end();
         }
     }
 

@@ -80,8 +80,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let layer = self.length(Letter::of('Q'), state).ok_or(needed('Q'))?;
         let r = match self.length(Letter::of('R'), state) {
             Some(r) => r,
-            None if state.cycle.r.is_nan() => return Err(needed('R')),
-            None => state.cycle.r,
+            None => state.cycle.word('R', state.cycle.r).ok_or(needed('R'))?,
         };
         let length = |letter: char| self.length(Letter::of(letter), state).map(Mm);
         let mut words = GeneralPocket {
@@ -253,9 +252,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let named = self.words.codes().iter().copied().find(is_cycle);
         if let Some(ix) = named.filter(|ix| self.model.effect(*ix) != Effect::CycleCancel) {
             let effect = self.model.effect(ix);
-            let kept = state.cycle.ijk;
+            let kept = state.cycle;
             self.cycle_words(effect, depth, state)?;
-            state.cycle.ijk = kept;
+            state.cycle.take_back_ijk(&kept);
             return Ok(Some(effect));
         }
         let active = state.active_cycle(self.model).filter(|ix| ix.is_some());

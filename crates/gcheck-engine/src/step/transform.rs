@@ -40,9 +40,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Effect::RotationOff => transform.angle = 0.0,
             Effect::RotationOn => {
-                transform.plane = state.plane(self.model).unwrap_or(Plane::Xy);
+                let plane = state.plane(self.model);
+                transform.plane = plane.unwrap_or(Plane::Xy);
                 transform.centre = centre;
-                transform.angle = word('R').unwrap_or(f64::NAN);
+                transform.angle = word('R').filter(|_| plane.is_some()).unwrap_or(f64::NAN);
                 if state.is_diameter(self.model) == Some(true) {
                     // Double turrets mirror with the same code on lathes.
                     transform.angle = f64::NAN;

@@ -107,6 +107,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
     let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
     let mut equipment = Equipment::new(&settings, &control, Start::Any)?;
     equipment.set(bench.set);
+    settings.machine.units_are_told = !equipment.units_assumed;
     settings.machine.engine = equipment.machine;
     let scene = Scene {
         dialect: &dialect,

@@ -78,7 +78,7 @@ impl PathRule for ArcModeLeftOn {
             Some(setting) if value.is_none() => finding
                 .note(format!("setting {} decides: a straight line, or an alarm", setting.number))
                 .at_most(Severity::Info),
-            _ if cx.model.semantics().compensation.freezes_modes => finding,
+            _ if cx.model.semantics().strict => finding,
             _ => finding.at_most(Severity::Warning),
         };
         report.add(cx.resting_on(finding, fact, &format!("`{code}`")));
