@@ -121,6 +121,7 @@ fn monsters_are_checked_in_linear_time() {
         "(".repeat(1_000_000),
         "X1".repeat(500_000),
         "G1".repeat(200_000),
+        "M98P1".repeat(40_000),
         "N1\n".repeat(200_000),
         "GOTO5\n".repeat(100_000),
         "DO1\n".repeat(100_000),

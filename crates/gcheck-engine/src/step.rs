@@ -391,6 +391,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         state: &mut State<D>,
     ) -> Step {
         self.words.clear();
+        // Looked for once, however long the block is.
+        let mut units = None;
         for word in words {
             if word.code.is_some() {
                 self.words.put_code(word.code);
@@ -412,7 +414,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                         number
                     } else {
                         let units = match self.unpointed {
-                            Unpointed::LeastIncrement => self.units_of_block(words, state),
+                            Unpointed::LeastIncrement => {
+                                *units.get_or_insert_with(|| self.units_of_block(words, state))
+                            }
                             _ => None,
                         };
                         self.scale(word.letter, number, units)

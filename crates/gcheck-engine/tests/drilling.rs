@@ -4,6 +4,7 @@ mod cycle_harness;
 
 use cycle_harness::{machine, shown_on};
 use expect_test::{Expect, expect};
+use gcheck_engine::Machine;
 
 /// Millimetres; the machine stands at zero.
 fn check(control: &str, text: &str, expected: &Expect) {
@@ -45,10 +46,14 @@ fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
 
 #[test]
 fn a_word_whose_value_is_not_known_was_given_all_the_same() {
-    check("fanuc-mill", "G81 X5. Z-6. R#500 \nX6.\nN9 G80 X7.", &expect![[r#"
+    // Nobody told what #500 holds.
+    let machine = Machine { fresh: false, ..machine(10.0) };
+    let text = "O1\nG21 G90 G54 G0 X0. Y0. Z5.\nG99 G81 X5. Z-6. R#500 F200.\nX6.\nG80 X7.\nM30\n";
+    expect![[r#"
         rapid x0 y0 z5
-        Cycle(Missing(R))
-        at x5 y0 z5"#]]);
+        rapid x7 y0 z?
+        at x7 y0 z?"#]]
+    .assert_eq(&shown_on("fanuc-mill", "XYZ", &machine, text));
 }
 
 #[test]

@@ -61,7 +61,11 @@ fn the_last_comment_of_a_block_is_the_message_and_comes_first() {
 
 #[test]
 fn values_stand_in_the_place_of_parameters() {
-    check("linuxcnc", "#1=1.23456789\n(DEBUG,%d #1 %% %.2f#1 %f #1 %x %)\nM2\n", &expect![[r#"message " 1 %% 1.23  1.2346 %x %""#]]);
+    check(
+        "linuxcnc",
+        "#1=1.23456789\n(DEBUG,%d #1 %% %.2f#1 %f #1 %x %)\nM2\n",
+        &expect![[r#"message " 1 %% 1.23  1.2346 %x %""#]],
+    );
     check(
         "linuxcnc",
         "#1=2.5\n#<n>=1\n(DEBUG, #1 #<N> #<unset> # 5 #[1])\nM2\n",
