@@ -141,7 +141,7 @@ impl CycleWords {
         let new = Self { last_dwell, feed_override_on, ..Self::NONE };
         if goes_on && self.has_begun() {
             let may_have = [Self::START].into_iter().collect();
-            Self { initial, may_have, ..new }
+            Self { may_have, initial, ..new }
         } else {
             new
         }
@@ -151,7 +151,7 @@ impl CycleWords {
     pub(crate) fn unknown(&self) -> Self {
         let Self { last_dwell, feed_override_on, .. } = *self;
         let may_have = LetterSet::of("RZQPIJKEXYN");
-        Self { last_dwell, feed_override_on, may_have, ..Self::NONE }
+        Self { may_have, last_dwell, feed_override_on, ..Self::NONE }
     }
 
     /// May the word have been given in this series? Then its NaN is a value that nobody knows.

@@ -13,7 +13,6 @@ use crate::position::{Axis, Position};
 use crate::state::State;
 use crate::value::Domain;
 
-#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G28`, `G30`: by the block's point to the reference position, on the axes that the block names.
     pub(super) fn return_reference(&mut self, number: u8, state: &mut State<D>) -> Step {
