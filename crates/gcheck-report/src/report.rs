@@ -2,6 +2,7 @@
 //!
 //! Knows: files in order, findings in order, sums. Must not know: how anything looks.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use gcheck_rules::{Described, Finding, RuleMeta, Severity};
@@ -54,6 +55,12 @@ pub struct Report {
     files: Vec<File>,
     related: Vec<(String, Source)>,
     rules: Vec<&'static RuleMeta>,
+}
+
+/// The order of findings in a file.
+pub(crate) fn order(a: &Finding, b: &Finding) -> Ordering {
+    let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
+    key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
 }
 
 /// A file of the report with its lines.
@@ -207,10 +214,7 @@ impl File {
             out_of_fuel,
             assumptions,
         } = file;
-        findings.sort_by(|a, b| {
-            let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
-            key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
-        });
+        findings.sort_by(order);
         Self {
             path,
             source: Source::new(text),

@@ -3,21 +3,24 @@
 //! Knows: the order of the work, what runs in parallel, what ends in which exit code. Must not know: rules or formats.
 
 mod job;
+mod known;
 mod progress;
 mod settings_page;
 
+use std::collections::BTreeSet;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gcheck_report::{FileReport, Format, Report, Summary};
 use gcheck_rules::Selection;
 use rayon::prelude::*;
 
-use crate::args::{CheckOptions, FailOn, Global};
+use crate::args::{CheckOptions, FailOn, Global, OutputFile};
 use crate::config::{Configs, RuleWishes, unknown_rule, validate_control};
 use crate::discovery::{self, Found};
 use crate::{Problem, output, paths, reading};
 use job::{Bench, Target};
+use known::KnownFindings;
 use progress::Progress;
 
 /// Standard input among the paths.
@@ -36,6 +39,11 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     for selector in wishes.select.iter().chain(&wishes.ignore).chain(&wishes.extend_select) {
         Selection::none().enable(selector).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     }
+    let outputs = Outputs::new(options)?;
+    let mut known = match &options.baseline {
+        Some(path) => Some(KnownFindings::read(path, options.update_baseline)?),
+        None => None,
+    };
     let mut configs = Configs::new(&global.config, global.isolated)?;
     let (targets, mut problems) = targets(options, &mut configs);
     if options.show_files {
@@ -48,9 +56,21 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
         output::print(&settings_page::page(&bench, &targets, &mut problems))?;
         return Ok(finish(&problems, 0));
     }
-    let reports = check_all(&bench, &targets, global, options, &mut problems)?;
+    let mut reports = check_all(&bench, &targets, global, options, &mut problems)?;
+    if let Some(known) = &mut known {
+        let mut remark = None;
+        if options.update_baseline {
+            remark = Some(known.update(&mut reports)?);
+        }
+        let stale = known.apply(&mut reports);
+        // A run of some rules says nothing about the entries of others.
+        let all_rules = options.select.is_empty() && options.ignore.is_empty();
+        if let Some(remark) = remark.or(stale.filter(|_| all_rules)).filter(|_| !global.quiet) {
+            say(&remark);
+        }
+    }
     let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
-    write(global, options, &report, &problems)?;
+    write(global, options, &outputs, &report, &problems)?;
     let summary = report.summary();
     Ok(finish(&problems, u8::from(fails(&summary, options))))
 }
@@ -128,10 +148,44 @@ fn fails(summary: &Summary, options: &CheckOptions) -> bool {
     at_or_above > 0 || options.max_warnings.is_some_and(|most| summary.warnings > most)
 }
 
-/// Findings to standard output or the file; what is for people to read besides, where it does not disturb.
+/// Where findings go.
+struct Outputs<'o> {
+    /// The file that takes the place of standard output.
+    main: Option<&'o Path>,
+    /// Files with a format of their own.
+    besides: Vec<(Format, &'o Path)>,
+}
+
+impl<'o> Outputs<'o> {
+    /// Sorts the files of the command line.
+    ///
+    /// # Errors
+    /// When two outputs would go to one file.
+    fn new(options: &'o CheckOptions) -> Result<Self, Problem> {
+        let mut outputs = Self { main: None, besides: Vec::new() };
+        let mut taken = BTreeSet::new();
+        for OutputFile { format, path } in &options.output_file {
+            if !taken.insert(paths::absolute(path)) {
+                return Err(Problem::with_file(path, "two outputs cannot go to one file"));
+            }
+            match format {
+                Some(format) => outputs.besides.push((*format, path)),
+                None if outputs.main.is_none() => outputs.main = Some(path),
+                None => {
+                    return Err(Problem::with_file(path, "is a second file for the same output")
+                        .help("give it a format of its own: `-o sarif=FILE`"));
+                }
+            }
+        }
+        Ok(outputs)
+    }
+}
+
+/// Findings to standard output or files; what is for people to read besides, where it does not disturb.
 fn write(
     global: &Global,
     options: &CheckOptions,
+    outputs: &Outputs<'_>,
     report: &Report,
     problems: &[Problem],
 ) -> Result<(), Problem> {
@@ -139,12 +193,12 @@ fn write(
     if format.is_text() && !global.quiet {
         say(&gcheck_report::control_lines(report).join("\n"));
     }
-    match &options.output_file {
-        Some(file) => {
-            output::to_file(file, |out| {
-                gcheck_report::write(report, format, gcheck_report::Colour::Plain, out)
-            })?;
-        }
+    let to_file = |format, path| {
+        output::to_file(path, |out| gcheck_report::write(report, format, gcheck_report::Colour::Plain, out))
+    };
+    outputs.besides.iter().try_for_each(|(format, path)| to_file(*format, path))?;
+    match outputs.main {
+        Some(path) => to_file(format, path)?,
         None => {
             let colour = output::colour(global.color);
             output::to_stdout(|out| gcheck_report::write(report, format, colour, out))?;
@@ -159,7 +213,7 @@ fn write(
         closing.push_str(&closing_line(report));
     }
     // Only the format for people has room for a closing line; a parser reads the others.
-    if format == Format::Full && options.output_file.is_none() {
+    if format == Format::Full && outputs.main.is_none() {
         output::print(&closing)?;
     } else if format.is_text() || options.statistics {
         say(&closing);

@@ -9,6 +9,7 @@ use std::io::{self, Write};
 use gcheck_rules::Finding;
 use serde::Serialize;
 
+use super::list::List;
 use crate::report::File;
 use crate::source::Source;
 use crate::{ControlChoice, Fingerprint, Position, Report};
@@ -23,7 +24,7 @@ struct JsonFile<'r> {
 }
 
 #[derive(Serialize)]
-struct JsonFinding<'r> {
+pub(super) struct JsonFinding<'r> {
     rule: &'r str,
     severity: &'r str,
     certainty: &'r str,
@@ -70,14 +71,14 @@ struct JsonEdit<'r> {
 }
 
 pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
-    write!(out, "{{\n\"version\": {VERSION},\n\"files\": [")?;
-    let mut list = List::default();
+    write!(out, "{{\n\"version\": {VERSION},\n\"files\": ")?;
+    let mut list = List::begin(out)?;
     for file in report.files() {
         list.item(out, &JsonFile { file: &file.path, control: &file.control })?;
     }
     list.end(out)?;
-    write!(out, ",\n\"findings\": [")?;
-    let mut list = List::default();
+    write!(out, ",\n\"findings\": ")?;
+    let mut list = List::begin(out)?;
     for file in report.files() {
         for (finding, fingerprint) in file.findings.iter().zip(file.fingerprints()) {
             list.item(out, &json_finding(report, file, finding, fingerprint))?;
@@ -89,25 +90,8 @@ pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "\n}}")
 }
 
-/// A list with one item a line.
-#[derive(Default)]
-struct List {
-    begun: bool,
-}
-
-impl List {
-    fn item(&mut self, out: &mut dyn Write, item: &impl Serialize) -> io::Result<()> {
-        out.write_all(if self.begun { b",\n  " } else { b"\n  " })?;
-        self.begun = true;
-        Ok(serde_json::to_writer(out, item)?)
-    }
-
-    fn end(self, out: &mut dyn Write) -> io::Result<()> {
-        out.write_all(if self.begun { b"\n]" } else { b"]" })
-    }
-}
-
-fn json_finding<'r>(
+/// A finding with everything that is known about it.
+pub(super) fn json_finding<'r>(
     report: &'r Report,
     file: &'r File,
     finding: &'r Finding,

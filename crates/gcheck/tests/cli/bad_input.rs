@@ -515,11 +515,11 @@ fn wrong_arguments() {
     check_arguments(
         "check --output-format xml",
         &expect![[r#"
-        ! error: invalid value 'xml' for '--output-format <FORMAT>': there are full, concise, json, sarif, github
-        ! 
-        ! For more information, try '--help'.
-        exit 2
-    "#]],
+            ! error: invalid value 'xml' for '--output-format <FORMAT>': there are full, concise, grouped, json, jsonl, sarif, github, gitlab, checkstyle, junit, rdjson, azure
+            ! 
+            ! For more information, try '--help'.
+            exit 2
+        "#]],
     );
     check_arguments(
         "check --fail-on always",

@@ -11,6 +11,7 @@
 #![expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 mod bad_input;
+mod baseline;
 mod configuration;
 mod control;
 mod determinism;
