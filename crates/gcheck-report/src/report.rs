@@ -31,6 +31,8 @@ pub struct FileReport {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
+    /// Findings that were mended, and so are none any more.
+    pub fixed: usize,
     /// The analysis ended before the program did.
     pub out_of_fuel: bool,
     /// What the verdict rests on that nobody told us.
@@ -74,6 +76,7 @@ pub(crate) struct File {
     lines: usize,
     suppressed: usize,
     baseline: usize,
+    fixed: usize,
     pub(crate) out_of_fuel: bool,
     assumptions: Vec<Described>,
 }
@@ -99,6 +102,8 @@ pub struct Summary {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
+    /// Findings that were mended.
+    pub fixed: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
     /// What the verdicts rest on that nobody told us, each once, with how many files rest on it.
@@ -145,6 +150,7 @@ impl Report {
             sum.lines += file.lines;
             sum.suppressed += file.suppressed;
             sum.baseline += file.baseline;
+            sum.fixed += file.fixed;
             for assumption in &file.assumptions {
                 match sum.assumptions.iter_mut().find(|a| a.text == assumption.text) {
                     Some(known) => known.files += 1,
@@ -211,6 +217,7 @@ impl File {
             lines,
             suppressed,
             baseline,
+            fixed,
             out_of_fuel,
             assumptions,
         } = file;
@@ -224,6 +231,7 @@ impl File {
             lines,
             suppressed,
             baseline,
+            fixed,
             out_of_fuel,
             assumptions,
         }

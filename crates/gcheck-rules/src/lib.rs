@@ -11,6 +11,7 @@ mod context;
 mod contract;
 mod evidence;
 mod finding;
+mod fixing;
 mod loops;
 mod meta;
 mod mistakes;
@@ -31,6 +32,7 @@ pub use context::{
 };
 pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
+pub use fixing::{FixKinds, Fixed, apply_fixes};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};

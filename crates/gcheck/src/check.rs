@@ -4,6 +4,7 @@
 
 mod job;
 mod known;
+mod mending;
 mod progress;
 mod settings_page;
 
@@ -19,7 +20,7 @@ use crate::args::{CheckOptions, FailOn, Global, OutputFile};
 use crate::config::{Configs, RuleWishes, unknown_rule, validate_control};
 use crate::discovery::{self, Found};
 use crate::{Problem, output, paths, reading};
-use job::{Bench, Target};
+use job::{Bench, Checked, Target};
 use known::KnownFindings;
 use progress::Progress;
 
@@ -39,6 +40,9 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     for selector in wishes.select.iter().chain(&wishes.ignore).chain(&wishes.extend_select) {
         Selection::none().enable(selector).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     }
+    if options.fix && options.paths.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+        return Err(Problem::new("standard input cannot be mended").help("`--diff` shows what would change"));
+    }
     let outputs = Outputs::new(options)?;
     let mut known = match &options.baseline {
         Some(path) => Some(KnownFindings::read(path, options.update_baseline)?),
@@ -56,7 +60,11 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
         output::print(&settings_page::page(&bench, &targets, &mut problems))?;
         return Ok(finish(&problems, 0));
     }
-    let mut reports = check_all(&bench, &targets, global, options, &mut problems)?;
+    let checked = check_all(&bench, &targets, global, options)?;
+    if options.diff {
+        return show_differences(global, checked, problems);
+    }
+    let mut reports = write_mended(&targets, checked, &mut problems);
     if let Some(known) = &mut known {
         let mut remark = None;
         if options.update_baseline {
@@ -111,10 +119,9 @@ fn check_all(
     targets: &[Target],
     global: &Global,
     options: &CheckOptions,
-    problems: &mut Vec<Problem>,
-) -> Result<Vec<FileReport>, Problem> {
+) -> Result<Vec<Result<Checked, Problem>>, Problem> {
     let progress = Progress::new(targets.len(), global.quiet);
-    let work = || -> Vec<Result<FileReport, Problem>> {
+    let work = || -> Vec<Result<Checked, Problem>> {
         targets.par_iter().map(|target| progress.counting(|| job::guarded(bench, target))).collect()
     };
     let results = match (options.jobs, targets.len()) {
@@ -128,14 +135,58 @@ fn check_all(
             .install(work),
     };
     progress.end();
-    let mut reports = Vec::with_capacity(results.len());
-    for result in results {
-        match result {
+    Ok(results)
+}
+
+/// Writes the programs that were mended. One that cannot be written is a problem, and no more is said of it: what was found
+/// last was found in a text that is on no disk.
+fn write_mended(
+    targets: &[Target],
+    checked: Vec<Result<Checked, Problem>>,
+    problems: &mut Vec<Problem>,
+) -> Vec<FileReport> {
+    let mut reports = Vec::with_capacity(checked.len());
+    for (target, checked) in targets.iter().zip(checked) {
+        let written = checked.and_then(|Checked { report, mended }| match mended {
+            Some(mended) => mending::write(&target.path, &mended).map(|()| report),
+            None => Ok(report),
+        });
+        match written {
             Ok(report) => reports.push(report),
             Err(problem) => problems.push(problem),
         }
     }
-    Ok(reports)
+    reports
+}
+
+/// Prints what `--fix` would change; the exit code says whether it would change anything.
+fn show_differences(
+    global: &Global,
+    checked: Vec<Result<Checked, Problem>>,
+    mut problems: Vec<Problem>,
+) -> Result<u8, Problem> {
+    let (mut findings, mut files, mut text) = (0, 0, String::new());
+    for checked in checked {
+        match checked {
+            Ok(Checked { report, mended: Some(mended) }) => {
+                findings += report.fixed;
+                files += 1;
+                text.push_str(&mending::difference(&report.path, &mended));
+            }
+            Ok(_) => {}
+            Err(problem) => problems.push(problem),
+        }
+    }
+    output::print(&text)?;
+    if !global.quiet {
+        let words = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+        say(&format!(
+            "{} would be mended in {}",
+            words(findings, "finding", "findings"),
+            words(files, "file", "files")
+        ));
+    }
+    Ok(finish(&problems, u8::from(files > 0)))
 }
 
 fn fails(summary: &Summary, options: &CheckOptions) -> bool {

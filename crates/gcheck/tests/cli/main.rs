@@ -16,6 +16,7 @@ mod configuration;
 mod control;
 mod determinism;
 mod exit_codes;
+mod fixes;
 mod formats;
 mod lists;
 mod output;
