@@ -18,7 +18,8 @@ fn a_safe_fix_is_made_and_the_rest_reported() {
         ! part.nc: control haas-mill, set by `--control`
         ! 1 error in 1 file (6 lines); 1 mended
         exit 1
-    "#]].assert_eq(&shop.gcheck(&format!("{CHECK} --fix")).to_string());
+    "#]]
+    .assert_eq(&shop.gcheck(&format!("{CHECK} --fix")).to_string());
     assert_eq!(shop.read("part.nc"), MENDABLE.replace("(PART", "(PART)"));
     let run = shop.gcheck(&format!("{CHECK} --fix"));
     assert!(!run.stderr.contains("mended"), "{run}");
@@ -31,7 +32,8 @@ fn other_fixes_are_made_on_request() {
         ! part.nc: control haas-mill, set by `--control`
         ! no findings in 1 file (6 lines); 2 mended
         exit 0
-    "#]].assert_eq(&shop.gcheck(&format!("{CHECK} --fix --unsafe-fixes")).to_string());
+    "#]]
+    .assert_eq(&shop.gcheck(&format!("{CHECK} --fix --unsafe-fixes")).to_string());
     assert_eq!(shop.read("part.nc"), MENDABLE.replace("(PART", "(PART)").replace("X1O.", "X10."));
 }
 
@@ -50,7 +52,8 @@ fn a_difference_changes_nothing() {
          M30
         ! 1 finding would be mended in 1 file
         exit 1
-    "#]].assert_eq(&shop.gcheck(&format!("{CHECK} --diff")).to_string());
+    "#]]
+    .assert_eq(&shop.gcheck(&format!("{CHECK} --diff")).to_string());
     assert_eq!(shop.read("part.nc"), MENDABLE);
     let run = shop.gcheck(&format!("{CHECK} --diff good.nc"));
     assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{run}");
@@ -81,7 +84,8 @@ fn a_read_only_file_is_left_alone_and_permissions_stay() {
         part.nc:4:6: error[letter-o-for-zero] letter `O` instead of a zero in `X1O.`
         ! error: locked.nc: cannot mend: the file is read-only
         exit 2
-    "#]].assert_eq(&run.to_string());
+    "#]]
+    .assert_eq(&run.to_string());
     assert_eq!(shop.read("locked.nc"), MENDABLE);
     assert_eq!(shop.path("part.nc").metadata().unwrap().permissions().mode() & 0o777, 0o640);
     assert_eq!(shop.names(), ["locked.nc", "part.nc"], "nothing else stays behind");
@@ -104,7 +108,8 @@ fn standard_input_and_flags_without_their_command() {
         ! error: standard input cannot be mended
         !   help: `--diff` shows what would change
         exit 2
-    "#]].assert_eq(&shop.gcheck("check --fix -").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("check --fix -").to_string());
     assert_eq!(shop.gcheck("check --unsafe-fixes").code, 2);
     assert_eq!(shop.gcheck("check --fix --diff").code, 2);
 }
