@@ -42,6 +42,10 @@ pub enum Effect {
     Thread,
     /// Thread in and, with the spindle reversed, out again (`G33.1`).
     RigidTap,
+    /// Taps from where the tool stands to the block's point and back, the control turning the spindle (`G184` of mills).
+    TapHere,
+    /// The same with a left-hand thread (`G174`).
+    LeftTapHere,
     /// Toward the work, contact required (`G38.2`).
     ProbeToward,
     /// Toward the work, no contact is no fault (`G38.3`).
@@ -322,13 +326,16 @@ pub struct Semantics {
     /// A reference return cancels tool length compensation.
     #[serde(default)]
     pub reference_cancels_length: bool,
-    /// `G53` (and a motion without a mode of its own) moves in rapid where no motion is named.
+    /// `G53` moves in rapid whatever motion is in effect; else as `G0` or `G1` in effect says, and not under another one.
     pub machine_coordinates_rapid: bool,
     /// Dwell words: letter to kind.
     pub dwell: BTreeMap<String, DwellWord>,
     /// Computed jumps and `GOTO` look forward first, then from the head of the program.
     #[serde(default)]
     pub goto_forward_first: bool,
+    /// Comments that are shown to the operator, by the word that they begin with: `(MSG, …)`.
+    #[serde(default)]
+    pub message_comments: BTreeMap<String, MessageComment>,
     /// System variables that the engine computes: first number of a row of axes or a single one.
     #[serde(default)]
     pub system_variables: Vec<SystemVariable>,
@@ -540,6 +547,16 @@ pub enum LocalShift {
     Shared,
     /// Two shifts that add up.
     Separate,
+}
+
+/// What a comment for the operator shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MessageComment {
+    /// Its text.
+    Text,
+    /// Its text with the values of its parameters, six decimals each.
+    Values,
 }
 
 /// How a dwell word counts.

@@ -101,6 +101,7 @@ pub(crate) fn start_state<D: Domain>(
         transform: Transform::NONE,
         cylinder: None,
         blending: (0.0, None),
+        passed: Position::UNKNOWN,
         probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
         probe_result: if machine.fresh { Truth::False } else { Truth::Unknown },
         polar: [0.0; 2],
@@ -170,6 +171,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.loaded.offset = Position::UNKNOWN;
     state.loaded.diameter = Mm::UNKNOWN;
     state.transform.angle = f64::NAN;
+    state.passed = Position::UNKNOWN;
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
     state.variables.forget();
@@ -181,7 +183,7 @@ fn tables(machine: &Machine) -> Tables {
     Tables {
         offsets: machine.offsets.iter().map(|(number, offset)| (*number, known(*offset))).collect(),
         other_offset: if machine.fresh { WorkOffset::ZERO } else { WorkOffset::UNKNOWN },
-        references: [if machine.fresh { Position::ZERO } else { Position::UNKNOWN }; 2],
+        references: [if machine.fresh { Position::ZERO } else { Position::UNKNOWN }; 4],
         tools: machine
             .tools
             .iter()

@@ -324,6 +324,8 @@ pub struct State<D: Domain> {
     pub(crate) cylinder: Option<f64>,
     /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
+    /// The point that the last return to a reference position passed, programmed coordinates.
+    pub(crate) passed: Position,
     /// Point and result of the last probing move.
     pub(crate) probed: Position,
     pub(crate) probe_result: Truth,
@@ -355,7 +357,7 @@ pub struct Tables {
     pub(crate) offsets: Vec<(u16, WorkOffset)>,
     /// Offsets that nobody told us.
     pub(crate) other_offset: WorkOffset,
-    pub(crate) references: [Position; 2],
+    pub(crate) references: [Position; 4],
     pub(crate) tools: Vec<(u32, crate::machine::Tool)>,
     /// Tools not listed do not exist.
     pub(crate) complete: bool,
@@ -437,8 +439,8 @@ impl<D: Domain> State<D> {
     }
 
     /// Where the axes stand in machine coordinates.
-    pub fn machine(&self) -> Position {
-        self.to_machine(&self.actual)
+    pub fn machine(&self, model: &Model<'_>) -> Position {
+        self.to_machine(&self.actual, model)
     }
 
     /// The feed as it was given: 0 for none.
@@ -603,16 +605,41 @@ impl<D: Domain> State<D> {
         self.in_effect
     }
 
-    /// From work coordinates to machine coordinates.
-    pub fn to_machine(&self, work: &Position) -> Position {
+    /// From work coordinates to machine coordinates. What a mode turns or maps by the machine's own geometry is unknown.
+    pub fn to_machine(&self, work: &Position, model: &Model<'_>) -> Position {
         let offset = self.work_offset();
-        rotate(*work + self.shift(), offset.rotation) + offset.origin + self.length
+        let machine = rotate(*work + self.shift(), offset.rotation) + offset.origin + self.length;
+        self.without_mapped(machine, &machine, model)
     }
 
-    /// From machine coordinates to work coordinates.
-    pub fn from_machine(&self, machine: &Position) -> Position {
+    /// From machine coordinates to work coordinates, as [`Self::to_machine`].
+    pub fn from_machine(&self, machine: &Position, model: &Model<'_>) -> Position {
         let offset = self.work_offset();
-        rotate(*machine - self.length - offset.origin, -offset.rotation) - self.shift()
+        let work = rotate(*machine - self.length - offset.origin, -offset.rotation) - self.shift();
+        self.without_mapped(work, machine, model)
+    }
+
+    /// A position without the coordinates in which modes part the machine's axes from the work's. `machine` tells where the
+    /// rotary axes stand.
+    fn without_mapped(&self, mut position: Position, machine: &Position, model: &Model<'_>) -> Position {
+        let may_be = |role: Role, on: Effect| {
+            self.mode(role).alternatives().iter().any(|code| model.effect(*code) == on)
+        };
+        let turned = || model.axes.iter().any(|axis| axis.is_rotary() && machine.raw(*axis) != 0.0);
+        if may_be(Role::TiltedPlane, Effect::TiltedPlaneOn)
+            || may_be(Role::DynamicOffset, Effect::DynamicOffsetOn)
+            // The length lies along the tool, which stands upright only while no axis is turned.
+            || may_be(Role::Length, Effect::ToolCentrePoint) && turned()
+        {
+            position = position.with_xyz([Mm::UNKNOWN; 3]);
+        }
+        if may_be(Role::PolarInterpolation, Effect::PolarInterpolationOn) {
+            // X and a rotary axis make the moves of the plane; Z stays its own.
+            for axis in model.axes.iter().filter(|axis| axis.is_rotary()).chain(&[Axis::X, Axis::Y]) {
+                position.set(*axis, f64::NAN);
+            }
+        }
+        position
     }
 
     /// Either state.
@@ -673,6 +700,7 @@ impl<D: Domain> State<D> {
         if self.blending != other.blending {
             joined.blending = (0.0, None);
         }
+        joined.passed = self.passed.join(&other.passed);
         joined.probed = self.probed.join(&other.probed);
         joined.probe_result = truth(self.probe_result, other.probe_result);
         joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
@@ -757,6 +785,7 @@ impl<D: Domain> PartialEq for State<D> {
             && format_bits(&self.transform) == format_bits(&other.transform)
             && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
             && self.blending == other.blending
+            && self.passed == other.passed
             && self.probed == other.probed
             && self.probe_result == other.probe_result
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)

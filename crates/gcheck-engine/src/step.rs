@@ -9,6 +9,7 @@ pub(crate) mod contract;
 mod cycle;
 mod flow_control;
 mod lathe;
+mod message;
 mod modes;
 mod motion;
 mod offsets;
@@ -293,6 +294,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         block: &Block,
         state: &mut State<D>,
     ) -> Outcome<D> {
+        if block.flags.contains(BlockFlags::COMMENT) {
+            self.message_comment(state);
+        }
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
                 Ok(Statements::Words) => {}
@@ -407,7 +411,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let number = if pointed || number == 0.0 {
                         number
                     } else {
-                        self.scale(word.letter, number, state)
+                        let units = match self.unpointed {
+                            Unpointed::LeastIncrement => self.units_of_block(words, state),
+                            _ => None,
+                        };
+                        self.scale(word.letter, number, units)
                     };
                     self.words.put_number(word.letter, number, pointed);
                 }
@@ -456,7 +464,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// A number without decimal point, as the control counts it.
-    fn scale(&mut self, letter: Letter, number: f64, state: &State<D>) -> f64 {
+    fn scale(&mut self, letter: Letter, number: f64, units: Option<Units>) -> f64 {
         let Some(kind) = self.model.scaled(letter) else { return number };
         match self.unpointed {
             Unpointed::AsWritten => number,
@@ -464,7 +472,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 let numbers = self.model.control().numbers();
                 let least = match kind {
                     WordKind::Angle => numbers.least_angle,
-                    _ => match state.units(self.model) {
+                    _ => match units {
                         Some(Units::Inch) => numbers.least_inch,
                         Some(Units::Mm) => numbers.least_mm,
                         None => f64::NAN,
@@ -478,6 +486,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 number
             }
         }
+    }
+
+    /// The units in which a block's numbers count: those that it names itself, wherever they stand in it.
+    fn units_of_block(&self, words: &[Word], state: &State<D>) -> Option<Units> {
+        let named = words.iter().rev().find_map(|word| match self.model.effect(word.code) {
+            Effect::Inch => Some(Units::Inch),
+            Effect::Millimetre => Some(Units::Mm),
+            _ => None,
+        });
+        named.or_else(|| state.units(self.model))
     }
 
     /// Puts the parts of the block in the control's order and executes them.
@@ -583,16 +601,20 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// A whole number not below zero; `None` when it does not stand, a fault when it is none.
     fn count(&self, letter: Letter) -> Step<Option<Count>> {
-        let Some(number) = self.words.number(letter) else { return Ok(None) };
+        self.words.number(letter).map(|number| Self::whole(letter, number)).transpose()
+    }
+
+    /// A number as a count.
+    fn whole(letter: Letter, number: f64) -> Step<Count> {
         if number.is_nan() {
-            return Ok(Some(Count::Unknown));
+            return Ok(Count::Unknown);
         }
         let whole = number.round();
         if (whole - number).abs() > 1e-4 || whole < 0.0 || whole > f64::from(u32::MAX) {
             return Err(Fault::WordRange(letter));
         }
         #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-        Ok(Some(Count::Known(whole as u32)))
+        Ok(Count::Known(whole as u32))
     }
 
     /// As [`Self::count`]; on strict controls, which do not mind decimals in some counts, rounded.
@@ -744,7 +766,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn read_named(&mut self, place: &Place, range: (u32, u32), state: &State<D>) -> Step<D::Value> {
-        let name = self.name(place, range);
+        self.read_name(self.name(place, range), state)
+    }
+
+    fn read_name(&mut self, name: NameId, state: &State<D>) -> Step<D::Value> {
         let local = state.frames.last().and_then(|frame| frame.locals.as_ref()).and_then(|l| l.named(name));
         if let Some(value) = local.or_else(|| state.variables.named(name)) {
             return Ok(value.clone());
@@ -826,7 +851,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                         .o_word(place, table, label, *keyword, arguments.clone(), state)
                         .map(Statements::Done);
                 }
-                StatementKind::Print => {}
+                StatementKind::Print => self.print(place, statement, state),
             }
         }
         Ok(Statements::Words)
@@ -1153,6 +1178,8 @@ fn owns_axes(effect: Effect) -> bool {
             | E::ProbeLength
             | E::ProbeOffset
             | E::ProbeCentre
+            | E::TapHere
+            | E::LeftTapHere
             | E::ReturnReference(_)
             | E::ReturnFromReference
             | E::WriteOffsets

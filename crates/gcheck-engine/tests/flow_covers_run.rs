@@ -456,7 +456,7 @@ impl Observer<Concrete> for Visits {
 }
 
 /// Why an abstract state does not stand for a concrete one; `None` when it does.
-fn difference(outer: &State<Abstract>, inner: &State<Concrete>) -> Option<String> {
+fn difference(model: &Model<'_>, outer: &State<Abstract>, inner: &State<Concrete>) -> Option<String> {
     let a: Vec<At> = outer.frames().iter().map(|frame| frame.caller).collect();
     let b: Vec<At> = inner.frames().iter().map(|frame| frame.caller).collect();
     if a != b {
@@ -475,7 +475,7 @@ fn difference(outer: &State<Abstract>, inner: &State<Concrete>) -> Option<String
     let positions = [
         ("programmed", *outer.position(), *inner.position()),
         ("actual", *outer.actual(), *inner.actual()),
-        ("machine", outer.machine(), inner.machine()),
+        ("machine", outer.machine(model), inner.machine(model)),
         ("length", *outer.length(), *inner.length()),
         ("shift", outer.shift(), inner.shift()),
     ];
@@ -570,7 +570,7 @@ fn check(control: &str, style: Style, choices: &[u8], inputs: &[u8], skip: bool)
             return fail(*at, "visited, and said to be unreachable".to_owned());
         }
         let states = recorder.0.get(at).map(Vec::as_slice).unwrap_or_default();
-        let why: Vec<String> = states.iter().map_while(|outer| difference(outer, state)).collect();
+        let why: Vec<String> = states.iter().map_while(|outer| difference(&model, outer, state)).collect();
         // One that stands for it is enough.
         if why.len() == states.len() {
             let why: Vec<_> = why.into_iter().filter(|why| !why.starts_with("calls")).collect();

@@ -30,6 +30,8 @@ pub enum Kind {
     Coolant,
     /// Chuck and bar feeder.
     Bar,
+    /// Text for the operator or a printer.
+    Message,
     /// The program stops.
     Stop,
     /// The program ends.
@@ -49,6 +51,7 @@ impl Kind {
             Self::Spindle => "spindle",
             Self::Coolant => "coolant",
             Self::Bar => "bar",
+            Self::Message => "message",
             Self::Stop => "stop",
             Self::End => "end",
         }
@@ -213,6 +216,10 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
                 }
             };
             (Kind::Stop, Some(action), None)
+        }
+        Event::Message(message) => {
+            text = Some(&**message);
+            (Kind::Message, None, None)
         }
         Event::End => (Kind::End, None, None),
         _ => return None,

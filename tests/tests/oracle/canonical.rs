@@ -56,14 +56,14 @@ pub(crate) struct Difference {
 }
 
 impl Call {
-    /// Reads a printed line. Comments, messages and what is no canonical function give `None`.
+    /// Reads a printed line. Comments and what is no canonical function give `None`.
     fn read(line: &str) -> Option<Self> {
         let (counter, rest) = line.trim_start().split_once(' ')?;
         counter.parse::<u64>().ok()?;
         let (block, rest) = rest.split_once(' ')?;
         block.strip_prefix('N')?;
         let (name, arguments) = rest.trim_start().split_once('(')?;
-        if name == "COMMENT" || name == "MESSAGE" {
+        if name == "COMMENT" {
             return None;
         }
         let arguments = arguments.trim_end().strip_suffix(')').unwrap_or(arguments);

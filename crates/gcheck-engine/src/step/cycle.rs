@@ -39,7 +39,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.skip_to_hole(state)?;
             return Err(fault);
         }
-        let repeats = match self.count(Letter::of(rules.repeat))? {
+        // The letter may be one of a length elsewhere; here it counts as it is written.
+        let repeat = self.raw(rules.repeat, state);
+        let repeats = match repeat.map(|n| Self::whole(Letter::of(rules.repeat), n)).transpose()? {
             None => 1,
             Some(Count::Known(n)) => n,
             Some(Count::Unknown) => return Err(Fault::Undecidable),
@@ -222,11 +224,33 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if incremental == Some(false) { (0.0, 0.0) } else { (step(first), step(second)) };
         let start = if incremental == Some(false) { (target.raw(first), target.raw(second)) } else { here };
         let most = repeats.min(crate::cycles::MAX_STROKES);
+        if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) && incremental != Some(false) {
+            let to = (target.raw(first), target.raw(second));
+            return self.holes_around(effect, plane, here, to, most, state);
+        }
         // Step by step: a product would differ in the last bit.
         let mut at = start;
         let points = (0..most).map(move |_| {
             at = (at.0 + along, at.1 + across);
             at
+        });
+        self.drill(effect, plane, points, state)
+    }
+
+    /// Holes at increments of a polar angle: each is turned about the origin as the first one is from where the tool stands.
+    fn holes_around(
+        &mut self,
+        effect: Effect,
+        plane: Plane,
+        start: (f64, f64),
+        first: (f64, f64),
+        count: u32,
+        state: &mut State<D>,
+    ) -> Step {
+        let by = first.1.atan2(first.0) - start.1.atan2(start.0);
+        let points = (0..count).map(move |turn| {
+            let (sin, cos) = (by * f64::from(turn)).sin_cos();
+            (first.0 * cos - first.1 * sin, first.0 * sin + first.1 * cos)
         });
         self.drill(effect, plane, points, state)
     }

@@ -318,9 +318,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         arguments
     }
 
-    /// Calls the modal macro after a block that moved.
+    /// `G66`: the macro runs behind every block that moves, but not behind its own or those of what it calls.
     pub(super) fn modal_call(&mut self, state: &State<D>) {
-        if let Some(call) = &state.macro_modal {
+        let runs = |call: &ModalCall<D>| {
+            state.frames.iter().any(|frame| frame.kind == FrameKind::Macro && frame.entry == call.target)
+        };
+        if let Some(call) = &state.macro_modal
+            && !runs(call)
+        {
             self.flow = Some(Flow::Call(Callee {
                 kind: FrameKind::Macro,
                 target: call.target,

@@ -382,7 +382,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.words.is_pointed(letter) || number == 0.0 {
             return Some(number);
         }
-        let one = self.scale(letter, 1.0, state);
+        let one = self.scale(letter, 1.0, state.units(self.model));
         Some((number / one * 1e6).round() / 1e6)
     }
 

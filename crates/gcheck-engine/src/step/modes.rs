@@ -30,11 +30,29 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if needs_none && !is_motion && code.effect != Effect::ThreadCycle && self.compensates(state) {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
+        if code.role == Some(Role::Motion) && !code.modal {
+            return self.motion_of_block(code.effect, state);
+        }
+        let followed = code.role != Some(Role::Length) || self.tool_is_upright(state);
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
             self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);
         }
-        self.effect(code.effect, ix, place, words, state)
+        self.effect(code.effect, ix, place, words, state)?;
+        if code.role == Some(Role::Length) && !(followed && self.tool_is_upright(state)) {
+            // The tip moved against the axes by the length along a turned tool.
+            state.actual = state.actual.with_xyz([Mm::UNKNOWN; 3]);
+            state.position = state.position.with_xyz([Mm::UNKNOWN; 3]);
+        }
+        Ok(())
+    }
+
+    /// Does the tool's length lie along Z? Under tool centre point control it does so only while no axis is turned.
+    fn tool_is_upright(&self, state: &State<D>) -> bool {
+        let machine = state.machine(self.model);
+        let mode = state.mode(Role::Length);
+        !mode.alternatives().iter().any(|code| self.model.effect(*code) == Effect::ToolCentrePoint)
+            || self.model.axes.iter().all(|axis| !axis.is_rotary() || machine.raw(*axis) == 0.0)
     }
 
     /// Planes, units, offsets and tools must not change under cutter compensation on some controls.
@@ -190,6 +208,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::ScalingOn | E::ScalingOff | E::RotationOn | E::RotationOff | E::MirrorOn | E::MirrorOff => {
                 self.transform_code(effect, state)?;
+                if effect == E::RotationOff {
+                    self.end_tilted_plane(ix, state);
+                }
             }
             E::PolarOn | E::PolarOff => state.polar = [0.0; 2],
             E::CylinderMapping => self.cylinder(ix, state)?,
@@ -214,6 +235,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::ClearShift => self.clear_shift(state, false),
             E::SuspendShift => self.clear_shift(state, true),
             E::RestoreShift => self.restore_shift(state),
+            E::TapHere | E::LeftTapHere => self.tap_here(effect == E::TapHere, state)?,
             E::ReturnReference(number) => self.return_reference(number, state)?,
             E::ReturnFromReference => self.return_from_reference(state)?,
             E::StoreReference(number) => self.store_reference(number, state),
@@ -399,21 +421,35 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::Coolant { kind, on });
     }
 
-    /// A frame whose geometry depends on the machine: from here on positions are not known.
+    /// A frame whose geometry depends on the machine: positions are not known until they are given in it.
     fn unknown_frame(&mut self, ix: CodeIx, state: &mut State<D>) {
-        let on = matches!(
-            self.model.effect(ix),
-            Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn
-        );
+        let effect = self.model.effect(ix);
+        let on =
+            matches!(effect, Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn);
         if on {
             self.assumptions.insert(Assumption::Code(ix));
         }
-        let mut unknown = state.actual;
-        for axis in [Axis::X, Axis::Y, Axis::Z] {
-            unknown.set(axis, f64::NAN);
+        let mut unknown = state.actual.with_xyz([Mm::UNKNOWN; 3]);
+        if matches!(effect, Effect::PolarInterpolationOn | Effect::PolarInterpolationOff) {
+            // X and a rotary axis make the moves of the plane; Z stays its own.
+            unknown.set(Axis::Z, state.actual.raw(Axis::Z));
+            for axis in self.model.axes.iter().filter(|axis| axis.is_rotary()) {
+                unknown.set(*axis, f64::NAN);
+            }
         }
         state.actual = unknown;
         state.position = unknown;
+    }
+
+    /// Some controls end a tilted plane and a rotation with one code.
+    fn end_tilted_plane(&mut self, ix: CodeIx, state: &mut State<D>) {
+        let group = |ix: CodeIx| self.model.code(ix).map(|code| code.group);
+        let tilts =
+            |code: &CodeIx| self.model.effect(*code) == Effect::TiltedPlaneOn && group(*code) == group(ix);
+        if state.mode(Role::TiltedPlane).alternatives().iter().any(tilts) {
+            state.set_mode(Role::TiltedPlane, CodeIx::NONE);
+            self.unknown_frame(ix, state);
+        }
     }
 
     /// Work done by the machine that gcheck does not follow: the axes end nobody knows where.

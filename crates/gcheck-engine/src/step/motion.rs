@@ -10,7 +10,7 @@ use gcheck_geometry::{Bezier, Mm};
 use nalgebra::Point2;
 
 use super::{Executor, Step};
-use crate::event::{Curve, CurvePiece, Event, FeedMode, Travel, TravelKind};
+use crate::event::{Curve, CurvePiece, Event, FeedMode, Spindle, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
@@ -23,7 +23,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.active_motion(state)?;
-        // `G66`: the macro runs behind every block that moves.
         if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
@@ -37,12 +36,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if cycle.is_some() {
             return self.cycle(cycle, state);
         }
+        let to_machine_point = has_axes && self.machine_coordinates;
+        if to_machine_point && self.model.semantics().machine_coordinates_rapid {
+            return self.straight(TravelKind::Rapid, state);
+        }
         let Some(mode) = state.mode(Role::Motion).only() else { return self.lose_position(state) };
         let effect = self.model.effect(mode);
-        if has_axes && self.machine_coordinates && !matches!(effect, Effect::Rapid | Effect::Linear) {
-            if self.model.semantics().machine_coordinates_rapid {
-                return self.straight(TravelKind::Rapid, state);
-            }
+        if to_machine_point && !matches!(effect, Effect::Rapid | Effect::Linear) {
             return Err(Fault::NoMotionMode);
         }
         match effect {
@@ -86,6 +86,40 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Effect::None if has_axes => self.lose_position(state),
             _ => self.bare_motion_code(),
         }
+    }
+
+    /// A code that moves in its own block, whatever mode stays in effect.
+    pub(super) fn motion_of_block(&mut self, effect: Effect, state: &mut State<D>) -> Step {
+        if !self.words.present().intersects(self.model.axis_letters) {
+            return Ok(());
+        }
+        match effect {
+            Effect::Rapid => self.straight(TravelKind::Rapid, state)?,
+            Effect::Linear => self.straight(TravelKind::Feed, state)?,
+            _ => self.lose_position(state)?,
+        }
+        self.modal_call(state);
+        Ok(())
+    }
+
+    /// `G174`, `G184` of mills: a tap in any direction, from where the tool stands. The control starts, reverses and stops the
+    /// spindle.
+    pub(super) fn tap_here(&mut self, clockwise: bool, state: &mut State<D>) -> Step {
+        let bottom = self.target(state)?;
+        let start = state.position;
+        let checked = self.held(self.check_feed(state))?;
+        let (inward, outward) = if clockwise {
+            (Spindle::Clockwise, Spindle::CounterClockwise)
+        } else {
+            (Spindle::CounterClockwise, Spindle::Clockwise)
+        };
+        self.spindle(inward, state)?;
+        self.travel(TravelKind::Feed, bottom, true, state)?;
+        self.spindle(outward, state)?;
+        self.travel(TravelKind::Feed, start, true, state)?;
+        self.spindle(Spindle::Stopped, state)?;
+        self.modal_call(state);
+        checked
     }
 
     fn bare_motion_code(&self) -> Step {
@@ -185,8 +219,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return;
         }
         let (x, y) = (state.position.raw(*first), state.position.raw(*second));
-        let radius = self.words.number(first.letter()).map_or(x.hypot(y), |r| r * self.unit(state));
-        let angle = self.words.number(second.letter()).unwrap_or_else(|| y.atan2(x).to_degrees());
+        let stands_at = y.atan2(x).to_degrees();
+        let radius = self.words.number(first.letter()).map(|radius| radius * self.unit(state));
+        let angle = self.words.number(second.letter());
+        let (radius, angle) = match state.is_incremental(self.model) {
+            Some(false) => (radius.unwrap_or_else(|| x.hypot(y)), angle.unwrap_or(stands_at)),
+            // An increment of the angle turns on about the origin. What a radius then counts from is in no page.
+            Some(true) if radius.is_none() => (x.hypot(y), angle.map_or(stands_at, |by| stands_at + by)),
+            _ => (f64::NAN, f64::NAN),
+        };
         let (sin, cos) = angle.to_radians().sin_cos();
         target.set(*first, radius * cos);
         target.set(*second, radius * sin);
@@ -259,7 +300,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         let unit = self.unit(state);
-        let mut machine = state.machine();
+        let mut machine = state.machine(self.model);
         let named = self.words.present().and(self.model.axis_letters);
         let diameter = state.is_diameter(self.model) == Some(true);
         for letter in named.iter() {
@@ -268,7 +309,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let value = if axis.is_rotary() { value } else { value * unit };
             machine.set(axis, if axis == Axis::X && diameter { value / 2.0 } else { value });
         }
-        let target = state.from_machine(&machine);
+        let target = state.from_machine(&machine, self.model);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not.
         let mut to = state.actual;

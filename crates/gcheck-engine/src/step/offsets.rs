@@ -450,7 +450,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if here {
             // Machine position without the shift and tool, turned into the system's own directions.
-            let machine = state.machine() - state.length;
+            let machine = state.machine(self.model) - state.length;
             let turned = rotate(machine, -offset.rotation);
             let origin = rotate(offset.origin, -offset.rotation);
             let mut wanted = origin;
@@ -521,7 +521,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let radius = self.length(Letter::of('R'), state);
         let angles = [self.words.number(Letter::of('I')), self.words.number(Letter::of('J'))];
         let orientation = self.count(Letter::of('Q'))?;
-        let machine = state.machine();
+        let machine = state.machine(self.model);
         let work = state.work_offset();
         let shift = state.shift();
         let fixture = state.tables.offset(9);

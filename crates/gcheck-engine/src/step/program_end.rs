@@ -46,10 +46,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         match effect {
             Effect::WorkOffset(number) => {
-                let machine = state.machine();
+                let machine = state.machine(self.model);
                 state.work = Some(number);
                 state.in_effect = state.tables.offset(number);
-                state.actual = state.from_machine(&machine);
+                state.actual = state.from_machine(&machine, self.model);
                 state.position = self.programmed_of(&state.actual, state);
                 self.announce_offset(state);
                 self.announce_rotation(state);

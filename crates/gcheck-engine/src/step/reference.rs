@@ -2,9 +2,9 @@
 //!
 //! Knows: the way through the intermediate point. Must not know: offsets' values.
 
-use gcheck_controls::LetterSet;
+use gcheck_controls::{Letter, LetterSet};
 
-use super::{Executor, Step};
+use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::TravelKind;
 use crate::fault::{CompensationFault, Fault};
@@ -32,15 +32,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             axes.dedup();
             axes
         };
+        let reference = self.reference(number, state)?;
         let through = self.target(state)?;
         self.travel(TravelKind::Rapid, through, true, state)?;
-        let index = usize::from(number.saturating_sub(1)).min(1);
-        let reference = state.tables.references.get(index).copied().unwrap_or(Position::UNKNOWN);
-        if !reference.is_known() {
-            self.assumptions.insert(Assumption::ReferencePosition(number));
+        for axis in &axes {
+            state.passed.set(*axis, through.raw(*axis));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
-        let target = state.from_machine(&reference);
+        let target = state.from_machine(&reference, self.model);
         let mut to = state.actual;
         for axis in &axes {
             to.set(*axis, target.raw(*axis));
@@ -55,15 +54,41 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    /// `G29`: to the block's point, by the point that the last `G28` passed; that point is not kept here.
+    /// The reference position of a code, or of its `P`: where a code returns to the second one, `P3` and `P4` name two more.
+    fn reference(&mut self, number: u8, state: &State<D>) -> Step<Position> {
+        let letter = Letter::of('P');
+        let number = match self.count(letter)? {
+            Some(Count::Known(p)) if number == 2 => match u8::try_from(p) {
+                Ok(p @ 2..=4) => p,
+                _ => return Err(Fault::WordRange(letter)),
+            },
+            Some(Count::Unknown) if number == 2 => return Ok(Position::UNKNOWN),
+            _ => number,
+        };
+        let known = state.tables.references.get(usize::from(number.saturating_sub(1)));
+        let reference = known.copied().unwrap_or(Position::UNKNOWN);
+        if !reference.is_known() {
+            self.assumptions.insert(Assumption::ReferencePosition(number));
+        }
+        Ok(reference)
+    }
+
+    /// `G29`: to the block's point, by the point that the last `G28` passed on the axes that the block names.
     pub(super) fn return_from_reference(&mut self, state: &mut State<D>) -> Step {
+        let named = self.words.present().and(self.model.axis_letters);
+        let mut through = state.position;
+        for (axis, _) in named.iter().filter_map(|letter| self.model.axis_of(letter)) {
+            through.set(axis, state.passed.raw(axis));
+        }
+        self.travel(TravelKind::Rapid, through, true, state)?;
+        // Increments count from the point passed.
         let target = self.target(state)?;
         self.travel(TravelKind::Rapid, target, true, state)
     }
 
     /// `G28.1`, `G30.1`.
     pub(super) fn store_reference(&mut self, number: u8, state: &mut State<D>) {
-        let machine = state.machine();
+        let machine = state.machine(self.model);
         let tables = std::rc::Rc::make_mut(&mut state.tables);
         if let Some(slot) = tables.references.get_mut(usize::from(number.saturating_sub(1)).min(1)) {
             *slot = machine;

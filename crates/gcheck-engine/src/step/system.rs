@@ -49,7 +49,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         Ok(match variable.holds {
             V::WorkPosition | V::EndPosition => coordinate(&state.actual),
-            V::MachinePosition => coordinate(&state.machine()),
+            V::MachinePosition => coordinate(&state.machine(self.model)),
             V::ProbePosition => coordinate(&state.probed),
             V::ProbeResult => truth(state.probe_result),
             V::LengthOffset => coordinate(&state.length),
@@ -228,7 +228,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return Ok(Some(Outcome::End(Ending::Alarm(alarm))));
             }
             SystemValue::StopWithMessage => {
-                self.emit(state, Event::Stop(Stop::Message(Rc::from(""))));
+                let text = self.stop_text();
+                self.emit(state, Event::Stop(Stop::Message(text)));
             }
             _ if !self.model.control().is_writable(number) => return Err(Fault::ReadOnlyVariable(number)),
             SystemValue::WorkOffset | SystemValue::WorkRotation => {

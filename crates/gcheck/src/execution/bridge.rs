@@ -7,7 +7,7 @@ use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
 use gcheck_engine::{
-    At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Observer, Origin, Position, RunResult,
+    At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Model, Observer, Origin, Position, RunResult,
     Spindle, State, Stop, Truth,
 };
 use gcheck_report::LineIndex;
@@ -134,7 +134,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
             feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),
             feed: number(state.feed()),
             rpm: turns(state),
-            machine: machine(state, event),
+            machine: machine(state, model, event),
             tool: tool(state.tool()),
             file: &file,
         };
@@ -164,11 +164,11 @@ fn turns(state: &State<Concrete>) -> f64 {
 }
 
 /// Where a move ends. The state may be ahead of the move, so that its own end counts where there is one.
-fn machine(state: &State<Concrete>, event: &Event) -> Position {
+fn machine(state: &State<Concrete>, model: &Model<'_>, event: &Event) -> Position {
     match event {
-        Event::Travel(travel) => state.to_machine(&travel.to),
-        Event::Arc(arc) => state.to_machine(&arc.to),
-        Event::Curve(curve) => state.to_machine(&curve.to),
-        _ => state.machine(),
+        Event::Travel(travel) => state.to_machine(&travel.to, model),
+        Event::Arc(arc) => state.to_machine(&arc.to, model),
+        Event::Curve(curve) => state.to_machine(&curve.to, model),
+        _ => state.machine(model),
     }
 }

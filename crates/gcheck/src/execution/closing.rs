@@ -158,8 +158,8 @@ fn unknown_variables(session: &Session<'_>, result: &RunResult) -> Vec<u32> {
 fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     let file = session.program.file(origin.at.file)?;
     let place = file.loaded.place(origin.at.block, session.program.dialect())?;
-    let block = place.range();
-    let text = file.loaded.text().get(block.start as usize..block.end as usize)?;
+    // A comment behind a statement is no part of the block's own range.
+    let text = file.loaded.text().get(place.range().start as usize..)?.lines().next()?;
     let (_, rest) = text.split_once('(')?;
     let comment = rest.split(')').next()?.trim();
     (!comment.is_empty()).then(|| comment.to_owned())

@@ -55,7 +55,7 @@ impl PathRule for MoveOutsideTravel {
             return;
         }
         let Some(to) = end_of(event) else { return };
-        let machine = machine_words(cx).unwrap_or_else(|| cx.state().to_machine(&to));
+        let machine = machine_words(cx).unwrap_or_else(|| cx.state().to_machine(&to, cx.model));
         for (axis, (lowest, highest)) in travel {
             let Some(told) = self.is_outside.get_mut(axis.index()) else { continue };
             let Some(value) = machine.get(*axis) else {

@@ -79,7 +79,8 @@ impl ToolTiltLeftOn {
             *told = set_by;
             let name = cx.name_of(code);
             let message = format!("{what} is still on {} (`{name}`)", place.words());
-            let cancel = cx.cancel_of(off).unwrap_or_default();
+            // Some controls end it with the code that ends a rotation.
+            let cancel = cx.cancel_of(off).or_else(|| cx.cancel_of(Effect::RotationOff)).unwrap_or_default();
             let finding = cx
                 .finding(&META, cx.boundary_range(place), message)
                 .label("coordinates do not run along the machine's axes here")
@@ -107,6 +108,19 @@ mod tests {
                   |    ^^ warning[tool-tilt-left-on] tool centre point control is still on at the tool change (`G234`)
                 6 | T3 M6
                   |    ^^ warning[tool-tilt-left-on] the dynamic work offset is still on at the tool change (`G254`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_end_of_a_rotation_ends_a_tilted_plane_of_its_group() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G68.2 X0 Y0 Z0 I30. J0 K0\nG1 X1. F10.\nG69\nT2 M6\nG68.2 X0 Y0 Z0 I30. J0 K0\nT3 M6\nM30\n",
+            &expect![[r#"
+                6 | T3 M6
+                  |    ^^ warning[tool-tilt-left-on] the tilted plane is still on at the tool change (`G68.2`)
             "#]],
         );
     }

@@ -1,0 +1,64 @@
+//! Canned cycles of mills as programs give them: which words count, and how.
+
+mod cycle_harness;
+
+use cycle_harness::{machine, shown_on};
+use expect_test::{Expect, expect};
+
+/// Millimetres; the machine stands at zero.
+fn check(control: &str, text: &str, expected: &Expect) {
+    let text = format!("O1\nG21 G90 G54 G0 X0. Y0. Z5.\nS3000 M3\nF200.\n{text}\nM30\n");
+    expected.assert_eq(&shown_on(control, "XYZ", &machine(10.0), &text));
+}
+
+#[test]
+fn the_word_that_repeats_a_cycle_is_a_count_and_no_length() {
+    check(
+        "fanuc-mill",
+        "G91 G99 G81 X5. Z-6. R-4. K2",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x5 y0 z5
+        rapid x5 y0 z1
+        feed x5 y0 z-5
+        rapid x5 y0 z1
+        rapid x10 y0 z1
+        feed x10 y0 z-5
+        rapid x10 y0 z1
+        at x10 y0 z1"#]],
+    );
+    check(
+        "fanuc-mill",
+        "G91 G99 G81 X5. Z-6. R-4. K2.",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x5 y0 z5
+        rapid x5 y0 z1
+        feed x5 y0 z-5
+        rapid x5 y0 z1
+        rapid x10 y0 z1
+        feed x10 y0 z-5
+        rapid x10 y0 z1
+        at x10 y0 z1"#]],
+    );
+}
+
+#[test]
+fn numbers_without_a_point_count_in_the_units_of_their_own_block() {
+    check(
+        "haas-mill",
+        "G20\nG21 G0 X1500",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x1.5 y0 z5
+        at x1.5 y0 z5"#]],
+    );
+    check(
+        "fanuc-mill",
+        "G20 X15000",
+        &expect![[r#"
+        rapid x0 y0 z5
+        rapid x38.1 y0 z5
+        at x38.1 y0 z5"#]],
+    );
+}
