@@ -14,10 +14,11 @@ use gcheck_engine::{
     Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind,
     Library, Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
 };
-use gcheck_program::{Place, Survey, Word};
+use gcheck_program::{BlockTable, ExprIx, Place, Survey, Word};
 
 use rustc_hash::FxHashMap;
 
+use crate::usage::expressions;
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
 bitflags::bitflags! {
@@ -130,6 +131,8 @@ struct ReadBlock {
     place: Place,
     codes: Vec<CodeIx>,
     effects: Vec<Effect>,
+    /// Of its words, then of its statements.
+    expressions: Vec<ExprIx>,
     /// Does more than choose a motion: [`Watch::BLOCKS`].
     is_eventful: bool,
 }
@@ -221,6 +224,16 @@ impl<'a> PathCx<'a> {
             words.map(|word| word.code).filter(|code| code.is_some()).collect()
         };
         Cow::Owned(self.place().map_or_else(Vec::new, codes))
+    }
+
+    /// The expressions of the block, and the table that they stand in.
+    pub(crate) fn expressions(&self) -> Option<(Rc<BlockTable>, Cow<'a, [ExprIx]>)> {
+        if let Some(read) = self.read_block() {
+            return Some((Rc::clone(&read.place.table), Cow::Borrowed(&read.expressions)));
+        }
+        let place = self.place()?;
+        let found = expressions(&place);
+        Some((place.table, Cow::Owned(found)))
     }
 
     /// Does the block have a code with an effect that `is` says yes to?
@@ -490,7 +503,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let is_eventful = letters.intersects(LetterSet::of("THD"))
             || !effects.iter().all(is_motion)
             || effects.is_empty() && letters.intersects(LetterSet::of("FS"));
-        let read = Rc::new(ReadBlock { at, place, codes, effects, is_eventful });
+        let expressions = expressions(&place);
+        let read = Rc::new(ReadBlock { at, place, codes, effects, expressions, is_eventful });
         if self.read.len() >= MOST_READ {
             self.read.clear();
         }

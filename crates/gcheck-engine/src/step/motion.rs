@@ -311,6 +311,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// Do the axes go where the program says, without compensation or mapping in between?
+    pub(super) fn goes_direct(&self, state: &State<D>) -> bool {
+        state.compensation.is_none()
+            && state.left_compensation.is_none()
+            && !self.may_compensate(state)
+            && state.transform.is_off()
+    }
+
+    /// [`Self::travel`] where [`Self::goes_direct`] holds.
+    pub(super) fn travel_direct(
+        &mut self,
+        kind: TravelKind,
+        target: Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) {
+        self.travel_to(kind, target, target, expanded, state);
+        state.position = target;
+    }
+
     fn travel_to(
         &mut self,
         kind: TravelKind,

@@ -63,10 +63,10 @@ impl PathRule for MaybeVariableUnset {
         {
             return;
         }
-        let Some(place) = cx.place() else { return };
-        for expr in expressions(&place) {
-            let expr = place.table.expr(expr);
-            let ops = place.table.ops(expr);
+        let Some((table, expressions)) = cx.expressions() else { return };
+        for expr in expressions.iter() {
+            let expr = table.expr(*expr);
+            let ops = table.ops(expr);
             // Compared with nothing.
             if ops.contains(&Op::Variable(0)) {
                 continue;
@@ -82,7 +82,8 @@ impl PathRule for MaybeVariableUnset {
                 if self.tested.get_or_insert_with(|| tested(cx)).contains(variable) {
                     continue;
                 }
-                let range = place.base + expr.range.start..place.base + expr.range.end;
+                let Some(base) = cx.place().map(|place| place.base) else { continue };
+                let range = base + expr.range.start..base + expr.range.end;
                 let finding = cx
                     .finding(&META, range, format!("variable `#{variable}` may be read before it is set"))
                     .label("holds nothing on some path to this block")
