@@ -18,7 +18,7 @@ use gcheck_program::{BlockTable, ExprIx, Place, Survey, Word};
 
 use rustc_hash::FxHashMap;
 
-use crate::usage::expressions;
+use crate::usage::{Uses, expressions};
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
 bitflags::bitflags! {
@@ -56,6 +56,13 @@ bitflags::bitflags! {
 
 /// A rule of the path tier. One is made for every file, so that it may remember what it saw.
 pub trait PathRule {
+    /// Can the rule have anything to say of a program? Asked once; a rule that says no watches nothing. By what the program
+    /// uses, most programs spare most rules.
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        let _ = program;
+        true
+    }
+
     /// A block is about to be executed.
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let _ = (cx, report);
@@ -413,10 +420,14 @@ impl<'a, 'c> Watchers<'a, 'c> {
         rules: &[(&'static RuleEntry, Option<Severity>)],
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
+        let uses = Uses::new(scene, survey);
         let mut active = Vec::new();
         for (entry, severity) in rules {
             let Run::Path { make, .. } = entry.run else { continue };
-            active.push(Active { entry, severity: *severity, rule: make() });
+            let rule = make();
+            if rule.concerns(&uses) {
+                active.push(Active { entry, severity: *severity, rule });
+            }
         }
         let lists = lists(&active);
         Self {

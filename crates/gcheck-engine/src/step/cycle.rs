@@ -347,7 +347,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     let kind = if rapid { TravelKind::Rapid } else { TravelKind::Feed };
                     let to = state.position.with_xyz(to);
                     if is_direct {
-                        self.travel_direct(kind, to, true, state);
+                        self.travel_direct(kind, &to, true, state);
                     } else {
                         self.travel(kind, to, true, state)?;
                     }

@@ -2,12 +2,13 @@
 
 use std::collections::HashSet;
 
+use gcheck_controls::Unset;
 use gcheck_engine::{Abstract, AbstractValue, Domain, FrameKind, Truth};
 use gcheck_program::{BlockFlags, Op};
 
 use crate::meta::declare_rule;
 use crate::usage::{blocks_with, expressions, is_called_from_elsewhere};
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A local variable is read that some paths to this block set and some do not.
@@ -49,6 +50,10 @@ struct MaybeVariableUnset {
 }
 
 impl PathRule for MaybeVariableUnset {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.scene.control().semantics().unset == Unset::Vacant
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             return;
