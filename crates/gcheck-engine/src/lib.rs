@@ -25,7 +25,7 @@ mod words;
 pub use assumption::Assumption;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
-pub use flow::{Decision, Fact, FlowCx, FlowObserver, FlowResult, Reach, Trace, flow};
+pub use flow::{Decision, Fact, FlowCx, FlowObserver, FlowResult, MOST_EXACT_TURNS, Reach, Trace, flow};
 pub use machine::{Machine, Tool, WorkOffset};
 pub use modal::ModeSet;
 pub use model::{Model, Role};

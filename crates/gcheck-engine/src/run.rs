@@ -55,6 +55,12 @@ pub fn run<O: Observer<Concrete>>(
     let mut at = At { file: 0, block: 0 };
     let mut blocks = 0;
     let stopped = loop {
+        if let Some(moves) = executor.plain_moves(at, &state) {
+            while blocks < fuel && executor.plain_move(&moves, at, &mut state) {
+                blocks += 1;
+                at = at.next();
+            }
+        }
         if blocks >= fuel {
             break Stopped::OutOfFuel;
         }

@@ -266,6 +266,12 @@ impl Transform {
         mirror: [false; 3],
         mirror_at: [0.0; 3],
     };
+
+    /// Does nothing, so that programmed and work coordinates are one?
+    #[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
+    pub(crate) fn is_off(&self) -> bool {
+        self.angle == 0.0 && self.mirror == [false; 3] && self.scale == [1.0; 3]
+    }
 }
 
 /// Everything that the next block may depend on.

@@ -14,6 +14,7 @@ mod modes;
 mod motion;
 mod offsets;
 mod operation;
+pub(crate) mod plain;
 mod probe;
 mod program_end;
 mod reference;
@@ -132,6 +133,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Assignee, D::Value)>,
+    /// Variables that were written, and whether the control lets programs do that.
+    writable: FxHashMap<u32, bool>,
 }
 
 /// What an assignment writes to.
@@ -204,6 +207,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
+            writable: FxHashMap::default(),
         }
     }
 
@@ -993,7 +997,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// May the program write it? Asked before the block acts.
-    fn check_assignable(&self, target: Assignee) -> Step {
+    fn check_assignable(&mut self, target: Assignee) -> Step {
         match target {
             Assignee::Name(name) => {
                 let text = self.program.name_text(name);
@@ -1005,11 +1009,17 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             Assignee::Number(number) => {
                 self.check_number(number)?;
-                let writable = number != 0 && self.model.control().is_writable(number);
+                let writable = number != 0 && self.is_writable(number);
                 if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(number)) }
             }
             Assignee::Anywhere => Ok(()),
         }
+    }
+
+    /// May a program write the variable, as far as is known? Loops ask for the same few many times.
+    fn is_writable(&mut self, number: u32) -> bool {
+        let control = self.model.control();
+        *self.writable.entry(number).or_insert_with(|| control.is_writable(number))
     }
 
     /// Writes a variable. Some variables end the program.
@@ -1044,7 +1054,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 if let Some((variable, row, column)) = self.model.system_variable(number) {
                     return self.write_system(number, variable, row, column, value, state);
                 }
-                if !self.model.control().is_writable(number) {
+                if !self.is_writable(number) {
                     return Err(Fault::ReadOnlyVariable(number));
                 }
                 self.write_plain(number, value, state);

@@ -38,3 +38,4 @@ pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};
 pub use sections::{LabelIndex, Section};
 pub use selection::{Selection, UnknownRule, suggest};
+pub use usage::Uses;

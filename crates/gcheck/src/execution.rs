@@ -70,7 +70,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
-    let mut equipment = Equipment::new(&settings, &control, Start::Fresh)?;
+    let mut equipment = Equipment::new(&settings, &Model::new(&control), Start::Fresh)?;
     equipment.set(&options.set);
     Ok(Prepared {
         shown: paths::shown(&path),

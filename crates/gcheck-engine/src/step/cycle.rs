@@ -363,15 +363,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Gives out the strokes of an operation.
     pub(super) fn strokes(&mut self, strokes: &[Stroke], plane: Plane, state: &mut State<D>) -> Step {
         let spindle = state.spindle;
+        let is_direct = self.goes_direct(state);
         for stroke in strokes {
             match *stroke {
-                Stroke::Rapid(to) => {
+                Stroke::Rapid(to) | Stroke::Feed(to) => {
+                    let rapid = matches!(stroke, Stroke::Rapid(_));
+                    let kind = if rapid { TravelKind::Rapid } else { TravelKind::Feed };
                     let to = state.position.with_xyz(to);
-                    self.travel(TravelKind::Rapid, to, true, state)?;
-                }
-                Stroke::Feed(to) => {
-                    let to = state.position.with_xyz(to);
-                    self.travel(TravelKind::Feed, to, true, state)?;
+                    if is_direct {
+                        self.travel_direct(kind, &to, true, state);
+                    } else {
+                        self.travel(kind, to, true, state)?;
+                    }
                 }
                 Stroke::Thread { to, lead } => {
                     let to = state.position.with_xyz(to);

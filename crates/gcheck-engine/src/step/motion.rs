@@ -319,7 +319,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 to.set(axis, target.raw(axis));
             }
         }
-        self.travel_to(kind, to, to, false, state);
+        self.travel_to(kind, &to, &to, false, state);
         state.position = self.programmed_of(&to, state);
         checked
     }
@@ -347,25 +347,45 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }
-        self.travel_to(kind, target, to, expanded, state);
+        self.travel_to(kind, &target, &to, expanded, state);
         state.position = target;
         Ok(())
+    }
+
+    /// Do the axes go where the program says, without compensation or mapping in between?
+    pub(super) fn goes_direct(&self, state: &State<D>) -> bool {
+        state.compensation.is_none()
+            && state.left_compensation.is_none()
+            && !self.may_compensate(state)
+            && state.transform.is_off()
+    }
+
+    /// [`Self::travel`] where [`Self::goes_direct`] holds.
+    pub(super) fn travel_direct(
+        &mut self,
+        kind: TravelKind,
+        target: &Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) {
+        self.travel_to(kind, target, target, expanded, state);
+        state.position = *target;
     }
 
     fn travel_to(
         &mut self,
         kind: TravelKind,
-        programmed: Position,
-        to: Position,
+        programmed: &Position,
+        to: &Position,
         expanded: bool,
         state: &mut State<D>,
     ) {
         if kind == TravelKind::Feed {
             let unit = self.unit(state);
-            self.announce_inverse_time(|state| straight_length(&state.actual, &to, unit), state);
+            self.announce_inverse_time(|state| straight_length(&state.actual, to, unit), state);
         }
-        let travel = Travel { kind, from: state.actual, programmed, to, expanded };
-        state.actual = to;
+        let travel = Travel { kind, from: state.actual, programmed: *programmed, to: *to, expanded };
+        state.actual = *to;
         self.emit(state, Event::Travel(travel));
     }
 

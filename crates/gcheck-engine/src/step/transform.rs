@@ -125,7 +125,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 )]
 #[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
 fn frame(transform: &Transform) -> Option<Option<Frame>> {
-    if transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3] {
+    if transform.is_off() {
         return None;
     }
     let numbers = transform.scale.iter().chain([&transform.angle]);

@@ -308,6 +308,9 @@ impl Domain for Abstract {
         arguments: &[AbstractValue],
         semantics: &Semantics,
     ) -> Result<AbstractValue, ValueFault> {
+        if let [AbstractValue::Number(x)] = arguments {
+            return scalar::call(function, &[Some(*x)], semantics).map(AbstractValue::Number);
+        }
         scalar::check_arity(function, arguments.len(), semantics)?;
         match arguments {
             [x] => match x.points() {

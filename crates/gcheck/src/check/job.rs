@@ -127,7 +127,8 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     let control = bench.control_of(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
-    let mut equipment = Equipment::new(&settings, &control, Start::Any)?;
+    let model = Model::new(&control);
+    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
     equipment.set(bench.set);
     settings.machine.engine = equipment.machine;
     let scene = Scene {
@@ -174,7 +175,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         baseline: 0,
         fixed,
         out_of_fuel: outcome.out_of_fuel,
-        assumptions: describe_all(&outcome.ledger, &Model::new(&control)),
+        assumptions: describe_all(&outcome.ledger, &model),
     };
     Ok(Checked { report, mended })
 }

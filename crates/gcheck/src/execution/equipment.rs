@@ -42,10 +42,11 @@ pub(crate) enum Start {
 
 impl Equipment {
     /// Puts the layers of a configuration together.
-    pub(crate) fn new(settings: &FileSettings, control: &Control, start: Start) -> Result<Self, Problem> {
+    pub(crate) fn new(settings: &FileSettings, model: &Model<'_>, start: Start) -> Result<Self, Problem> {
+        let control = model.control();
         let layers = &settings.execution;
         let configured = layers.iter().rev().find_map(|layer| layer.units).map(units);
-        let default = units_at_power_on(control, &settings.machine.settings);
+        let default = model.units_at_power_on(&settings.machine.settings);
         let in_force = configured.or(default).unwrap_or(Units::Mm);
         // Where variables that nobody set are zero, so is everything else after a fresh start.
         let fresh = start == Start::Fresh && control.semantics().unset == Unset::Zero;
@@ -188,26 +189,6 @@ fn axis_of(name: &str) -> Option<Axis> {
 
 fn in_mm(axis: Axis, value: f64, mm: f64) -> f64 {
     if axis.is_rotary() { value } else { value * mm }
-}
-
-/// The unit that a control counts in when nobody says otherwise: by its data, else by the setting that decides, whose page
-/// names the usual value first.
-fn units_at_power_on(control: &Control, settings: &BTreeMap<String, String>) -> Option<Units> {
-    let model = Model::new(control);
-    match start_code(&model, Role::Units).map(|code| model.effect(code)) {
-        Some(Effect::Inch) => return Some(Units::Inch),
-        Some(Effect::Millimetre) => return Some(Units::Mm),
-        _ => {}
-    }
-    let decides =
-        |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
-    let setting = control.settings().iter().find(|setting| decides(&setting.values))?;
-    let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
-    match value.as_str() {
-        "inch" => Some(Units::Inch),
-        "mm" => Some(Units::Mm),
-        _ => None,
-    }
 }
 
 /// The code of a role that is in effect at power-on.

@@ -6,9 +6,9 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 
 use super::super::arcs::arc_end_off_circle::length;
-use super::cycle_words_lost::cycle_range;
+use super::cycle_words_lost::{cycle_range, is_cycle};
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
 declare_rule! {
     /// The retract plane (`R`) of a canned cycle lies below the bottom of its hole (`Z`).
@@ -55,6 +55,10 @@ struct CycleRBelowBottom {
 }
 
 impl PathRule for CycleRBelowBottom {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_cycle)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::Cycle(CycleFault::RBelowBottom)
             || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle)))

@@ -140,7 +140,16 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
         }
         let mut open: Option<Group> = None;
         let mut last_reached = None;
-        for block in part.blocks.clone() {
+        let mut blocks = part.blocks.clone();
+        while let Some(block) = blocks.next() {
+            // Nearly all blocks of nearly all programs are reached: not looked at one by one.
+            let missing = cx.result.first_unreached(At { file: 0, block }).block.min(part.blocks.end);
+            if missing > block {
+                groups.extend(open.take());
+                last_reached = Some(missing - 1);
+                blocks.start = missing;
+                continue;
+            }
             if is_reached(block) || profiles.iter().any(|profile| profile.contains(&block)) {
                 groups.extend(open.take());
                 last_reached = Some(block);
