@@ -77,8 +77,6 @@ pub enum Effect {
     CycleFineBore,
     /// Along the tool at any angle, depth in `E`.
     CycleAlongTool,
-    /// Radial with live tools: depth in X.
-    CycleRadial,
     CycleCancel,
 
     // Turning.
@@ -470,6 +468,12 @@ pub struct CycleRules {
     pub rise_to_r: bool,
     /// Tapping needs a turning spindle before.
     pub tap_needs_spindle: bool,
+    /// Cycles of live tools across the spindle's axis: they drill along X, whatever the plane.
+    #[serde(default)]
+    pub across: Vec<String>,
+    /// `R` is a distance from the level at which the cycle begins, along X a radius; else it is a level.
+    #[serde(default)]
+    pub r_is_distance: bool,
 }
 
 /// How `G41` and `G42` move.

@@ -4,7 +4,7 @@
 //! that examples are legal blocks is proved where programs can be checked.
 
 use crate::control::Variable;
-use crate::schema::{Confidence, VariableKind};
+use crate::schema::{Confidence, Motion, VariableKind};
 use crate::{CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
@@ -269,6 +269,12 @@ impl Problems<'_> {
         for letter in cycles.sticky.iter().chain(semantics.dwell.keys()).chain(semantics.increments.keys()) {
             if !self.is_letter(letter) {
                 self.say(PLACE, format!("`{letter}` is no address here"));
+            }
+        }
+        for name in &cycles.across {
+            let code = CodeNumber::parse(name).and_then(|number| control.code(number));
+            if !code.is_some_and(|code| code.entry().motion == Motion::Cycle) {
+                self.say(PLACE, format!("`{name}` drills across, but is no canned cycle here"));
             }
         }
         for (letter, axis) in &semantics.increments {

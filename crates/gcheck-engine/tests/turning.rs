@@ -415,6 +415,23 @@ fn threads_that_the_interpreter_refuses() {
     }
 }
 
+#[test]
+fn a_thread_of_changing_lead_counts_by_the_mean_of_its_leads() {
+    // 20 mm from 1.5 mm a turn, 0.05 mm more each turn: about 11 turns, the last of 2.06 mm.
+    two_blocks(
+        "G34 Z-15. F1.5 K0.05\nG34 Z-25. F1.5",
+        &expect![[r#"
+        rapid x30 z5
+        sync 1.780776
+        thread x30 z-15
+        sync off
+        sync 1.500000
+        thread x30 z-25
+        sync off
+        at x30 z-25"#]],
+    );
+}
+
 // ---- profiles between sequence numbers ----
 
 #[test]
@@ -705,4 +722,159 @@ fn subprogram_profiles_that_the_interpreter_refuses() {
         let shown = shown_on("linuxcnc", "XZ", &machine(0.0), &text);
         assert!(shown.contains(" in N40\n"), "{block}: {shown}");
     }
+}
+
+// ---- holes of live tools ----
+
+/// Metric, the tool at X60 Z5 with the work at C0.
+fn live(control: &str, text: &str, expected: &Expect) {
+    let modes = if control == "haas-lathe" { "G21 G98" } else { "G21 G98 G97" };
+    let text = format!("O1\n{modes} S800\nT0101\nG0 X60. Z5. C0.\nF100.\n{text}\nM30\n");
+    expected.assert_eq(&shown_on(control, "XZC", &machine(0.0), &text));
+}
+
+#[test]
+fn a_hole_across_the_axis_ends_at_the_level_it_began_at_over_its_z() {
+    live(
+        "haas-lathe",
+        "G0 Z-10.\nG241 X40. R55. F100.\nZ-20.\nC90.\nG80\nG0 Z5.",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x27.5 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            rapid x27.5 z-20 c0
+            feed x20 z-20 c0
+            rapid x30 z-20 c0
+            rapid x30 z-20 c90
+            rapid x27.5 z-20 c90
+            feed x20 z-20 c90
+            rapid x30 z-20 c90
+            rapid x30 z5 c90
+            at x30 z5 c90"#]],
+    );
+}
+
+#[test]
+fn cycles_across_the_axis_peck_tap_and_bore() {
+    live(
+        "haas-lathe",
+        "G0 Z-10.\nG243 X40. R56. Q5. F100.\nG80\nG242 X50. Z-20. P500\nG80\nG195 U-20.\nG249 X48. R58.",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x28 z-10 c0
+            feed x23 z-10 c0
+            rapid x28 z-10 c0
+            rapid x25.54 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            feed x25 z-20 c0
+            dwell 0.5
+            rapid x30 z-20 c0
+            feed x20 z-20 c0
+            feed x30 z-20 c0
+            rapid x29 z-20 c0
+            feed x24 z-20 c0
+            feed x29 z-20 c0
+            rapid x30 z-20 c0
+            at x30 z-20 c0"#]],
+    );
+}
+
+#[test]
+fn cycles_of_the_side_count_r_from_the_start() {
+    live(
+        "fanuc-lathe",
+        "G0 Z-10.\nG87 X40. R-3. Q5000\nZ-20.\nG88 X40. R0\nG89 Z-5. P200\nG83 X20. Z-15. R-2.\nG80",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x27 z-10 c0
+            feed x22 z-10 c0
+            rapid x27 z-10 c0
+            rapid x23 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            rapid x27 z-20 c0
+            feed x22 z-20 c0
+            rapid x27 z-20 c0
+            rapid x23 z-20 c0
+            feed x20 z-20 c0
+            rapid x30 z-20 c0
+            feed x20 z-20 c0
+            feed x30 z-20 c0
+            rapid x30 z-5 c0
+            feed x20 z-5 c0
+            dwell 0.2
+            feed x30 z-5 c0
+            rapid x10 z-5 c0
+            rapid x10 z-7 c0
+            feed x10 z-15 c0
+            rapid x10 z-5 c0
+            at x10 z-5 c0"#]],
+    );
+}
+
+#[test]
+fn holes_in_the_face_may_leave_r_out() {
+    live(
+        "fanuc-lathe",
+        "G83 X0.0 Z-1.23 Q2000 F.006\nG80",
+        &expect![[r#"
+        rapid x30 z5 c0
+        rapid x0 z5 c0
+        feed x0 z3 c0
+        rapid x0 z5 c0
+        rapid x0 z4 c0
+        feed x0 z1 c0
+        rapid x0 z5 c0
+        rapid x0 z2 c0
+        feed x0 z-1 c0
+        rapid x0 z5 c0
+        rapid x0 z0 c0
+        feed x0 z-1.23 c0
+        rapid x0 z5 c0
+        at x0 z5 c0"#]],
+    );
+    live(
+        "haas-lathe",
+        "G81 X0. Z-5. F100.\nG80",
+        &expect![[r#"
+        rapid x30 z5 c0
+        rapid x0 z5 c0
+        feed x0 z-5 c0
+        rapid x0 z5 c0
+        at x0 z5 c0"#]],
+    );
+}
+
+#[test]
+fn repeats_turn_the_work_on() {
+    live(
+        "fanuc-lathe",
+        "G83 X40. Z-5. R-3. H90. K3.\nW-12.\nG80",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x20 z5 c90
+            rapid x20 z2 c90
+            feed x20 z-5 c90
+            rapid x20 z5 c90
+            rapid x20 z5 c180
+            rapid x20 z2 c180
+            feed x20 z-5 c180
+            rapid x20 z5 c180
+            rapid x20 z5 c270
+            rapid x20 z2 c270
+            feed x20 z-5 c270
+            rapid x20 z5 c270
+            rapid x20 z2 c270
+            feed x20 z-10 c270
+            rapid x20 z5 c270
+            at x20 z5 c270"#]],
+    );
 }

@@ -338,7 +338,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Does the block name the axis, by its own address or as an increment?
-    fn names_axis(&self, axis: Axis) -> bool {
+    pub(super) fn names_axis(&self, axis: Axis) -> bool {
         self.words
             .present()
             .iter()
@@ -346,7 +346,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Millimetres a turn from the block's words.
-    fn lead(&self, state: &State<D>) -> Option<f64> {
+    pub(super) fn lead(&self, state: &State<D>) -> Option<f64> {
         self.length(Letter::of('E'), state).or_else(|| self.length(Letter::of('F'), state))
     }
 
