@@ -630,6 +630,51 @@ fn profiles_that_are_not_there_are_refused() {
     );
 }
 
+#[test]
+fn a_rapid_away_behind_the_shape_is_not_cut() {
+    two_blocks(
+        "G71 U20. R1.\nG71 P100 Q130 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 X60.\nN130 G0 Z1.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x20 z5
+            feed x20 z-10
+            feed x30 z-10
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+}
+
+#[test]
+fn a_profile_of_another_shape_leaves_the_tool_where_it_was() {
+    // Back in Z in the middle; and a first block that begins beyond the cut.
+    two_blocks(
+        "G71 U5. R1.\nG71 P100 Q140 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 X50. Z-5.\nN140 X60. Z-15.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+    two_blocks(
+        "G72 W2. R0.5\nG72 P100 Q120 F0.25\nN100 G0 X40.\nN110 G1 Z-10.\nN120 X60.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+}
+
+#[test]
+fn an_arc_that_does_not_fit_is_a_fault_of_its_block() {
+    two_blocks(
+        "G71 U5. R1.\nG71 P100 Q140 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 G2 X50. Z-15. R1.\nN140 G1 X60.",
+        &expect![[r#"
+            rapid x30 z5
+            Arc(RadiusTooSmall { half_chord: 3.5355339059327378, radius: 1.0 }) in N120
+            at x30 z5"#]],
+    );
+}
+
 // ---- profiles in subprograms ----
 
 const SUB: &str = "o100 sub\nn901 g0 x10 z1\nn902 g1 z-10\nn903 x15 z-15\nn904 x18\no100 endsub\n";

@@ -181,7 +181,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-fn arc_fault(error: &ArcError) -> ArcFault {
+pub(super) fn arc_fault(error: &ArcError) -> ArcFault {
     match error {
         ArcError::ZeroRadius => ArcFault::ZeroRadius,
         ArcError::RadiusTooSmall { half_chord, radius } => {

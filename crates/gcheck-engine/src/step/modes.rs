@@ -210,7 +210,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::SetPosition => self.set_position(state)?,
             E::SpeedLimitOrSetPosition => {
                 if self.words.has(Letter::of('S')) {
-                    state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+                    self.limit_speed(state);
                 } else {
                     self.set_position(state)?;
                 }
