@@ -675,6 +675,77 @@ fn an_arc_that_does_not_fit_is_a_fault_of_its_block() {
     );
 }
 
+#[test]
+fn words_without_a_point_count_least_increments_in_every_turning_cycle() {
+    let profile = "\nN100 G0 X40.\nN110 G1 Z-10.\nN120 X60.";
+    let of_two_blocks = [
+        ("G71 U5. R1.\nG71 P100 Q120 U.4 W.1", "G71 U5000 R1000\nG71 P100 Q120 U400 W100"),
+        ("G73 U3. W2. R3\nG73 P100 Q120 U1.", "G73 U3000 W2000 R3\nG73 P100 Q120 U1000"),
+        ("G74 R1.\nG74 Z-15. Q8. F0.1", "G74 R1000\nG74 Z-15000 Q8000 F0.1"),
+        ("G75 R.5\nG75 X52. Z1. P3. Q2.5 F0.1", "G75 R500\nG75 X52000 Z1000 P3000 Q2500 F0.1"),
+        (
+            "G76 P011060 Q.1 R.05\nG76 X50. Z-9. P1. Q.6 F2.",
+            "G76 P011060 Q100 R50\nG76 X50000 Z-9000 P1000 Q600 F2.",
+        ),
+        ("G76 X50. Z-9. K1. D.4 A60. F2.", "G76 X50000 Z-9000 K1000 D400 A60 F2."),
+    ];
+    for (pointed, plain) in of_two_blocks {
+        let shown = |cycle: &str| {
+            let text = format!("O1\nG21 G97 S800 M3\nT0101\nG0 X60. Z5.\nF0.2\n{cycle}{profile}\nM30\n");
+            shown_on("fanuc-lathe", "XZ", &machine(0.0), &text)
+        };
+        assert_eq!(shown(pointed), shown(plain), "{plain}");
+    }
+    let profile = "\nN100 G0 X1.6\nN110 G1 Z-.5\nN120 X2.2";
+    let of_one_block = [
+        ("G71 P100 Q120 D.2 U.02 W.005", "G71 P100 Q120 D2000 U200 W50"),
+        ("G73 P100 Q120 D2 I.1 K.05", "G73 P100 Q120 D2 I1000 K500"),
+        ("G74 Z-.3 K.15", "G74 Z-3000 K1500"),
+        ("G75 X2. Z0. I.06 K.08", "G75 X20000 Z0 I600 K800"),
+        ("G76 X.88 Z-1.1 K.06 D.04 F.1", "G76 X8800 Z-11000 K600 D400 F.1"),
+    ];
+    for (pointed, plain) in of_one_block {
+        let shown = |cycle: &str| {
+            let text = format!("O1\nG20 G18 G97 S800 M3\nT101\nG0 X2.2 Z.1\nF.01\n{cycle}{profile}\nM30\n");
+            shown_on("haas-lathe", "XZ", &machine(0.0), &text)
+        };
+        assert_eq!(shown(pointed), shown(plain), "{plain}");
+    }
+}
+
+#[test]
+fn a_control_that_threads_in_two_blocks_takes_the_older_block_too() {
+    two_blocks(
+        "G0 X34. Z5.\nG76 X30. Z-30. K1. D.6 F2. A60.",
+        &expect![[r#"
+        rapid x30 z5
+        rapid x17 z5
+        rapid x17 z4.6536
+        rapid x15.4 z4.6536
+        sync 2.000000
+        thread x15.4 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.6536
+        rapid x17 z4.5101
+        rapid x15.1515 z4.5101
+        sync 2.000000
+        thread x15.1515 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.5101
+        rapid x17 z4.4226
+        rapid x15 z4.4226
+        sync 2.000000
+        thread x15 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.4226
+        rapid x17 z5
+        at x17 z5"#]],
+    );
+}
+
 // ---- profiles in subprograms ----
 
 const SUB: &str = "o100 sub\nn901 g0 x10 z1\nn902 g1 z-10\nn903 x15 z-15\nn904 x18\no100 endsub\n";
