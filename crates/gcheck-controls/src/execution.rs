@@ -412,7 +412,7 @@ pub enum ReturnInMain {
 }
 
 /// How circles are judged. Lengths in millimetres.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArcRules {
     /// Start and end radius may differ by this much…
@@ -436,6 +436,9 @@ pub struct ArcRules {
     pub centre_defaults_to_zero: bool,
     /// Centre words when both `R` and they stand: `R` wins, else refused.
     pub radius_wins: bool,
+    /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
+    #[serde(default)]
+    pub straight_setting: Option<String>,
     /// How sure the tolerances are.
     pub confidence: Confidence,
 }

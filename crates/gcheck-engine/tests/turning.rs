@@ -432,6 +432,36 @@ fn a_thread_of_changing_lead_counts_by_the_mean_of_its_leads() {
     );
 }
 
+#[test]
+fn an_end_point_alone_behind_an_arc_is_a_straight_line_where_a_setting_lets_it() {
+    let text = "O1\nG21 G97 S800 M3\nT0101\nG0 X60. Z5.\nG1 X40. F.2\nG2 X50. Z0. R5.\nN5 X60.\nM30\n";
+    expect![[r#"
+        rapid x30 z5
+        feed x20 z5
+        cw x25 z0 about 5 25
+        feed x30 z0
+        at x30 z0"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &machine(0.0), text));
+    let mut alarms = machine(0.0);
+    alarms.settings.insert("3403#5".to_owned(), "alarm".to_owned());
+    expect![[r#"
+        rapid x30 z5
+        feed x20 z5
+        cw x25 z0 about 5 25
+        Arc(NoCentre) in N5
+        at x30 z0"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &alarms, text));
+    two_blocks(
+        "G71 U20. R1.\nG71 P100 Q130 F0.25\nN100 G0 X40.\nN110 G1 Z-10.\nN120 G2 X50. Z-15. R5.\nN130 X60.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x20 z5
+            feed x20 z-10
+            cw x25 z-15 about -10 25
+            feed x30 z-15
+            rapid x30 z5
+            at x30 z5"#]],
+    );
+}
+
 // ---- profiles between sequence numbers ----
 
 #[test]

@@ -520,6 +520,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let effect = self.model.effect(mode);
         match effect {
             E::Rapid | E::Linear if has_axes => self.draw_line(mode, effect == E::Rapid, state, drawing)?,
+            E::ArcClockwise | E::ArcCounterClockwise
+                if has_axes && !arc_words && self.is_straight_without_centre() =>
+            {
+                self.draw_line(mode, false, state, drawing)?;
+            }
             E::ArcClockwise | E::ArcCounterClockwise if has_axes || arc_words => {
                 self.draw_arc(effect == E::ArcCounterClockwise, state, drawing)?;
             }
