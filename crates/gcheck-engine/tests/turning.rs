@@ -440,7 +440,8 @@ fn an_end_point_alone_behind_an_arc_is_a_straight_line_where_a_setting_lets_it()
         feed x20 z5
         cw x25 z0 about 5 25
         feed x30 z0
-        at x30 z0"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &machine(0.0), text));
+        at x30 z0"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &machine(0.0), text));
     let mut alarms = machine(0.0);
     alarms.settings.insert("3403#5".to_owned(), "alarm".to_owned());
     expect![[r#"
@@ -448,7 +449,8 @@ fn an_end_point_alone_behind_an_arc_is_a_straight_line_where_a_setting_lets_it()
         feed x20 z5
         cw x25 z0 about 5 25
         Arc(NoCentre) in N5
-        at x30 z0"#]].assert_eq(&shown_on("fanuc-lathe", "XZ", &alarms, text));
+        at x30 z0"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &alarms, text));
     two_blocks(
         "G71 U20. R1.\nG71 P100 Q130 F0.25\nN100 G0 X40.\nN110 G1 Z-10.\nN120 G2 X50. Z-15. R5.\nN130 X60.",
         &expect![[r#"
