@@ -81,8 +81,6 @@ pub enum Effect {
     CycleFineBore,
     /// Along the tool at any angle, depth in `E`.
     CycleAlongTool,
-    /// Radial with live tools: depth in X.
-    CycleRadial,
     CycleCancel,
 
     // Turning.
@@ -421,7 +419,7 @@ pub enum ReturnInMain {
 }
 
 /// How circles are judged. Lengths in millimetres.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArcRules {
     /// Start and end radius may differ by this much…
@@ -445,6 +443,9 @@ pub struct ArcRules {
     pub centre_defaults_to_zero: bool,
     /// Centre words when both `R` and they stand: `R` wins, else refused.
     pub radius_wins: bool,
+    /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
+    #[serde(default)]
+    pub straight_setting: Option<String>,
     /// How sure the tolerances are.
     pub confidence: Confidence,
 }
@@ -477,6 +478,12 @@ pub struct CycleRules {
     pub rise_to_r: bool,
     /// Tapping needs a turning spindle before.
     pub tap_needs_spindle: bool,
+    /// Cycles of live tools across the spindle's axis: they drill along X, whatever the plane.
+    #[serde(default)]
+    pub across: Vec<String>,
+    /// `R` is a distance from the level at which the cycle begins, along X a radius; else it is a level.
+    #[serde(default)]
+    pub r_is_distance: bool,
 }
 
 /// How `G41` and `G42` move.

@@ -4,7 +4,7 @@
 //! that examples are legal blocks is proved where programs can be checked.
 
 use crate::control::Variable;
-use crate::schema::{Confidence, VariableKind};
+use crate::schema::{Confidence, Motion, VariableKind};
 use crate::{CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
@@ -271,6 +271,12 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{letter}` is no address here"));
             }
         }
+        for name in &cycles.across {
+            let code = CodeNumber::parse(name).and_then(|number| control.code(number));
+            if !code.is_some_and(|code| code.entry().motion == Motion::Cycle) {
+                self.say(PLACE, format!("`{name}` drills across, but is no canned cycle here"));
+            }
+        }
         for (letter, axis) in &semantics.increments {
             if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
                 self.say(
@@ -279,10 +285,10 @@ impl Problems<'_> {
                 );
             }
         }
-        if let Some(setting) = &semantics.compensation.setting
-            && control.setting(setting).is_none()
-        {
-            self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+        for setting in semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting) {
+            if control.setting(setting).is_none() {
+                self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+            }
         }
         if semantics.loop_depth == Some(0) {
             self.say(PLACE, "`loop-depth` 0 allows no loop");

@@ -42,4 +42,6 @@ pub enum Assumption {
     Axis(Axis),
     /// Nothing is known of a code's effect.
     Code(CodeIx),
+    /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.
+    Passes(CodeIx),
 }

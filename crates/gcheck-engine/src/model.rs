@@ -106,7 +106,6 @@ impl Role {
             | E::CycleBoreDwell
             | E::CycleFineBore
             | E::CycleAlongTool
-            | E::CycleRadial
             | E::CycleCancel => Self::Cycle,
             E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
             E::Absolute | E::Incremental => Self::Distance,
@@ -165,6 +164,8 @@ pub(crate) struct CodeModel {
     pub(crate) modal: bool,
     /// Axis words in its block are the code's own.
     pub(crate) takes_axes: bool,
+    /// A canned cycle that drills along X, whatever the plane.
+    pub(crate) across: bool,
 }
 
 /// A control prepared for execution.
@@ -204,6 +205,8 @@ impl<'c> Model<'c> {
         let semantics = control.semantics();
         let phases = control.phases();
         let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
+        let across: Vec<CodeNumber> =
+            semantics.cycles.across.iter().filter_map(|name| CodeNumber::parse(name)).collect();
         let codes: Vec<CodeModel> = control
             .codes()
             .map(|code| CodeModel {
@@ -213,6 +216,7 @@ impl<'c> Model<'c> {
                 group: code.group_ix(),
                 modal: code.group().modal,
                 takes_axes: code.entry().takes_axes,
+                across: across.contains(&code.number()),
             })
             .collect();
         let mut scaled = [None; Letter::COUNT];
@@ -321,6 +325,11 @@ impl<'c> Model<'c> {
     /// A code's effect; [`Effect::None`] for codes that the control does not have.
     pub fn effect(&self, code: CodeIx) -> Effect {
         self.code(code).map_or(Effect::None, |c| c.effect)
+    }
+
+    /// Is a code a canned cycle that drills along X, whatever the plane?
+    pub fn drills_across(&self, code: CodeIx) -> bool {
+        self.code(code).is_some_and(|c| c.across)
     }
 
     /// The mode a code switches.

@@ -93,6 +93,9 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
+        Assumption::Passes(code) => {
+            Described::new(format!("the passes of {} are not computed", named(*code, model)))
+        }
     }
 }
 
@@ -164,7 +167,7 @@ pub fn work_offset_name(number: u16, model: &Model<'_>) -> String {
 fn weight(assumption: &Assumption) -> u8 {
     match assumption {
         Assumption::MissingProgram(_) | Assumption::MissingSubroutine(_) => 0,
-        Assumption::Code(_) => 1,
+        Assumption::Code(_) | Assumption::Passes(_) => 1,
         Assumption::UnpointedNumbers | Assumption::Setting(_) => 2,
         Assumption::StartPosition | Assumption::ReferencePosition(_) => 3,
         Assumption::WorkOffset(_) => 4,

@@ -127,15 +127,6 @@ pub fn hole(
             }
         }
         Effect::CycleFineBore => hole.fine_bore()?,
-        Effect::CycleRadial => {
-            if hole.hole.peck.is_some() || hole.hole.ijk.iter().any(Option::is_some) {
-                hole.pecks(false)?;
-            } else {
-                hole.feed_to(hole.bottom())?;
-                hole.dwell()?;
-                hole.rapid_to(hole.clear())?;
-            }
-        }
         _ => return Err(CycleError::NotThisKind),
     }
     Ok(hole.sink.at)
@@ -189,7 +180,7 @@ impl Tool<'_, '_> {
         if let Some(peck) = self.hole.peck {
             known(&[peck])?;
         }
-        let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak | Effect::CycleRadial);
+        let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak);
         if pecks && self.hole.peck.is_some_and(|peck| peck <= Mm::ZERO) {
             return Err(CycleFault::NotPositive(Letter::of('Q')).into());
         }
@@ -499,6 +490,8 @@ mod tests {
             incremental_r: true,
             rise_to_r: true,
             tap_needs_spindle: true,
+            across: Vec::new(),
+            r_is_distance: false,
         }
     }
 

@@ -122,6 +122,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let running = state.active_cycle(self.model).filter(|cycle| cycle.is_some());
                 match running {
                     None => state.cycle = state.cycle.series(f64::NAN),
+                    // Levels of one axis mean nothing along another.
+                    Some(cycle) if self.model.drills_across(cycle) != self.model.drills_across(ix) => {
+                        state.cycle = state.cycle.series(f64::NAN);
+                    }
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
                         state.cycle = state.cycle.series(state.cycle.initial);
@@ -227,7 +231,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::SetPosition => self.set_position(state)?,
             E::SpeedLimitOrSetPosition => {
                 if self.words.has(Letter::of('S')) {
-                    state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+                    self.limit_speed(state);
                 } else {
                     self.set_position(state)?;
                 }

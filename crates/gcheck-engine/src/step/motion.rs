@@ -392,10 +392,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G33`, `G33.1`, lathe `G32`.
     fn thread_move(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        let lead = self.length(Letter::of('K'), state).or_else(|| {
-            let per_turn = self.words.number(Letter::of('F')).map(|f| f * self.unit(state));
-            per_turn.or_else(|| D::known(&state.feed).filter(|f| *f > 0.0))
-        });
+        let k = self.length(Letter::of('K'), state);
+        let by_feed = self.motion_reads(Letter::of('F'), state);
+        let lead = k
+            .filter(|_| !by_feed)
+            .or_else(|| self.lead(state).or_else(|| D::known(&state.feed).filter(|f| *f > 0.0)));
         let Some(lead) = lead else {
             let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
             let missing = self.held(Err(Fault::MissingWord(Letter::of(missing))))?;
@@ -419,10 +420,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.emit(state, Event::SpindleSync { lead: None, velocity: false });
             return Ok(());
         }
+        let change = k.filter(|_| by_feed).unwrap_or(0.0);
+        let lead = mean_lead(lead, change, &state.position, &target);
         self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
         self.travel(TravelKind::Thread, target, false, state)?;
         self.emit(state, Event::SpindleSync { lead: None, velocity: false });
         Ok(())
+    }
+
+    /// Is a word one of the motion code's own?
+    fn motion_reads(&self, letter: Letter, state: &State<D>) -> bool {
+        let code = state.mode(Role::Motion).only().and_then(|ix| self.model.control().code_at(ix));
+        code.is_some_and(|code| {
+            code.entry().words.iter().any(|word| Letter::parse(&word.letter) == Some(letter))
+        })
     }
 
     /// `G5`, `G5.1`: Bézier curves in XY.
@@ -571,6 +582,14 @@ fn straight_length(from: &Position, to: &Position, unit: f64) -> f64 {
     }
     let secondary = norm([Axis::U, Axis::V, Axis::W]);
     if secondary == 0.0 { norm([Axis::A, Axis::B, Axis::C]) * unit } else { secondary }
+}
+
+/// A thread whose lead grows by `change` each turn takes as many turns as one of this lead. Leads count along the axis that
+/// goes farther; a thread whose lead would come to nothing keeps the one that it begins with.
+fn mean_lead(lead: f64, change: f64, from: &Position, to: &Position) -> f64 {
+    let way = [Axis::X, Axis::Z].map(|axis| (to.raw(axis) - from.raw(axis)).abs());
+    let last = (lead * lead + 2.0 * change * way[0].max(way[1])).sqrt();
+    if last.is_finite() { f64::midpoint(lead, last) } else { lead }
 }
 
 /// A Bézier curve as chords within a hundredth of a millimetre.

@@ -72,6 +72,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// `G50 S` of lathes: the limit holds at once where constant surface speed is on.
+    pub(super) fn limit_speed(&mut self, state: &mut State<D>) {
+        state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+        if state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed) {
+            self.emit(state, Event::SpindleMode(Some(state.speed_limit)));
+        }
+    }
+
     /// `M3`, `M4`, `M5`.
     pub(super) fn spindle(&mut self, spindle: Spindle, state: &mut State<D>) -> Step {
         state.spindle = Some(spindle);

@@ -71,8 +71,9 @@ impl PathRule for CycleRBelowBottom {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         let Some(code) = cx.state().active_cycle(cx.model).filter(|ix: &CodeIx| ix.is_some()) else { return };
-        // A back bore enters the hole and cuts on the way back up.
-        if !travel.expanded || matches!(cx.model.effect(code), Effect::CycleBackBore | Effect::CycleRadial) {
+        // A back bore enters the hole and cuts on the way back up; a tool across the spindle may cut from the bore outward.
+        if !travel.expanded || cx.model.effect(code) == Effect::CycleBackBore || cx.model.drills_across(code)
+        {
             return;
         }
         let words = cx.state().cycle();
