@@ -14,6 +14,7 @@ use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
 use crate::step::compensation::Compensation;
+use crate::tool_shift::ToolShift;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -290,6 +291,8 @@ pub struct State<D: Domain> {
     pub(crate) local: Position,
     /// Tool offsets in effect.
     pub(crate) length: Position,
+    /// Shifts by the tool between the programmed point and the axes.
+    pub(crate) tool_shift: ToolShift,
     pub(crate) h: D::Value,
     pub(crate) d: D::Value,
     /// In millimetres a minute or turn, or moves a minute; 0 none given.
@@ -491,6 +494,11 @@ impl<D: Domain> State<D> {
         &self.length
     }
 
+    /// Shifts by the tool between the programmed point and the axes.
+    pub fn tool_shift(&self) -> &ToolShift {
+        &self.tool_shift
+    }
+
     /// Number of the active work coordinate system, 1 the first.
     pub fn work(&self) -> Option<u16> {
         self.work
@@ -638,6 +646,7 @@ impl<D: Domain> State<D> {
         }
         joined.local = self.local.join(&other.local);
         joined.length = self.length.join(&other.length);
+        joined.tool_shift = self.tool_shift.join(&other.tool_shift);
         joined.h = value(&self.h, &other.h);
         joined.d = value(&self.d, &other.d);
         joined.feed = value(&self.feed, &other.feed);
@@ -704,6 +713,7 @@ impl<D: Domain> State<D> {
                     && same(self.actual.raw(axis), inner.actual.raw(axis))
                     && same(self.length.raw(axis), inner.length.raw(axis))
             })
+            && self.tool_shift.contains(&inner.tool_shift)
             && (self.work.is_none() || self.work == inner.work)
             && D::contains(&self.h, &inner.h)
             && D::contains(&self.d, &inner.d)
@@ -737,6 +747,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.shift_on == other.shift_on
             && self.local == other.local
             && self.length == other.length
+            && self.tool_shift == other.tool_shift
             && self.h == other.h
             && self.d == other.d
             && self.feed == other.feed
