@@ -424,6 +424,12 @@ impl<D: Domain> State<D> {
         self.modes[role.index()] = ModeSet::one(code);
     }
 
+    /// The role's code may also be one of these.
+    #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
+    pub(crate) fn join_mode(&mut self, role: Role, other: &ModeSet) {
+        self.modes[role.index()] = self.modes[role.index()].join(other);
+    }
+
     /// The effect in force for a role, if it is the only one it may be.
     pub fn effect(&self, role: Role, model: &Model<'_>) -> Option<Effect> {
         self.mode(role).only().map(|code| model.effect(code))

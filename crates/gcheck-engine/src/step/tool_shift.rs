@@ -12,6 +12,7 @@ use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::Event;
 use crate::fault::Fault;
+use crate::modal::ModeSet;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -49,6 +50,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Some(Count::Unknown) => {
                 state.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
+                // It may be the zero that ends the mode.
+                let off = ModeSet::one(self.model.code_with(Effect::LengthOff));
+                state.join_mode(Role::Length, &off);
                 f64::NAN
             }
             // H stays in effect from before.
@@ -120,13 +124,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn words_of_tool_shift(&mut self, state: &mut State<D>) -> Step {
         let names = |role: Role| self.words.codes().iter().any(|code| self.model.role(*code) == Some(role));
         let (length, compensation) = (names(Role::Length), names(Role::Compensation));
-        let is_along = state.effect(Role::Length, self.model) == Some(Effect::LengthFiveAxis);
-        if is_along && self.words.has(Letter::of('H')) && !length {
-            self.length_along_tool(state)?;
+        if state.tool_shift.along.is_some() && self.words.has(Letter::of('H')) && !length {
+            if state.effect(Role::Length, self.model) == Some(Effect::LengthFiveAxis) {
+                self.length_along_tool(state)?;
+            } else {
+                // On or off: the word may be read, or not.
+                state.h = D::unknown();
+                state.tool_shift.along = Some(f64::NAN);
+                self.stand_beside(state);
+            }
         }
         if state.tool_shift.cutter.is_some() && self.words.has(Letter::of('D')) && !compensation {
-            self.remember_offset_number(state)?;
-            state.tool_shift.cutter = Some(self.cutter_radius(state)?.0);
+            if state.effect(Role::Compensation, self.model) == Some(Effect::CompensationVector) {
+                self.remember_offset_number(state)?;
+                state.tool_shift.cutter = Some(self.cutter_radius(state)?.0);
+            } else {
+                state.d = D::unknown();
+                state.tool_shift.cutter = Some(f64::NAN);
+            }
         }
         Ok(())
     }

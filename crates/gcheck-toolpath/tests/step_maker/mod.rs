@@ -5,7 +5,9 @@
 
 use gcheck_engine::{ArcMove, Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, Plane, Seconds};
-use gcheck_toolpath::{Beside, Canonical, Csv, Ending, JsonLines, Start, Statistics, Step, Text, Timing, View};
+use gcheck_toolpath::{
+    Beside, Canonical, Csv, Ending, JsonLines, Start, Statistics, Step, Text, Timing, View,
+};
 
 /// A recorded step.
 #[derive(Debug, Clone)]

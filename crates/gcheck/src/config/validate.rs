@@ -51,7 +51,8 @@ impl<'t> Checked<'t> {
             }
         }
         if let Some(order) = &table.rotary_order {
-            let turns = |name: &&Placed<String>| ROTARY_AXES.contains(&name.value.to_ascii_uppercase().as_str());
+            let turns =
+                |name: &&Placed<String>| ROTARY_AXES.contains(&name.value.to_ascii_uppercase().as_str());
             if let Some(name) = order.iter().find(|name| !turns(name)) {
                 return Err(self.text.problem(name, format!("`{}` is no rotary axis", name.value)));
             }
