@@ -96,10 +96,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The programmed point for where the axes stand.
     pub(super) fn programmed_of(&self, actual: &Position, state: &State<D>) -> Position {
-        let actual = &match state.tool_shift.is_on() {
-            true => shifted(*actual, state.tool_shift.beside.map(|by| -by)),
-            false => *actual,
-        };
+        let back = state.tool_shift.beside.map(|by| -by);
+        let actual = &if state.tool_shift.is_on() { shifted(*actual, back) } else { *actual };
         match frame(&state.transform) {
             None => *actual,
             Some(frame) => match frame.and_then(|f| f.inverse()) {

@@ -42,6 +42,9 @@ struct CutterVectorIncomplete;
 impl PathRule for CutterVectorIncomplete {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::CutterVector(parts) = event else { return };
+        if cx.is_malformed() {
+            return;
+        }
         let mode = cx.state().mode(Role::Compensation).only();
         let Some(code) = mode.filter(|code| is_along_vectors(cx.model.effect(*code))) else { return };
         let missing: Vec<&str> = ["`I`", "`J`", "`K`"]

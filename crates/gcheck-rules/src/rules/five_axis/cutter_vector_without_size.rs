@@ -61,6 +61,7 @@ impl PathRule for CutterVectorWithoutSize {
                 .label("offset zero is no size")
                 .at_most(Severity::Warning),
             Some(_) => return,
+            None if cx.is_malformed() => return,
             None if cx.is_called_only() || Abstract::known(cx.state().d()) != Some(0.0) => return,
             None => cx
                 .finding(

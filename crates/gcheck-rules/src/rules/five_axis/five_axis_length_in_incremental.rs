@@ -9,7 +9,7 @@ use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// 5-axis tool length compensation (`G143`) is switched on under incremental words (`G91`), or they are switched on while it
+    /// 5-axis length compensation (`G143`) is switched on under incremental words (`G91`), or they are switched on while it
     /// is active.
     ///
     /// ## Why it matters
@@ -35,7 +35,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "five-axis-length-in-incremental" in "five_axis" {
-        summary: "5-axis tool length compensation with incremental words",
+        summary: "5-axis length compensation with incremental words",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -53,7 +53,7 @@ impl PathRule for FiveAxisLengthInIncremental {
             return;
         };
         let message =
-            format!("incremental words under 5-axis tool length compensation (`{}`)", length.number());
+            format!("incremental words under 5-axis length compensation (`{}`)", length.number());
         let finding = finding(cx, &META, message, length, increments);
         let finding = cx.resting_on_mode(finding, Role::Length);
         report.add(cx.resting_on_mode(finding, Role::Distance));
@@ -108,7 +108,7 @@ mod tests {
             "G91 G143 H1 X1. Y1. Z1. A5. B5.\nM30\n",
             &expect![[r#"
                 1 | G91 G143 H1 X1. Y1. Z1. A5. B5.
-                  | ^^^ error[five-axis-length-in-incremental] incremental words under 5-axis tool length compensation (`G143`)
+                  | ^^^ error[five-axis-length-in-incremental] incremental words under 5-axis length compensation (`G143`)
             "#]],
         );
     }
@@ -131,7 +131,7 @@ mod tests {
             "G90 G143 H1 X1. Y1. Z1. A5. B5.\nM97 P10\nG49\nM30\nN10 G91 G1 X1. F10.\nG90\nM99\n",
             &expect![[r#"
                 5 | N10 G91 G1 X1. F10.
-                  |     ^^^ error[five-axis-length-in-incremental] incremental words under 5-axis tool length compensation (`G143`)
+                  |     ^^^ error[five-axis-length-in-incremental] incremental words under 5-axis length compensation (`G143`)
             "#]],
         );
     }

@@ -9,7 +9,7 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// 5-axis tool length compensation (`G143`) is still on where the tool is changed, the axes return to their reference
+    /// 5-axis length compensation (`G143`) is still on where the tool is changed, the axes return to their reference
     /// position or the program ends.
     ///
     /// ## Why it matters
@@ -39,7 +39,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "five-axis-length-left-on" in "five_axis" {
-        summary: "5-axis tool length compensation left on",
+        summary: "5-axis length compensation left on",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -65,7 +65,7 @@ impl PathRule for FiveAxisLengthLeftOn {
         // Incremental words have a rule of their own.
         if cx.has_effect(returns) && !cx.has_effect(|effect| effect == Effect::Incremental) {
             let range = cx.effect_range(returns);
-            self.judge(cx, range, "at the return to the reference position", false, report);
+            self.judge(cx, range, "at the reference return", false, report);
         }
     }
 
@@ -96,7 +96,7 @@ impl FiveAxisLengthLeftOn {
         let name = cx.name_of(code);
         let cancel = cx.cancel_of(Effect::LengthOff).unwrap_or_default();
         let finding = cx
-            .finding(&META, range, format!("5-axis tool length compensation is still on {place} (`{name}`)"))
+            .finding(&META, range, format!("5-axis length compensation is still on {place} (`{name}`)"))
             .label("the length is along the tilted tool here")
             .help(format!("end it with `{cancel}` and a move of Z away from the part before this block"));
         let finding = if end_resets {
@@ -123,7 +123,7 @@ mod tests {
             "G90 G143 H1 X0. Y0. Z1. A0. B0.\nM30\n",
             &expect![[r#"
             2 | M30
-              | ^^^ info[five-axis-length-left-on] 5-axis tool length compensation is still on at the end of the program (`G143`)
+              | ^^^ info[five-axis-length-left-on] 5-axis length compensation is still on at the end of the program (`G143`)
         "#]],
         );
     }
@@ -146,9 +146,9 @@ mod tests {
             "G90 G143 H1 X0. Y0. Z1. A0. B0.\nT2 M6\nT3 M6\nG143 H3 X0. Y0. Z1. A0. B0.\nG28\nT4 M6\nM30\n",
             &expect![[r#"
                 2 | T2 M6
-                  |    ^^ warning[five-axis-length-left-on] 5-axis tool length compensation is still on at the tool change (`G143`)
+                  |    ^^ warning[five-axis-length-left-on] 5-axis length compensation is still on at the tool change (`G143`)
                 5 | G28
-                  | ^^^ warning[five-axis-length-left-on] 5-axis tool length compensation is still on at the return to the reference position (`G143`)
+                  | ^^^ warning[five-axis-length-left-on] 5-axis length compensation is still on at the reference return (`G143`)
             "#]],
         );
     }

@@ -7,7 +7,7 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// 5-axis tool length compensation (`G143`) is switched on and no length offset is named: neither in its block nor in
+    /// 5-axis length compensation (`G143`) is switched on and no length offset is named: neither in its block nor in
     /// effect from before, or it is `H0`.
     ///
     /// ## Why it matters
@@ -39,7 +39,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "five-axis-length-without-offset" in "five_axis" {
-        summary: "5-axis tool length compensation without a length offset",
+        summary: "5-axis length compensation without a length offset",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -57,12 +57,13 @@ impl PathRule for FiveAxisLengthWithoutOffset {
         };
         let Some(entry) = cx.scene.control().code_at(code) else { return };
         let (name, entry) = (entry.number(), entry.entry());
-        let what = "5-axis tool length compensation";
+        let what = "5-axis length compensation";
         let finding = match cx.word('H') {
             Some(word) if word.number() == Some(0.0) => cx
                 .finding(&META, cx.letter_range('H'), format!("{what} with no length (`{name} H0`)"))
                 .label("`H0` ends the compensation that the block begins"),
             Some(_) => return,
+            None if cx.is_malformed() => return,
             None if cx.is_called_only() || Abstract::known(cx.state().h()) != Some(0.0) => return,
             None => {
                 let finding = cx
@@ -116,7 +117,7 @@ mod tests {
             "G90 G43 H1 Z1.\nG49\nG143 X1. Y1. Z1. A5. B5.\nM30\n",
             &expect![[r#"
                 3 | G143 X1. Y1. Z1. A5. B5.
-                  | ^^^^ warning[five-axis-length-without-offset] 5-axis tool length compensation without a length offset (`G143` without `H`)
+                  | ^^^^ warning[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
             "#]],
         );
     }
@@ -134,7 +135,7 @@ mod tests {
             "#1=0\nWHILE [#1 LT 3] DO1\nG143 X1. Y1. Z1. A5. B5.\n#1=#1+1\nEND1\nM30\n",
             &expect![[r#"
                 3 | G143 X1. Y1. Z1. A5. B5.
-                  | ^^^^ error[five-axis-length-without-offset] 5-axis tool length compensation without a length offset (`G143` without `H`)
+                  | ^^^^ error[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
             "#]],
         );
     }

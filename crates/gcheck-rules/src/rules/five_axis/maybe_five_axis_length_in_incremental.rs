@@ -10,7 +10,7 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// On some path, 5-axis tool length compensation (`G143`) and incremental words (`G91`) are active together.
+    /// On some path, 5-axis length compensation (`G143`) and incremental words (`G91`) are active together.
     ///
     /// ## Why it matters
     /// The control does not accept `G91` under `G143`. The program stops with an alarm when that path is taken.
@@ -56,7 +56,7 @@ impl PathRule for MaybeFiveAxisLengthInIncremental {
         };
         let (Some(length), Some(increments)) = (code(length), code(increments)) else { return };
         let message =
-            format!("words may be incremental under 5-axis tool length compensation (`{}`)", length.number());
+            format!("words may be incremental under 5-axis length compensation (`{}`)", length.number());
         let mut finding = finding(cx, &META, message, length, increments);
         let sets = |at, role| {
             cx.find_word(at, |word| word.code != CodeIx::NONE && cx.model.role(word.code) == Some(role))

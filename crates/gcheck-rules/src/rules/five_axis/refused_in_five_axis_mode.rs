@@ -68,10 +68,9 @@ impl PathRule for RefusedInFiveAxisMode {
                 continue;
             }
             let Some(finding) = finding(cx, &META, &clash, "") else { continue };
-            report.add(match clash.is_assumed {
-                true => finding,
-                false => cx.resting_on_mode(finding, clash.role),
-            });
+            let finding =
+                if clash.is_assumed { finding } else { cx.resting_on_mode(finding, clash.role) };
+            report.add(finding);
         }
     }
 }
