@@ -40,6 +40,10 @@ pub enum Assumption {
     ProbeTouch,
     /// The machine has all axes that the control may have.
     Axis(Axis),
+    /// Which way the two axes of a tilting head turn, and which carries the other.
+    HeadKinematics,
+    /// The tool is parallel to Z where the rotary axes read zero.
+    UprightTool,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.

@@ -53,6 +53,9 @@ pub enum Event {
     Shift(Position),
     /// The tool offsets now in effect.
     LengthOffset(Position),
+    /// The vector that the next move is shifted along by the size of the cutter: I, J and K as the block gives them (`None`
+    /// left out, NaN unknown).
+    CutterVector([Option<f64>; 3]),
     /// The rotation about Z now in effect, degrees.
     Rotation(f64),
     /// A tool's entry in the tool table was written.

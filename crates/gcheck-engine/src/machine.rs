@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
 use crate::position::{Axis, Position};
@@ -43,6 +43,10 @@ pub struct Machine {
     pub tool_table_is_complete: bool,
     /// Units of the control's tables of offsets and tools; those of the program when not given.
     pub table_units: Option<Units>,
+    /// The rotary axes that tilt the tool or the part.
+    pub kinematics: Option<Kinematics>,
+    /// By number of the tool: the length that programs were posted for.
+    pub posted_lengths: BTreeMap<u32, Mm>,
     /// Numbered variables that nobody set hold zero (the state after a fresh start).
     pub fresh: bool,
 }

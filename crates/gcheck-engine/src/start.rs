@@ -15,6 +15,7 @@ use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+use crate::tool_shift::ToolShift;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -71,6 +72,7 @@ pub(crate) fn start_state<D: Domain>(
         shift_on: true,
         local: Position::ZERO,
         length: Position::ZERO,
+        tool_shift: ToolShift::NONE,
         h: D::number(0.0),
         d: D::number(0.0),
         feed: D::number(0.0),

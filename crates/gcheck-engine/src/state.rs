@@ -14,6 +14,7 @@ use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
 use crate::step::compensation::Compensation;
+use crate::tool_shift::ToolShift;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -296,6 +297,8 @@ pub struct State<D: Domain> {
     pub(crate) local: Position,
     /// Tool offsets in effect.
     pub(crate) length: Position,
+    /// Shifts by the tool between the programmed point and the axes.
+    pub(crate) tool_shift: ToolShift,
     pub(crate) h: D::Value,
     pub(crate) d: D::Value,
     /// In millimetres a minute or turn, or moves a minute; 0 none given.
@@ -429,6 +432,12 @@ impl<D: Domain> State<D> {
         self.modes[role.index()] = ModeSet::one(code);
     }
 
+    /// The role's code may also be one of these.
+    #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
+    pub(crate) fn join_mode(&mut self, role: Role, other: &ModeSet) {
+        self.modes[role.index()] = self.modes[role.index()].join(other);
+    }
+
     /// The effect in force for a role, if it is the only one it may be.
     pub fn effect(&self, role: Role, model: &Model<'_>) -> Option<Effect> {
         self.mode(role).only().map(|code| model.effect(code))
@@ -497,6 +506,11 @@ impl<D: Domain> State<D> {
     /// Tool offsets in effect by axis.
     pub fn length(&self) -> &Position {
         &self.length
+    }
+
+    /// Shifts by the tool between the programmed point and the axes.
+    pub fn tool_shift(&self) -> &ToolShift {
+        &self.tool_shift
     }
 
     /// Number of the active work coordinate system, 1 the first.
@@ -671,6 +685,7 @@ impl<D: Domain> State<D> {
         }
         joined.local = self.local.join(&other.local);
         joined.length = self.length.join(&other.length);
+        joined.tool_shift = self.tool_shift.join(&other.tool_shift);
         joined.h = value(&self.h, &other.h);
         joined.d = value(&self.d, &other.d);
         joined.feed = value(&self.feed, &other.feed);
@@ -738,6 +753,7 @@ impl<D: Domain> State<D> {
                     && same(self.actual.raw(axis), inner.actual.raw(axis))
                     && same(self.length.raw(axis), inner.length.raw(axis))
             })
+            && self.tool_shift.contains(&inner.tool_shift)
             && (self.work.is_none() || self.work == inner.work)
             && D::contains(&self.h, &inner.h)
             && D::contains(&self.d, &inner.d)
@@ -771,6 +787,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.shift_on == other.shift_on
             && self.local == other.local
             && self.length == other.length
+            && self.tool_shift == other.tool_shift
             && self.h == other.h
             && self.d == other.d
             && self.feed == other.feed

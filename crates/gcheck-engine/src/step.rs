@@ -20,6 +20,7 @@ mod program_end;
 mod reference;
 mod spindle;
 mod system;
+mod tool_shift;
 mod transform;
 
 use std::collections::BTreeSet;
@@ -325,7 +326,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let words = table.words(block);
         if !words.is_empty() {
             self.read_words(place, table, words, state)?;
-            self.execute(place, words, state)?;
+            let executed = self.execute(place, words, state);
+            self.settle_tool_shift(state);
+            executed?;
         }
         if !self.pending.is_empty() {
             let mut pending = std::mem::take(&mut self.pending);
@@ -506,6 +509,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
         if let Err(fault) = self.check_block(place, words, state) {
             self.refuse(fault)?;
+        }
+        if state.tool_shift.is_on() {
+            self.words_of_tool_shift(state)?;
         }
         let present = self.words.present();
         let codes = self.words.codes();

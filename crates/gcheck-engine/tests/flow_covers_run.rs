@@ -31,6 +31,8 @@ enum Style {
     Macro,
     /// As [`Style::Macro`], with `M97`.
     Local,
+    /// As [`Style::Local`], with modes that shift the axes by the tool.
+    FiveAxis,
     /// O-words.
     OWords,
 }
@@ -174,6 +176,9 @@ impl<'a> Writer<'a> {
     }
 
     fn mode(&mut self) {
+        if self.style == Style::FiveAxis {
+            return self.five_axis_mode();
+        }
         let line = [
             "G90",
             "G91",
@@ -221,6 +226,36 @@ impl<'a> Writer<'a> {
         // What LinuxCNC has not, or not without a tool table.
         let is_foreign = self.style == Style::OWords && ["G52", "G41"].iter().any(|g| line.starts_with(g));
         self.line(if is_foreign { "G92.1" } else { line });
+    }
+
+    fn five_axis_mode(&mut self) {
+        let line = [
+            "G143 H1 X1. Y2. Z3. A10. B5.",
+            "G143 H#100",
+            "G143",
+            "G0 A20. B#101",
+            "X1. Y1. Z1. A0. B0.",
+            "H0",
+            "H#102",
+            "G49",
+            "G43 H1 Z5.",
+            "G1 G141 D1 X1. I0. J.6 K.8 F100.",
+            "X2. Y#102 I1. J0. K0.",
+            "D0",
+            "D#103",
+            "G40",
+            "G10 L10 P1 R10.",
+            "G10 L12 P1 R4.",
+            "G55",
+            "G54",
+            "G52 X1.",
+            "G53 G0 Z-1.",
+            "G90",
+            "G91",
+            "G93",
+            "G94 F200.",
+        ][self.choose(24) as usize];
+        self.line(line);
     }
 
     fn skipped(&mut self) {
@@ -341,7 +376,7 @@ impl<'a> Writer<'a> {
                 }
                 self.line(format!("o{label} endwhile"));
             }
-            Style::Macro | Style::Local => {
+            Style::Macro | Style::Local | Style::FiveAxis => {
                 let number = self.loop_depth;
                 self.line(format!("#{counter}=0"));
                 self.line(format!("WHILE [#{counter} LT {bound}] DO{number}"));
@@ -384,7 +419,7 @@ impl<'a> Writer<'a> {
         let caller = std::mem::take(&mut self.text);
         let (depth, loop_depth) = (self.depth, self.loop_depth);
         (self.inside, self.depth, self.loop_depth) = (true, 1, 0);
-        let is_local = self.style == Style::Local && self.choose(2) == 1;
+        let is_local = matches!(self.style, Style::Local | Style::FiveAxis) && self.choose(2) == 1;
         match self.style {
             Style::OWords => self.line(format!("o{number} sub")),
             _ if is_local => self.line(format!("N{number}")),
@@ -622,6 +657,11 @@ fn the_flow_covers_the_run_with_gotos_and_macros() {
 #[test]
 fn the_flow_covers_the_run_with_local_subprograms() {
     law("haas-mill", Style::Local, 2_000);
+}
+
+#[test]
+fn the_flow_covers_the_run_with_shifts_by_the_tool() {
+    law("haas-mill", Style::FiveAxis, 2_000);
 }
 
 #[test]

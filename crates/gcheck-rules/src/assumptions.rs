@@ -90,6 +90,13 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::ProbeTouch => Described::new("probing moves touch, at points that nobody knows"),
         Assumption::Axis(axis) => Described::new(format!("the machine has the axis `{}`", axis.name()))
             .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
+        Assumption::HeadKinematics => {
+            Described::new("the head tilts in A, which carries B, and both turn by the right-hand rule")
+                .pin("[machine] rotary_order = [\"A\", \"B\"]")
+        }
+        Assumption::UprightTool => {
+            Described::new("the tool is parallel to Z where the work positions of A and B are zero")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -173,7 +180,10 @@ fn weight(assumption: &Assumption) -> u8 {
         Assumption::WorkOffset(_) => 4,
         Assumption::ToolLength(_) | Assumption::ToolRadius(_) => 5,
         Assumption::Variable(_) => 6,
-        Assumption::Axis(_) | Assumption::ProbeTouch => 7,
+        Assumption::Axis(_)
+        | Assumption::ProbeTouch
+        | Assumption::HeadKinematics
+        | Assumption::UprightTool => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

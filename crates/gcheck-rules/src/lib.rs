@@ -11,6 +11,7 @@ mod context;
 mod contract;
 mod evidence;
 mod finding;
+mod five_axis;
 mod fixing;
 mod loops;
 mod meta;

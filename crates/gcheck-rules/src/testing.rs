@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use expect_test::Expect;
+use gcheck_controls::LetterSet;
 use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm};
 use gcheck_program::Dialect;
@@ -36,7 +37,7 @@ impl Default for World<'_> {
 
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
-    /// 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
+    /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         let mut world = Self::default();
         if rule.group == "machine" {
@@ -48,6 +49,7 @@ impl World<'_> {
                 angles: [0.0; 2],
                 orientation: 0,
             };
+            world.machine.axes = Some(LetterSet::of("XYZA"));
             world.machine.engine = Machine {
                 max_rpm: Some(Rpm(8000.0)),
                 max_feed: Some(MmPerMin(10_000.0)),

@@ -344,6 +344,7 @@ impl Statistics {
                 rpm: 0.0,
                 machine: Position::UNKNOWN,
                 tool: None,
+                beside: None,
                 file: "",
             };
             return Section::new(None, false, &nowhere);

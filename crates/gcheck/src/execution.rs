@@ -5,6 +5,7 @@
 mod bridge;
 mod closing;
 mod equipment;
+mod rotary;
 mod tool_names;
 mod tool_table;
 

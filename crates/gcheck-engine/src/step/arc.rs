@@ -93,7 +93,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.left_compensation.is_some() {
             self.leave_compensation(true, state)?;
         }
-        if self.compensates(state) {
+        if self.compensates(state) || state.tool_shift.is_on() {
             return self.unknown_arc(counter_clockwise, target, state);
         }
         let to = self.axes_of(target, state);

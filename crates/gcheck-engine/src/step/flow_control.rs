@@ -227,8 +227,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn lose_everything(&mut self, state: &mut State<D>) {
         state.compensation = None;
         let frames = state.frames.clone();
+        let shift = state.tool_shift;
         let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
         *state = unknown;
+        // What was on may still be; of what was off we take it that it is left off.
+        state.tool_shift = shift.or_none();
         state.frames = frames;
         if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
             locals.forget();

@@ -239,6 +239,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.machine_move(kind, state);
         }
         let target = self.target(state)?;
+        self.announce_vector(state);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         self.travel(kind, target, false, state)?;
         checked
@@ -343,6 +344,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_compensation(false, state)?;
         }
         let mut to = self.axes_of(&target, state);
+        if !expanded {
+            self.keep_unnamed(&mut to, state);
+        }
         if self.may_compensate(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);

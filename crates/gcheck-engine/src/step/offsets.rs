@@ -186,6 +186,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Ok(())
             }
             Effect::LengthAdd => self.add_length(state),
+            Effect::LengthFiveAxis => self.length_along_tool(state),
             Effect::LengthMinus => self.length_number(-1.0, state),
             _ => self.length_number(1.0, state),
         }
@@ -319,6 +320,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn set_length(&mut self, length: Position, state: &mut State<D>) {
+        self.end_length_along_tool(state);
         let old = state.length;
         self.reframe(state, |state| state.length = length);
         for axis in Axis::ALL {

@@ -6,6 +6,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_geometry::{Degrees, Frame, Mm, Plane};
 
 use super::arc::plane_axes;
+use super::tool_shift::shifted;
 use super::{Executor, Step};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -80,6 +81,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Where the axes go for a programmed point.
     pub(super) fn axes_of(&self, programmed: &Position, state: &State<D>) -> Position {
+        let to = self.transformed(programmed, state);
+        if state.tool_shift.is_on() { shifted(to, self.tool_shift(programmed, state)) } else { to }
+    }
+
+    /// The programmed point scaled, turned and mirrored, as a tool without length and size goes to it.
+    pub(super) fn transformed(&self, programmed: &Position, state: &State<D>) -> Position {
         match frame(&state.transform) {
             None => *programmed,
             Some(Some(frame)) => programmed.with_xyz(frame.apply(programmed.xyz())),
@@ -89,6 +96,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The programmed point for where the axes stand.
     pub(super) fn programmed_of(&self, actual: &Position, state: &State<D>) -> Position {
+        let back = state.tool_shift.beside.map(|by| -by);
+        let actual = &if state.tool_shift.is_on() { shifted(*actual, back) } else { *actual };
         match frame(&state.transform) {
             None => *actual,
             Some(frame) => match frame.and_then(|f| f.inverse()) {

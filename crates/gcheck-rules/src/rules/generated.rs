@@ -38,6 +38,21 @@ pub(crate) mod cycles {
     pub(crate) mod turning_profile_not_usable;
 }
 
+pub(crate) mod five_axis {
+    pub(crate) mod cutter_vector_incomplete;
+    pub(crate) mod cutter_vector_not_unit;
+    pub(crate) mod cutter_vector_without_size;
+    pub(crate) mod five_axis_axis_left_out;
+    pub(crate) mod five_axis_feed_per_minute;
+    pub(crate) mod five_axis_length_in_incremental;
+    pub(crate) mod five_axis_length_left_on;
+    pub(crate) mod five_axis_length_without_offset;
+    pub(crate) mod five_axis_zero_not_upright;
+    pub(crate) mod maybe_five_axis_length_in_incremental;
+    pub(crate) mod maybe_refused_in_five_axis_mode;
+    pub(crate) mod refused_in_five_axis_mode;
+}
+
 pub(crate) mod flow {
     pub(crate) mod alarm_reached;
     pub(crate) mod calls_nested_too_deep;
@@ -53,6 +68,7 @@ pub(crate) mod flow {
 
 pub(crate) mod machine {
     pub(crate) mod feed_above_machine_limit;
+    pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
@@ -242,6 +258,18 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
     &cycles::turning_profile_not_usable::RULE,
+    &five_axis::cutter_vector_incomplete::RULE,
+    &five_axis::cutter_vector_not_unit::RULE,
+    &five_axis::cutter_vector_without_size::RULE,
+    &five_axis::five_axis_axis_left_out::RULE,
+    &five_axis::five_axis_feed_per_minute::RULE,
+    &five_axis::five_axis_length_in_incremental::RULE,
+    &five_axis::five_axis_length_left_on::RULE,
+    &five_axis::five_axis_length_without_offset::RULE,
+    &five_axis::five_axis_zero_not_upright::RULE,
+    &five_axis::maybe_five_axis_length_in_incremental::RULE,
+    &five_axis::maybe_refused_in_five_axis_mode::RULE,
+    &five_axis::refused_in_five_axis_mode::RULE,
     &flow::alarm_reached::RULE,
     &flow::calls_nested_too_deep::RULE,
     &flow::endless_loop::RULE,
@@ -253,6 +281,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::feed_above_machine_limit::RULE,
+    &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,

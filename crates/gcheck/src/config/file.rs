@@ -267,6 +267,8 @@ pub struct ToolTable {
     pub length: Option<f64>,
     /// Offsets by axis, in place of `length`: the geometry of a turning tool, `{ X = -3.0, Z = 120.0 }`.
     pub offset: BTreeMap<Placed<String>, f64>,
+    /// Length of the tool that programs were posted for, where `length` corrects for another one along a tilting head.
+    pub posted_length: Option<f64>,
     /// Diameter.
     pub diameter: Option<f64>,
     /// Radius at the corner of the tip.

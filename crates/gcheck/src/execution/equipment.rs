@@ -11,6 +11,7 @@ use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
 use gcheck_toolpath::{Step, Timing};
 
+use super::rotary::RotaryAxes;
 use super::{Steps, tool_table};
 use crate::Problem;
 use crate::args::{Assignment, VariableName};
@@ -67,10 +68,14 @@ impl Equipment {
             remarks: BTreeMap::new(),
         };
         let mut rotary_rapid = None;
+        let mut rotary = RotaryAxes::default();
         for layer in layers {
-            equipment.put(layer, layer.units.map_or(in_force, units), control)?;
+            let in_layer = layer.units.map_or(in_force, units);
+            equipment.put(layer, in_layer, control)?;
+            rotary.put(&layer.machine, in_layer);
             rotary_rapid = layer.machine.rotary_rapid.as_ref().map(|rate| rate.value).or(rotary_rapid);
         }
+        equipment.machine.kinematics = rotary.kinematics();
         equipment.timing = Timing::new(equipment.machine.rapid, equipment.machine.tool_change);
         if let Some(rate) = rotary_rapid {
             equipment.timing = equipment.timing.with_rotary_rapid(rate);
@@ -149,6 +154,9 @@ impl Equipment {
             if let Some(axis) = axis_of(&name.value) {
                 tool.offset.set(axis, in_mm(axis, *value, mm));
             }
+        }
+        if let Some(length) = told.posted_length {
+            self.machine.posted_lengths.insert(number, Mm(length * mm));
         }
         tool.diameter = told.diameter.map_or(tool.diameter, |diameter| Mm(diameter * mm));
         tool.corner_radius = told.corner_radius.map_or(tool.corner_radius, |radius| Mm(radius * mm));

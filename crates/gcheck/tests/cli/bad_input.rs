@@ -590,3 +590,12 @@ fn nothing_hangs_or_breaks_a_run() {
         }
     }
 }
+
+#[test]
+fn rotary_axes_that_cannot_be() {
+    check_configuration("[machine]\nrotary_order = [\"A\"]\n", &expect![[""]]);
+    check_configuration("[machine]\nrotary_order = [\"A\", \"A\"]\n", &expect![[""]]);
+    check_configuration("[machine]\nrotary_order = [\"A\", \"B\", \"C\"]\n", &expect![[""]]);
+    check_configuration("[machine]\nrotary_order = [\"X\", \"B\"]\n", &expect![[""]]);
+    check_configuration("[machine]\nrotary_sign = { A = 2 }\n", &expect![[""]]);
+}

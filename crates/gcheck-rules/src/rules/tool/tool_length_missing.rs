@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role};
 
+use crate::five_axis::is_along_tool;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -32,6 +33,13 @@ declare_rule! {
     /// T1 M6
     /// G53 G0 Z0.
     /// G43 H1 Z.1
+    /// M30
+    /// ```
+    /// Lengths posted into the path need no other:
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G0 G90 G54 X0. Y0. Z1. A0. B0.
+    /// G143 H1 X0. Y0. Z.1 A5. B5.
     /// M30
     /// ```
     rule "tool-length-missing" in "tool" {
@@ -71,6 +79,10 @@ impl ToolLengthMissing {
     fn judge(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let rules = cx.model.semantics().tools;
         let Some(at) = self.changed else { return };
+        // Lengths that are posted into the path need none: what the control adds is a difference.
+        if cx.file_uses(is_along_tool) {
+            return;
+        }
         if self.is_done || rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
             return;
         }
