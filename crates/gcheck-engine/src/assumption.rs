@@ -40,6 +40,10 @@ pub enum Assumption {
     ProbeTouch,
     /// The machine has all axes that the control may have.
     Axis(Axis),
+    /// No earlier program gave cylinders on a rotary axis a diameter that still counts.
+    CylinderDiameter(Axis),
+    /// A drawing is wrapped from the angle at which the rotary axis stands when it begins.
+    CylinderStart(Axis),
     /// Nothing is known of a code's effect.
     Code(CodeIx),
 }

@@ -9,6 +9,7 @@ use std::rc::Rc;
 use gcheck_controls::CodeIx;
 use gcheck_geometry::{Mm, Plane, Seconds};
 
+use crate::cylinder::Cylinder;
 use crate::position::Position;
 
 /// One event. Its block, and the state in which it happens, come beside it ([`crate::Observer`]).
@@ -135,6 +136,9 @@ pub enum Event {
         /// Longest wait.
         timeout: Seconds,
     },
+    /// A linear axis is wrapped around a cylinder: its coordinates are those of the unrolled surface, and a rotary axis turns
+    /// in its place. `None` when that ends.
+    Cylinder(Option<Cylinder>),
     /// The probe input begins or ceases to matter.
     Probe(bool),
     /// Chuck clamped or unclamped.

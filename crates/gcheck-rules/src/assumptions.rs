@@ -90,6 +90,12 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::ProbeTouch => Described::new("probing moves touch, at points that nobody knows"),
         Assumption::Axis(axis) => Described::new(format!("the machine has the axis `{}`", axis.name()))
             .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
+        Assumption::CylinderDiameter(axis) => {
+            Described::new(format!("no program before this one gave cylinders on {} a diameter", axis.name()))
+        }
+        Assumption::CylinderStart(axis) => {
+            Described::new(format!("a drawing on {} begins at the angle where the axis stands", axis.name()))
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -170,7 +176,10 @@ fn weight(assumption: &Assumption) -> u8 {
         Assumption::WorkOffset(_) => 4,
         Assumption::ToolLength(_) | Assumption::ToolRadius(_) => 5,
         Assumption::Variable(_) => 6,
-        Assumption::Axis(_) | Assumption::ProbeTouch => 7,
+        Assumption::Axis(_)
+        | Assumption::ProbeTouch
+        | Assumption::CylinderDiameter(_)
+        | Assumption::CylinderStart(_) => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

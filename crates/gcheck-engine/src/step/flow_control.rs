@@ -10,6 +10,7 @@ use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind,
 
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::Assumption;
+use crate::cylinder::Wrapped;
 use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::state::{At, Frame, FrameKind, ModalCall, State};
@@ -228,7 +229,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.compensation = None;
         let frames = state.frames.clone();
         let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
+        // What was not wrapped still is not.
+        let wrapped = if state.wrapped == Wrapped::No { Wrapped::No } else { Wrapped::Unknown };
         *state = unknown;
+        state.wrapped = wrapped;
         state.frames = frames;
         if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
             locals.forget();

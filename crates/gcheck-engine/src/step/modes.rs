@@ -32,7 +32,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
-            self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);
+            // Whether a cylinder's code switches anything depends on its words.
+            if role != Role::Cylinder {
+                self.switch(role, ix, code.modal || role == Role::Mirror, state);
+            }
         }
         self.effect(code.effect, ix, place, words, state)
     }
@@ -198,7 +201,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | E::DynamicOffsetOn
             | E::DynamicOffsetOff
             | E::TiltedPlaneOn
-            | E::TiltedPlaneOff => self.unknown_frame(ix, state),
+            | E::TiltedPlaneOff => {
+                let on = matches!(effect, E::PolarInterpolationOn | E::DynamicOffsetOn | E::TiltedPlaneOn);
+                self.unknown_frame(ix, on, state);
+            }
 
             E::Dwell => self.dwell(state)?,
             E::WriteOffsets => self.write_offsets(state)?,
@@ -400,11 +406,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A frame whose geometry depends on the machine: from here on positions are not known.
-    fn unknown_frame(&mut self, ix: CodeIx, state: &mut State<D>) {
-        let on = matches!(
-            self.model.effect(ix),
-            Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn
-        );
+    pub(super) fn unknown_frame(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
         if on {
             self.assumptions.insert(Assumption::Code(ix));
         }
@@ -428,25 +430,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
         let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
         self.emit(state, Event::UserCommand { number, p, q });
-    }
-
-    /// `G107`: mapping on, off, or a new default diameter.
-    fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
-        let diameter = self
-            .length(Letter::of('Q'), state)
-            .or_else(|| self.length(Letter::of('R'), state).map(|r| 2.0 * r));
-        let rotary = self.words.has(Letter::of('A'))
-            || self.words.has(Letter::of('B'))
-            || self.words.has(Letter::of('C'));
-        let linear = ['X', 'Y', 'Z'].into_iter().any(|l| self.words.has(Letter::of(l)));
-        if linear || diameter.is_some() || rotary {
-            state.cylinder = Some(diameter.map_or(f64::NAN, |d| d / 2.0));
-        } else {
-            state.cylinder = None;
-            state.set_mode(Role::Cylinder, CodeIx::NONE);
-        }
-        self.unknown_frame(ix, state);
-        Ok(())
     }
 
     /// Both shifts together, as one on controls where they are one.

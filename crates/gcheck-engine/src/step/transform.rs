@@ -80,11 +80,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Where the axes go for a programmed point.
     pub(super) fn axes_of(&self, programmed: &Position, state: &State<D>) -> Position {
-        match frame(&state.transform) {
+        state.wrapped.turned(match frame(&state.transform) {
             None => *programmed,
             Some(Some(frame)) => programmed.with_xyz(frame.apply(programmed.xyz())),
             Some(None) => programmed.with_xyz([Mm::UNKNOWN; 3]),
-        }
+        })
     }
 
     /// The programmed point for where the axes stand.
