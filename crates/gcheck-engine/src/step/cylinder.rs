@@ -57,6 +57,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if let Some(mode) = state.modes.get_mut(Role::Cylinder.index()) {
                 *mode = mode.join(&ModeSet::one(ix));
             }
+            self.emit(state, Event::Modal(ix));
             return Ok(());
         }
         let diameter = self.diameter_of(rotary, rules, state);

@@ -52,6 +52,8 @@ pub(crate) mod flow {
 }
 
 pub(crate) mod machine {
+    pub(crate) mod cylinder_axis_not_on_machine;
+    pub(crate) mod cylinder_without_diameter;
     pub(crate) mod feed_above_machine_limit;
     pub(crate) mod move_outside_travel;
     pub(crate) mod speed_above_machine_limit;
@@ -79,6 +81,15 @@ pub(crate) mod macros {
     pub(crate) mod variable_number_not_whole;
     pub(crate) mod variable_read_before_set;
     pub(crate) mod variable_unlisted;
+}
+
+pub(crate) mod mapping {
+    pub(crate) mod cylinder_diameter_from_setting;
+    pub(crate) mod cylinder_feed_mode;
+    pub(crate) mod cylinder_left_on;
+    pub(crate) mod cylinder_without_rotary_axis;
+    pub(crate) mod cylinder_word_value_ignored;
+    pub(crate) mod maybe_cylinder_left_on;
 }
 
 pub(crate) mod modal {
@@ -252,6 +263,8 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
+    &machine::cylinder_axis_not_on_machine::RULE,
+    &machine::cylinder_without_diameter::RULE,
     &machine::feed_above_machine_limit::RULE,
     &machine::move_outside_travel::RULE,
     &machine::speed_above_machine_limit::RULE,
@@ -276,6 +289,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
     &macros::variable_unlisted::RULE,
+    &mapping::cylinder_diameter_from_setting::RULE,
+    &mapping::cylinder_feed_mode::RULE,
+    &mapping::cylinder_left_on::RULE,
+    &mapping::cylinder_without_rotary_axis::RULE,
+    &mapping::cylinder_word_value_ignored::RULE,
+    &mapping::maybe_cylinder_left_on::RULE,
     &modal::code_given_twice::RULE,
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
