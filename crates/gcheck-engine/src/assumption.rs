@@ -44,6 +44,8 @@ pub enum Assumption {
     CylinderDiameter(Axis),
     /// A drawing is wrapped from the angle at which the rotary axis stands when it begins.
     CylinderStart(Axis),
+    /// The tool stands over the start hole of a pocket, at the rapid level, when the control has cleared it.
+    PocketEnd,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
 }

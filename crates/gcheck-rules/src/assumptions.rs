@@ -96,6 +96,9 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::CylinderStart(axis) => {
             Described::new(format!("a drawing on {} begins at the angle where the axis stands", axis.name()))
         }
+        Assumption::PocketEnd => {
+            Described::new("a pocket that the control clears leaves the tool over its start hole, at the rapid level")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -179,7 +182,8 @@ fn weight(assumption: &Assumption) -> u8 {
         Assumption::Axis(_)
         | Assumption::ProbeTouch
         | Assumption::CylinderDiameter(_)
-        | Assumption::CylinderStart(_) => 7,
+        | Assumption::CylinderStart(_)
+        | Assumption::PocketEnd => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

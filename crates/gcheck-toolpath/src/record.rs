@@ -30,6 +30,8 @@ pub enum Kind {
     Coolant,
     /// An axis wrapped around a cylinder, or no longer.
     Wrap,
+    /// A pocket that the control clears by a path of its own.
+    Pocket,
     /// Chuck and bar feeder.
     Bar,
     /// The program stops.
@@ -51,6 +53,7 @@ impl Kind {
             Self::Spindle => "spindle",
             Self::Coolant => "coolant",
             Self::Wrap => "wrap",
+            Self::Pocket => "pocket",
             Self::Bar => "bar",
             Self::Stop => "stop",
             Self::End => "end",
@@ -203,6 +206,10 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
             };
             (Kind::Coolant, Some(action), None)
         }
+        Event::Cleared(clearing) => {
+            text = Some("an estimate: the path is the control's own");
+            (Kind::Pocket, Some("cut"), Some(("length", clearing.length.0 / step.units.in_mm())))
+        }
         Event::Cylinder(None) => (Kind::Wrap, Some("off"), None),
         Event::Cylinder(Some(cylinder)) => {
             text = Some(axes_of(cylinder));
@@ -228,6 +235,7 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
     };
     let seconds = match step.event {
         Event::Dwell(seconds) if !seconds.is_finite() => f64::NAN,
+        Event::Cleared(clearing) if !clearing.seconds.is_finite() => f64::NAN,
         _ => clock.still(step).0,
     };
     Some(Record { kind, path: None, seconds, action, value, text })

@@ -285,7 +285,7 @@ impl Table<'_> {
     }
 
     fn missing(&self, out: &mut String) {
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } =
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
             self.total.unaccounted;
         let moves = |count: u64| if count == 1 { "1 move".to_owned() } else { format!("{count} moves") };
         let mut lines = Vec::new();
@@ -301,6 +301,12 @@ impl Table<'_> {
         if dwells > 0 {
             let plural = if dwells == 1 { "" } else { "s" };
             lines.push(format!("{dwells} dwell{plural} of unknown length: not in time"));
+        }
+        if pockets > 0 {
+            let plural = if pockets == 1 { "" } else { "s" };
+            lines.push(format!(
+                "{pockets} pocket{plural} cleared with an unknown tool or feed: not in distance, time or extents"
+            ));
         }
         if partly > 0 {
             lines.push(format!("{} while an axis is at an unknown place: counted without it", moves(partly)));
@@ -325,6 +331,12 @@ impl Table<'_> {
             .into_iter()
             .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
             .collect();
+        if self.total.estimated > Seconds::ZERO {
+            lines.push(format!(
+                "{} of cutting are an estimate: pockets that the control clears by a path of its own, by their area",
+                clock(self.total.estimated, false)
+            ));
+        }
         if self.total.moves > 0 {
             lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }

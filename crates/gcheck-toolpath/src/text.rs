@@ -152,6 +152,7 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
         let before = match record.action {
             Some("push") => "push ",
             Some("on") => "diameter ",
+            Some("cut") => "cut ",
             Some("orient") => "to ",
             Some("change") => "T",
             Some("set") => "now T",

@@ -155,6 +155,7 @@ impl Clock {
     pub(crate) fn still(&self, step: &Step<'_>) -> Seconds {
         match step.event {
             Event::Dwell(seconds) if seconds.is_finite() => Seconds(seconds.0.max(0.0)),
+            Event::Cleared(clearing) if clearing.seconds.is_finite() => Seconds(clearing.seconds.0.max(0.0)),
             Event::ToolChange(tool) if tool.is_none() || *tool != self.tool => self.timing.tool_change,
             _ => Seconds::ZERO,
         }

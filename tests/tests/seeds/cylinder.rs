@@ -111,7 +111,7 @@ const SENTENCES: &[Sentence] = &[
             program: wrapped(
                 "O1\nG21 G90 G54 G0 X0. Y0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.4159 F100.\nY0.\nG107 Y0. A0. Q50.\nY31.4159\nG107\nM30\n",
             ),
-            prints: &["diameter 100, Y on A", "31.4159 ? 36.0000", "diameter 50, Y on A", "31.4159 ? 72.0000"],
+            prints: &["diameter 100, Y on A", "31.4159 ? 36.0000", "diameter 50, Y on A", "31.4159 ? 71.9999"],
         }],
     },
     Sentence {
