@@ -474,6 +474,9 @@ pub struct CycleRules {
     pub rise_to_r: bool,
     /// Tapping needs a turning spindle before.
     pub tap_needs_spindle: bool,
+    /// Moves that the outline of a pocket may have, where a book gives a number.
+    #[serde(default)]
+    pub pocket_moves: Option<u32>,
 }
 
 /// How `G41` and `G42` move.

@@ -471,6 +471,8 @@ mod json {
         rapid: Option<f64>,
         dwell: Option<f64>,
         tool_change: Option<f64>,
+        /// The part of `cutting` that is an estimate: pockets that the control clears by a path of its own.
+        estimated: Option<f64>,
     }
 
     #[derive(Serialize)]
@@ -527,6 +529,7 @@ mod json {
         partly: u64,
         machine: u64,
         machine_arcs: u64,
+        pockets: u64,
     }
 
     impl Figures {
@@ -552,6 +555,7 @@ mod json {
                     rapid: rounded(section.times.rapid.0),
                     dwell: rounded(section.times.dwell.0),
                     tool_change: rounded(section.times.tool_change.0),
+                    estimated: rounded(section.estimated.0),
                 },
                 distance: Ways {
                     cutting: length(section.cutting.0),
@@ -590,6 +594,7 @@ mod json {
                     partly: missing.partly,
                     machine: missing.machine,
                     machine_arcs: missing.arcs_by_ends,
+                    pockets: missing.pockets,
                 },
             }
         }

@@ -499,6 +499,7 @@ mod tests {
             incremental_r: true,
             rise_to_r: true,
             tap_needs_spindle: true,
+            pocket_moves: None,
         }
     }
 

@@ -35,6 +35,11 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pocket_outline_open;
+    pub(crate) mod pocket_outline_too_long;
+    pub(crate) mod pocket_outline_unfit;
+    pub(crate) mod pocket_start_outside;
+    pub(crate) mod pocket_without_compensation;
     pub(crate) mod turning_profile_not_usable;
 }
 
@@ -56,6 +61,7 @@ pub(crate) mod machine {
     pub(crate) mod cylinder_without_diameter;
     pub(crate) mod feed_above_machine_limit;
     pub(crate) mod move_outside_travel;
+    pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
 }
@@ -252,6 +258,11 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pocket_outline_open::RULE,
+    &cycles::pocket_outline_too_long::RULE,
+    &cycles::pocket_outline_unfit::RULE,
+    &cycles::pocket_start_outside::RULE,
+    &cycles::pocket_without_compensation::RULE,
     &cycles::turning_profile_not_usable::RULE,
     &flow::alarm_reached::RULE,
     &flow::calls_nested_too_deep::RULE,
@@ -267,6 +278,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &machine::cylinder_without_diameter::RULE,
     &machine::feed_above_machine_limit::RULE,
     &machine::move_outside_travel::RULE,
+    &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
     &macros::assignment_to_read_only_variable::RULE,

@@ -79,7 +79,10 @@ mod tests {
 
     #[test]
     fn a_word_that_may_be_nothing_may_begin_it() {
-        check_rule(&RULE, "haas-mill", "G107 Y#100 A0. Q2.\nT2 M6\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "G107 Y#100 A0. Q2.\nT2 M6\nM30\n", &expect![[r#"
+            2 | T2 M6
+              |    ^^ info[maybe-cylinder-left-on] an axis may still be wrapped at the tool change (`G107`)
+        "#]]);
     }
 
     #[test]
