@@ -312,6 +312,10 @@ pub struct Semantics {
     pub compensation: CompensationRules,
     /// How tools are called and measured.
     pub tools: ToolRules,
+    /// Cylindrical mapping that wraps a linear axis, by the words of its code; where a word for the rotary axis holds the
+    /// radius, there is none.
+    #[serde(default)]
+    pub cylinder: Option<CylinderRules>,
     /// Addresses that are increments of an axis whatever the mode: `{ U = "X", W = "Z" }`.
     #[serde(default)]
     pub increments: BTreeMap<String, String>,
@@ -484,6 +488,9 @@ pub struct CycleRules {
     /// `R` is a distance from the level at which the cycle begins, along X a radius; else it is a level.
     #[serde(default)]
     pub r_is_distance: bool,
+    /// Moves that the outline of a pocket may have, where a book gives a number.
+    #[serde(default)]
+    pub pocket_moves: Option<u32>,
 }
 
 /// How `G41` and `G42` move.
@@ -499,6 +506,16 @@ pub struct CompensationRules {
     pub freezes_modes: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
+}
+
+/// Cylindrical mapping that wraps a linear axis around a rotary one.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CylinderRules {
+    /// Settings with the diameter that counts until a program gives one: of the first rotary axis, of the second.
+    pub settings: Vec<String>,
+    /// The end of the program ends mapping when this setting is on.
+    pub ended_by_setting: Option<String>,
 }
 
 /// Shapes of compensated paths.

@@ -44,6 +44,12 @@ pub enum Assumption {
     HeadKinematics,
     /// The tool is parallel to Z where the rotary axes read zero.
     UprightTool,
+    /// No earlier program gave cylinders on a rotary axis a diameter that still counts.
+    CylinderDiameter(Axis),
+    /// A drawing is wrapped from the angle at which the rotary axis stands when it begins.
+    CylinderStart(Axis),
+    /// The tool stands over the start hole of a pocket, at the rapid level, when the control has cleared it.
+    PocketEnd,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.

@@ -9,6 +9,7 @@ use std::rc::Rc;
 use gcheck_controls::CodeIx;
 use gcheck_geometry::{Mm, Plane, Seconds};
 
+use crate::cylinder::Cylinder;
 use crate::position::Position;
 
 /// One event. Its block, and the state in which it happens, come beside it ([`crate::Observer`]).
@@ -138,6 +139,11 @@ pub enum Event {
         /// Longest wait.
         timeout: Seconds,
     },
+    /// A linear axis is wrapped around a cylinder: its coordinates are those of the unrolled surface, and a rotary axis turns
+    /// in its place. `None` when that ends.
+    Cylinder(Option<Cylinder>),
+    /// The control cleared a pocket by a path of its own, between the moves that are certain.
+    Cleared(Clearing),
     /// The probe input begins or ceases to matter.
     Probe(bool),
     /// Chuck clamped or unclamped.
@@ -179,6 +185,23 @@ pub struct Travel {
     pub to: Position,
     /// Made by a canned cycle or another operation that expands to several moves.
     pub expanded: bool,
+}
+
+/// What clearing a pocket comes to: an estimate from its area. What rests on an unknown tool or feed is NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clearing {
+    /// Smallest X, Y and Z of the tool's centre.
+    pub from: [Mm; 3],
+    /// Largest X, Y and Z of the tool's centre.
+    pub to: [Mm; 3],
+    /// Levels that are cleared.
+    pub levels: u32,
+    /// Way at feed, without the way down.
+    pub length: Mm,
+    /// Time of that way.
+    pub seconds: Seconds,
+    /// Where the tool stands, work coordinates.
+    pub at: Position,
 }
 
 /// How a straight move is driven.

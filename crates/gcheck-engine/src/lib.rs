@@ -5,6 +5,7 @@
 
 mod assumption;
 pub mod cycles;
+mod cylinder;
 mod event;
 mod fault;
 mod flow;
@@ -24,6 +25,7 @@ mod variables;
 mod words;
 
 pub use assumption::Assumption;
+pub use cylinder::{Cylinder, Diameters, Wrapped};
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{Decision, Fact, FlowCx, FlowObserver, FlowResult, MOST_EXACT_TURNS, Reach, Trace, flow};

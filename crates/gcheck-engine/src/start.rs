@@ -9,6 +9,7 @@ use gcheck_controls::{CodeIx, Unset};
 use gcheck_geometry::Mm;
 
 use crate::assumption::Assumption;
+use crate::cylinder::{Diameters, Wrapped};
 use crate::event::{Spindle, Units};
 use crate::machine::{Machine, Tool, WorkOffset};
 use crate::modal::ModeSet;
@@ -101,7 +102,8 @@ pub(crate) fn start_state<D: Domain>(
         cycle: CycleWords::NONE,
         turning: None,
         transform: Transform::NONE,
-        cylinder: None,
+        wrapped: Wrapped::No,
+        diameters: Diameters::default(),
         blending: (0.0, None),
         passed: Position::UNKNOWN,
         probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
@@ -174,6 +176,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.loaded.diameter = Mm::UNKNOWN;
     state.transform.angle = f64::NAN;
     state.passed = Position::UNKNOWN;
+    state.diameters.forget();
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
     state.variables.forget();

@@ -8,6 +8,7 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_geometry::{Mm, Plane};
 
+use crate::cylinder::{Diameters, Wrapped};
 use crate::event::{FeedMode, Spindle, Units};
 use crate::machine::WorkOffset;
 use crate::modal::ModeSet;
@@ -329,8 +330,10 @@ pub struct State<D: Domain> {
     /// Words of turning cycles; none before the first one.
     pub(crate) turning: Option<Rc<TurningWords>>,
     pub(crate) transform: Transform,
-    /// Radius of the mapped cylinder, millimetres.
-    pub(crate) cylinder: Option<f64>,
+    /// A linear axis wrapped around a cylinder.
+    pub(crate) wrapped: Wrapped,
+    /// Diameters of cylinders as the program gave them.
+    pub(crate) diameters: Diameters,
     /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
     /// The point that the last return to a reference position passed, programmed coordinates.
@@ -529,6 +532,16 @@ impl<D: Domain> State<D> {
         &self.transform
     }
 
+    /// Whether a linear axis is wrapped around a cylinder.
+    pub fn wrapped(&self) -> &Wrapped {
+        &self.wrapped
+    }
+
+    /// Diameters of cylinders as the program gave them.
+    pub fn diameters(&self) -> &Diameters {
+        &self.diameters
+    }
+
     /// Words of the canned cycle in effect.
     pub fn cycle(&self) -> &CycleWords {
         &self.cycle
@@ -625,10 +638,12 @@ impl<D: Domain> State<D> {
         self.in_effect
     }
 
-    /// From work coordinates to machine coordinates. What a mode turns or maps by the machine's own geometry is unknown.
+    /// From work coordinates to machine coordinates; an axis that is wrapped around a cylinder stands still. What a mode
+    /// turns or maps by the machine's own geometry is unknown.
     pub fn to_machine(&self, work: &Position, model: &Model<'_>) -> Position {
         let offset = self.work_offset();
-        let machine = rotate(*work + self.shift(), offset.rotation) + offset.origin + self.length;
+        let work = self.wrapped.standing(*work);
+        let machine = rotate(work + self.shift(), offset.rotation) + offset.origin + self.length;
         self.without_mapped(machine, &machine, model)
     }
 
@@ -713,11 +728,8 @@ impl<D: Domain> State<D> {
         if self.transform != other.transform {
             joined.transform.angle = f64::NAN;
         }
-        joined.cylinder = match (self.cylinder, other.cylinder) {
-            (None, None) => None,
-            (Some(a), Some(b)) => Some(number(a, b)),
-            _ => Some(f64::NAN),
-        };
+        joined.wrapped = self.wrapped.join(&other.wrapped);
+        joined.diameters = self.diameters.join(&other.diameters);
         if self.blending != other.blending {
             joined.blending = (0.0, None);
         }
@@ -766,6 +778,8 @@ impl<D: Domain> State<D> {
             && truth(self.mist, inner.mist)
             && truth(self.flood, inner.flood)
             && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
+            && self.wrapped.contains(&inner.wrapped)
+            && self.diameters.contains(&inner.diameters)
             && self.variables.contains(&inner.variables)
     }
 }
@@ -806,7 +820,8 @@ impl<D: Domain> PartialEq for State<D> {
             && self.cycle.bits() == other.cycle.bits()
             && self.turning == other.turning
             && format_bits(&self.transform) == format_bits(&other.transform)
-            && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
+            && self.wrapped == other.wrapped
+            && self.diameters == other.diameters
             && self.blending == other.blending
             && self.passed == other.passed
             && self.probed == other.probed

@@ -7,6 +7,7 @@ mod arc;
 pub(crate) mod compensation;
 pub(crate) mod contract;
 mod cycle;
+mod cylinder;
 mod flow_control;
 mod lathe;
 mod message;

@@ -223,6 +223,9 @@ impl<'a> Writer<'a> {
             "G92.1",
             "G0 X[#5001]",
         ][self.choose(42) as usize];
+        if self.style == Style::Local && self.choose(8) == 7 {
+            return self.wrapped();
+        }
         // What LinuxCNC has not, or not without a tool table.
         let is_foreign = self.style == Style::OWords && ["G52", "G41"].iter().any(|g| line.starts_with(g));
         self.line(if is_foreign { "G92.1" } else { line });
@@ -255,6 +258,21 @@ impl<'a> Writer<'a> {
             "G93",
             "G94 F200.",
         ][self.choose(24) as usize];
+        self.line(line);
+    }
+
+    /// Drawings around a cylinder on A.
+    fn wrapped(&mut self) {
+        let line = [
+            "G107 Y0. A0. Q50.",
+            "G107",
+            "G107 A0. R#100",
+            "G107 Y0. A0.",
+            "G0 A90.",
+            "G107 X0. A0. Q#100",
+            "G1 Y#101 F100.",
+            "/G107 Y0. A0. Q20.",
+        ][self.choose(8) as usize];
         self.line(line);
     }
 

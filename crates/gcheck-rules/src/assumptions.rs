@@ -97,6 +97,15 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::UprightTool => {
             Described::new("the tool is parallel to Z where the work positions of A and B are zero")
         }
+        Assumption::CylinderDiameter(axis) => {
+            Described::new(format!("no program before this one gave cylinders on {} a diameter", axis.name()))
+        }
+        Assumption::CylinderStart(axis) => {
+            Described::new(format!("a drawing on {} begins at the angle where the axis stands", axis.name()))
+        }
+        Assumption::PocketEnd => {
+            Described::new("a pocket that the control clears leaves the tool over its start hole, at the rapid level")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -183,7 +192,10 @@ fn weight(assumption: &Assumption) -> u8 {
         Assumption::Axis(_)
         | Assumption::ProbeTouch
         | Assumption::HeadKinematics
-        | Assumption::UprightTool => 7,
+        | Assumption::UprightTool
+        | Assumption::CylinderDiameter(_)
+        | Assumption::CylinderStart(_)
+        | Assumption::PocketEnd => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

@@ -707,6 +707,8 @@ mod tests {
                 CycleFault::InverseTime => By(&["cycle-in-inverse-time"]),
                 CycleFault::Compensated => By(&["cycle-under-compensation"]),
                 CycleFault::Plane | CycleFault::Geometry => By(&["cycle-numbers-contradict"]),
+                CycleFault::OutlineOpen(_) | CycleFault::OutlineEmpty => By(&["pocket-outline-open"]),
+                CycleFault::StartOutside => By(&["pocket-start-outside"]),
             },
             Fault::Compensation(fault) => match fault {
                 CompensationFault::EntryTooShort { .. } => By(&["lead-in-too-short"]),
@@ -822,6 +824,9 @@ mod tests {
                 CycleFault::Compensated,
                 CycleFault::Plane,
                 CycleFault::Geometry,
+                CycleFault::OutlineOpen(1.0),
+                CycleFault::OutlineEmpty,
+                CycleFault::StartOutside,
             ]
             .map(Fault::Cycle),
         );

@@ -2,6 +2,7 @@
 //!
 //! Knows: how a test states what it expects. Must not know: any rule.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::Range;
 
@@ -37,7 +38,8 @@ impl Default for World<'_> {
 
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
-    /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
+    /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
+    /// rotary axes of diameter 0.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         let mut world = Self::default();
         if rule.group == "machine" {
@@ -50,7 +52,10 @@ impl World<'_> {
                 orientation: 0,
             };
             world.machine.axes = Some(LetterSet::of("XYZA"));
+            let settings = || BTreeMap::from([("34".to_owned(), "0".to_owned())]);
+            world.machine.settings = settings();
             world.machine.engine = Machine {
+                settings: settings(),
                 max_rpm: Some(Rpm(8000.0)),
                 max_feed: Some(MmPerMin(10_000.0)),
                 travel: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, (-500.0, 500.0))).collect(),

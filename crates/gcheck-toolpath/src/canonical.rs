@@ -158,7 +158,11 @@ impl<W: Write> Canonical<W> {
                 out.extend_from_slice(b"\")");
             }),
             // The interface has nothing for them and the interpreter says nothing.
-            Event::Modal(_) | Event::WaitInput { .. } | Event::CutterVector(_) => Ok(()),
+            Event::Modal(_)
+            | Event::WaitInput { .. }
+            | Event::CutterVector(_)
+            | Event::Cylinder(_)
+            | Event::Cleared(_) => Ok(()),
             Event::Probe(on) => self.word(n, if *on { "TURN_PROBE_ON()" } else { "TURN_PROBE_OFF()" }),
             Event::FeedRate(_)
             | Event::FeedMode(_)

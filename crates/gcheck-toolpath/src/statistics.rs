@@ -3,7 +3,7 @@
 //! Knows: what is counted, and what cannot be. Must not know: how it is shown ([`crate::Names`] and the summary do that),
 //! what the figures are good for.
 
-use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Units};
 use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
 
 use crate::motion::{Cover, Motion, Way, cover};
@@ -134,6 +134,8 @@ pub struct Unaccounted {
     pub arcs_by_ends: u64,
     /// Moves of which the place in machine coordinates is unknown on an axis that is shown.
     pub machine: u64,
+    /// Pockets that the control clears with a tool or a feed that is unknown: not in ways, times and extents.
+    pub pockets: u64,
 }
 
 /// From one tool change to the next, or a whole run.
@@ -177,6 +179,8 @@ pub struct Section {
     pub surface_speeds: Values,
     /// Work coordinate systems in which something moved, with the way of all moves.
     pub offsets: Vec<OffsetUse>,
+    /// The part of the cutting time that is an estimate: pockets that the control clears by a path of its own.
+    pub estimated: Seconds,
     /// What the figures lack.
     pub unaccounted: Unaccounted,
 }
@@ -203,6 +207,7 @@ impl Section {
             speeds: Values::default(),
             surface_speeds: Values::default(),
             offsets: Vec::new(),
+            estimated: Seconds::ZERO,
             unaccounted: Unaccounted::default(),
         }
     }
@@ -215,6 +220,7 @@ impl Section {
         self.rapid += other.rapid;
         self.cutting += other.cutting;
         self.turned += other.turned;
+        self.estimated += other.estimated;
         self.moves += other.moves;
         self.arcs += other.arcs;
         self.probes += other.probes;
@@ -230,7 +236,7 @@ impl Section {
         for used in &other.offsets {
             self.offset(used.number).include_bounds(&used.extents);
         }
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } = other.unaccounted;
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } = other.unaccounted;
         self.unaccounted.points += points;
         self.unaccounted.feeds += feeds;
         self.unaccounted.speeds += speeds;
@@ -238,6 +244,7 @@ impl Section {
         self.unaccounted.dwells += dwells;
         self.unaccounted.arcs_by_ends += arcs_by_ends;
         self.unaccounted.machine += machine;
+        self.unaccounted.pockets += pockets;
     }
 
     /// Where all moves went, in the work coordinates that were active.
@@ -314,6 +321,7 @@ impl Statistics {
                 section.times.dwell += time;
                 section.unaccounted.dwells += u64::from(!seconds.is_finite());
             }
+            Event::Cleared(clearing) => self.cleared(step, clearing),
             Event::WorkOffset { number, .. } => self.work = Some(*number),
             Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => {
                 let tracker = self.clock.tracker;
@@ -422,6 +430,27 @@ impl Statistics {
         self.current = Some(at);
         #[expect(clippy::indexing_slicing, reason = "sections are never removed")]
         &mut self.sections[at]
+    }
+
+    /// A pocket that the control clears: what it comes to is an estimate, and is said to be one.
+    fn cleared(&mut self, step: &Step<'_>, clearing: &Clearing) {
+        let work = self.work;
+        let section = self.section(step);
+        if clearing.length.is_known() && clearing.seconds.is_finite() {
+            section.times.cutting += clearing.seconds;
+            section.cutting += clearing.length;
+            section.estimated += clearing.seconds;
+        } else {
+            section.unaccounted.pockets += 1;
+        }
+        let mut extents = Bounds::EMPTY;
+        for corner in [clearing.from, clearing.to] {
+            let corner = clearing.at.with_xyz(corner);
+            include(&mut extents, &corner, true);
+            include(&mut section.machine, &(step.machine + (corner - clearing.at)), true);
+        }
+        section.offset(work).include_bounds(&extents);
+        section.cut.include_bounds(&extents);
     }
 
     fn motion(&mut self, step: &Step<'_>, motion: &Motion) {

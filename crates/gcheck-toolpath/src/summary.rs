@@ -285,7 +285,7 @@ impl Table<'_> {
     }
 
     fn missing(&self, out: &mut String) {
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } =
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
             self.total.unaccounted;
         let moves = |count: u64| if count == 1 { "1 move".to_owned() } else { format!("{count} moves") };
         let mut lines = Vec::new();
@@ -301,6 +301,12 @@ impl Table<'_> {
         if dwells > 0 {
             let plural = if dwells == 1 { "" } else { "s" };
             lines.push(format!("{dwells} dwell{plural} of unknown length: not in time"));
+        }
+        if pockets > 0 {
+            let plural = if pockets == 1 { "" } else { "s" };
+            lines.push(format!(
+                "{pockets} pocket{plural} cleared with an unknown tool or feed: not in distance, time or extents"
+            ));
         }
         if partly > 0 {
             lines.push(format!("{} while an axis is at an unknown place: counted without it", moves(partly)));
@@ -325,6 +331,12 @@ impl Table<'_> {
             .into_iter()
             .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
             .collect();
+        if self.total.estimated > Seconds::ZERO {
+            lines.push(format!(
+                "{} of cutting are an estimate: pockets that the control clears by a path of its own, by their area",
+                clock(self.total.estimated, false)
+            ));
+        }
         if self.total.moves > 0 {
             lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }
@@ -459,6 +471,8 @@ mod json {
         rapid: Option<f64>,
         dwell: Option<f64>,
         tool_change: Option<f64>,
+        /// The part of `cutting` that is an estimate: pockets that the control clears by a path of its own.
+        estimated: Option<f64>,
     }
 
     #[derive(Serialize)]
@@ -515,6 +529,7 @@ mod json {
         partly: u64,
         machine: u64,
         machine_arcs: u64,
+        pockets: u64,
     }
 
     impl Figures {
@@ -540,6 +555,7 @@ mod json {
                     rapid: rounded(section.times.rapid.0),
                     dwell: rounded(section.times.dwell.0),
                     tool_change: rounded(section.times.tool_change.0),
+                    estimated: rounded(section.estimated.0),
                 },
                 distance: Ways {
                     cutting: length(section.cutting.0),
@@ -578,6 +594,7 @@ mod json {
                     partly: missing.partly,
                     machine: missing.machine,
                     machine_arcs: missing.arcs_by_ends,
+                    pockets: missing.pockets,
                 },
             }
         }

@@ -154,6 +154,8 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
     if let Some((name, value)) = record.value {
         let before = match record.action {
             Some("push") => "push ",
+            Some("on") => "diameter ",
+            Some("cut") => "cut ",
             Some("orient") => "to ",
             Some("change") => "T",
             Some("set") => "now T",
@@ -169,6 +171,9 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
         });
     }
     if let Some(text) = record.text {
+        if record.value.is_some() {
+            out.extend_from_slice(b", ");
+        }
         out.extend(text.bytes().map(|byte| if byte < b' ' { b' ' } else { byte }));
     }
 }

@@ -79,8 +79,9 @@ impl Timing {
     }
 
     /// Every axis runs at its own rate; the movement is over when the last one has arrived.
-    fn rapid_seconds(&self, from: &Position, to: &Position) -> f64 {
-        let times = Axis::ALL.into_iter().zip(self.rapid).map(|(axis, rate)| {
+    fn rapid_seconds(&self, from: &Position, to: &Position, still: Option<Axis>) -> f64 {
+        let times = Axis::ALL.into_iter().zip(self.rapid).filter(|(axis, _)| Some(*axis) != still);
+        let times = times.map(|(axis, rate)| {
             let way = (to.raw(axis) - from.raw(axis)).abs();
             // An axis that is unknown at both ends does not count; at one end, the movement is not timed at all.
             if way.is_nan() { 0.0 } else { way / rate * 60.0 }
@@ -154,6 +155,7 @@ impl Clock {
     pub(crate) fn still(&self, step: &Step<'_>) -> Seconds {
         match step.event {
             Event::Dwell(seconds) if seconds.is_finite() => Seconds(seconds.0.max(0.0)),
+            Event::Cleared(clearing) if clearing.seconds.is_finite() => Seconds(clearing.seconds.0.max(0.0)),
             Event::ToolChange(tool) if tool.is_none() || *tool != self.tool => self.timing.tool_change,
             _ => Seconds::ZERO,
         }
@@ -172,7 +174,7 @@ impl Clock {
             Cover::Length(length) | Cover::Turn(length) => length,
         };
         if motion.way == Way::Rapid {
-            return Ok(Seconds(self.timing.rapid_seconds(&motion.from, &motion.to)));
+            return Ok(Seconds(self.timing.rapid_seconds(&motion.from, &motion.to, self.tracker.still())));
         }
         let by_turn = |lead: f64, scale: f64| {
             let lead = positive(lead.abs(), Untimed::Feed)?;

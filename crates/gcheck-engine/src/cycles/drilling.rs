@@ -492,6 +492,7 @@ mod tests {
             tap_needs_spindle: true,
             across: Vec::new(),
             r_is_distance: false,
+            pocket_moves: None,
         }
     }
 

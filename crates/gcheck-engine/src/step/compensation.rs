@@ -174,7 +174,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.give_out(&mut compensation, out, state);
         match result {
             Ok(exit) => {
-                state.actual = above(&state.actual, exit.position, compensation.plane);
+                let actual = above(&state.actual, exit.position, compensation.plane);
+                state.actual = state.wrapped.turned(actual);
                 state.position = above(&state.position, exit.programmed, compensation.plane);
                 state.left_compensation = Some(compensation);
                 Ok(())
@@ -256,7 +257,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.position = target;
         match result {
             Ok(()) => {
-                state.actual = above(&target, compensation.compensator.position(), compensation.plane);
+                let actual = above(&target, compensation.compensator.position(), compensation.plane);
+                state.actual = state.wrapped.turned(actual);
                 state.compensation = Some(compensation);
                 Ok(())
             }
@@ -298,7 +300,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &State<D>,
     ) {
         let from = compensation.at;
-        let to = above(&others, segment.end, compensation.plane);
+        let to = state.wrapped.turned(above(&others, segment.end, compensation.plane));
         compensation.at = to;
         let event = match segment.course {
             OffsetCourse::Line(kind) => {

@@ -10,6 +10,7 @@ use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind,
 
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::Assumption;
+use crate::cylinder::Wrapped;
 use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::state::{At, Frame, FrameKind, ModalCall, State};
@@ -229,9 +230,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let frames = state.frames.clone();
         let shift = state.tool_shift;
         let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
+        // What was not wrapped still is not.
+        let wrapped = if state.wrapped == Wrapped::No { Wrapped::No } else { Wrapped::Unknown };
         *state = unknown;
         // What was on may still be; of what was off we take it that it is left off.
         state.tool_shift = shift.or_none();
+        state.wrapped = wrapped;
         state.frames = frames;
         if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
             locals.forget();

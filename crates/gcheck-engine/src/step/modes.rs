@@ -36,7 +36,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let followed = code.role != Some(Role::Length) || self.tool_is_upright(state);
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
-            self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);
+            // Whether a cylinder's code switches anything depends on its words.
+            if role != Role::Cylinder {
+                self.switch(role, ix, code.modal || role == Role::Mirror, state);
+            }
         }
         self.effect(code.effect, ix, place, words, state)?;
         if code.role == Some(Role::Length) && !(followed && self.tool_is_upright(state)) {
@@ -223,7 +226,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | E::DynamicOffsetOn
             | E::DynamicOffsetOff
             | E::TiltedPlaneOn
-            | E::TiltedPlaneOff => self.unknown_frame(ix, state),
+            | E::TiltedPlaneOff => {
+                let on = matches!(effect, E::PolarInterpolationOn | E::DynamicOffsetOn | E::TiltedPlaneOn);
+                self.unknown_frame(ix, on, state);
+            }
 
             E::Dwell => self.dwell(state)?,
             E::WriteOffsets => self.write_offsets(state)?,
@@ -426,10 +432,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A frame whose geometry depends on the machine: positions are not known until they are given in it.
-    fn unknown_frame(&mut self, ix: CodeIx, state: &mut State<D>) {
+    pub(super) fn unknown_frame(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
         let effect = self.model.effect(ix);
-        let on =
-            matches!(effect, Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn);
         if on {
             self.assumptions.insert(Assumption::Code(ix));
         }
@@ -452,7 +456,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             |code: &CodeIx| self.model.effect(*code) == Effect::TiltedPlaneOn && group(*code) == group(ix);
         if state.mode(Role::TiltedPlane).alternatives().iter().any(tilts) {
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
-            self.unknown_frame(ix, state);
+            self.unknown_frame(ix, false, state);
         }
     }
 
@@ -468,25 +472,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
         let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
         self.emit(state, Event::UserCommand { number, p, q });
-    }
-
-    /// `G107`: mapping on, off, or a new default diameter.
-    fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
-        let diameter = self
-            .length(Letter::of('Q'), state)
-            .or_else(|| self.length(Letter::of('R'), state).map(|r| 2.0 * r));
-        let rotary = self.words.has(Letter::of('A'))
-            || self.words.has(Letter::of('B'))
-            || self.words.has(Letter::of('C'));
-        let linear = ['X', 'Y', 'Z'].into_iter().any(|l| self.words.has(Letter::of(l)));
-        if linear || diameter.is_some() || rotary {
-            state.cylinder = Some(diameter.map_or(f64::NAN, |d| d / 2.0));
-        } else {
-            state.cylinder = None;
-            state.set_mode(Role::Cylinder, CodeIx::NONE);
-        }
-        self.unknown_frame(ix, state);
-        Ok(())
     }
 
     /// Both shifts together, as one on controls where they are one.

@@ -22,6 +22,7 @@ use crate::value::Domain;
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
+        self.turn_drawing(state);
         self.active_motion(state)?;
         if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
@@ -145,6 +146,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The programmed point of the block: axes that it does not name stay.
     pub(super) fn target(&mut self, state: &State<D>) -> Step<Position> {
         let mut target = state.position;
+        if let Some(cylinder) = state.wrapped.cylinder() {
+            // It turns though no word of the program names it.
+            target.set(cylinder.rotary, state.actual.raw(cylinder.rotary));
+        }
         let incremental = state.is_incremental(self.model);
         let unit = self.unit(state);
         let named = self.words.present().and(self.model.axis_letters);
@@ -320,6 +325,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 to.set(axis, target.raw(axis));
             }
         }
+        self.moved_off_drawing(named, &mut to, state);
         self.travel_to(kind, &to, &to, false, state);
         state.position = self.programmed_of(&to, state);
         checked

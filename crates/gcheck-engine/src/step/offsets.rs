@@ -35,6 +35,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         } else {
             after.work_of_machine(&before.to_machine(&old))
         };
+        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+            // The axis that is wrapped stands still as all the others do.
+            let linear = cylinder.linear;
+            let mut standing = old;
+            standing.set(linear, cylinder.stands);
+            let moved = if before.rotation == 0.0 && after.rotation == 0.0 {
+                standing + before.less(&after)
+            } else {
+                after.work_of_machine(&before.to_machine(&standing))
+            };
+            cylinder.stands = moved.raw(linear);
+            cylinder.anchor(&state.actual);
+        }
         state.position = self.programmed_of(&state.actual, state);
     }
 
@@ -112,6 +125,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             state.shift_on = true;
+        }
+        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+            // The drawing has a new zero; what that says of the axis that stands still is in no page.
+            cylinder.stands = f64::NAN;
+            cylinder.anchor(&state.actual);
         }
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));

@@ -14,7 +14,7 @@ use crate::cycles::{
     CircularPocket, CycleError, GeneralPocket, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
     general_pocket,
 };
-use crate::event::TravelKind;
+use crate::event::{Clearing, Event, TravelKind};
 use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
@@ -107,8 +107,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let outline = self.outline(program, &start, state)?;
         let plan = outline.map_or(Err(CycleError::Unknown), |outline| general_pocket(&outline, &words));
         let mut strokes = Vec::new();
+        let mut cleared = None;
         if let Ok(plan) = &plan {
             let (x, y) = words.start;
+            let depth = words.r - words.bottom;
+            let length = plan.cut_length - depth;
+            cleared = Some(Clearing {
+                from: plan.low,
+                to: plan.high,
+                levels: plan.levels.len() as u32,
+                length,
+                seconds: length / words.feed,
+                at: Position::UNKNOWN,
+            });
             strokes.push(Stroke::Rapid(start.xyz()));
             strokes.push(Stroke::Rapid([x, y, words.r]));
             strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
@@ -119,6 +130,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // Compensation belongs to the walls, and is ended by a move afterwards.
         let held = self.hold_compensation(state)?;
         let outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        if let Some(cleared) = cleared.filter(|_| outcome.is_ok()) {
+            self.assumptions.insert(Assumption::PocketEnd);
+            self.emit(state, Event::Cleared(Clearing { at: state.actual, ..cleared }));
+        }
         Self::release_compensation(held.without_path(), state);
         outcome?;
         checked

@@ -22,6 +22,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M2`, `M30`: resets what the control resets, then ends.
     pub(super) fn end_program(&mut self, pallet: bool, state: &mut State<D>) -> Step {
         self.flush_compensation(state)?;
+        self.unwrap_at_end(state);
         let codes: Vec<CodeIx> = self.model.at_end.clone();
         for ix in codes {
             self.reset_to(ix, state);

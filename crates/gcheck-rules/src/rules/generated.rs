@@ -35,6 +35,11 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pocket_outline_open;
+    pub(crate) mod pocket_outline_too_long;
+    pub(crate) mod pocket_outline_unfit;
+    pub(crate) mod pocket_start_outside;
+    pub(crate) mod pocket_without_compensation;
     pub(crate) mod turning_profile_not_usable;
 }
 
@@ -67,9 +72,12 @@ pub(crate) mod flow {
 }
 
 pub(crate) mod machine {
+    pub(crate) mod cylinder_axis_not_on_machine;
+    pub(crate) mod cylinder_without_diameter;
     pub(crate) mod feed_above_machine_limit;
     pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
+    pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
 }
@@ -95,6 +103,15 @@ pub(crate) mod macros {
     pub(crate) mod variable_number_not_whole;
     pub(crate) mod variable_read_before_set;
     pub(crate) mod variable_unlisted;
+}
+
+pub(crate) mod mapping {
+    pub(crate) mod cylinder_diameter_from_setting;
+    pub(crate) mod cylinder_feed_mode;
+    pub(crate) mod cylinder_left_on;
+    pub(crate) mod cylinder_without_rotary_axis;
+    pub(crate) mod cylinder_word_value_ignored;
+    pub(crate) mod maybe_cylinder_left_on;
 }
 
 pub(crate) mod modal {
@@ -257,6 +274,11 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pocket_outline_open::RULE,
+    &cycles::pocket_outline_too_long::RULE,
+    &cycles::pocket_outline_unfit::RULE,
+    &cycles::pocket_start_outside::RULE,
+    &cycles::pocket_without_compensation::RULE,
     &cycles::turning_profile_not_usable::RULE,
     &five_axis::cutter_vector_incomplete::RULE,
     &five_axis::cutter_vector_not_unit::RULE,
@@ -280,9 +302,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
+    &machine::cylinder_axis_not_on_machine::RULE,
+    &machine::cylinder_without_diameter::RULE,
     &machine::feed_above_machine_limit::RULE,
     &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,
+    &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
     &macros::assignment_to_read_only_variable::RULE,
@@ -305,6 +330,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
     &macros::variable_unlisted::RULE,
+    &mapping::cylinder_diameter_from_setting::RULE,
+    &mapping::cylinder_feed_mode::RULE,
+    &mapping::cylinder_left_on::RULE,
+    &mapping::cylinder_without_rotary_axis::RULE,
+    &mapping::cylinder_word_value_ignored::RULE,
+    &mapping::maybe_cylinder_left_on::RULE,
     &modal::code_given_twice::RULE,
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
