@@ -269,6 +269,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let start = (first_start, second_start);
         let most = repeats.min(crate::cycles::MAX_STROKES);
         if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) && incremental != Some(false) {
+            let here = (state.position.raw(first), state.position.raw(second));
             let to = (target.raw(first), target.raw(second));
             return self.holes_around(effect, plane, here, to, most, state);
         }

@@ -8,6 +8,7 @@ use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_program::{Block, Value, Word};
 
 use super::{Cursor, Executor};
+use crate::cylinder::Wrapped;
 use crate::event::{Event, FeedMode, Travel, TravelKind, Units};
 use crate::model::Role;
 use crate::observer::{Observer, Origin};
@@ -42,7 +43,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let goes_straight = state.active_cycle(self.model) == Some(CodeIx::NONE)
             && self.goes_direct(state)
             && state.macro_modal.is_none()
-            && state.cylinder.is_none()
+            && state.wrapped == Wrapped::No
+            && !state.tool_shift.is_on()
             && MAPPINGS.iter().all(|role| self.is_unmapped(*role, state));
         let feeds = kind == TravelKind::Rapid
             || state.feed_mode(self.model).is_some_and(|mode| mode != FeedMode::InverseTime)
