@@ -237,7 +237,7 @@ const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
 const MOST_VISITS: u32 = 200;
 /// Turns of a loop that are executed exactly; from there on it is widened, so that a loop that counts past its end is seen to.
-pub const MOST_EXACT_TURNS: u32 = 10_000;
+pub const MOST_EXACT_TURNS: u32 = 15_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
@@ -700,5 +700,26 @@ impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
             let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
             self.observer.after(&cx);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{At, Marks};
+
+    #[test]
+    fn the_first_block_that_is_missing_is_found() {
+        let at = |block: u32| At { file: 1, block };
+        let mut marks = Marks::default();
+        assert_eq!(marks.first_missing(at(5)), at(5));
+        marks.insert_all(at(3), at(200));
+        for (from, missing) in
+            [(0, 0), (2, 2), (3, 200), (63, 200), (64, 200), (191, 200), (200, 200), (500, 500)]
+        {
+            assert_eq!(marks.first_missing(at(from)), at(missing), "from {from}");
+        }
+        marks.insert_all(at(200), at(256));
+        assert_eq!(marks.first_missing(at(10)), at(256));
+        assert_eq!(marks.first_missing(At { file: 0, block: 7 }), At { file: 0, block: 7 });
     }
 }

@@ -978,3 +978,56 @@ impl LowerSink<'_, '_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{BlockTable, Dialect, lower, skim};
+
+    /// The blocks alone, as [`skim`] gives them.
+    fn without_words(mut table: BlockTable) -> BlockTable {
+        table.words.clear();
+        for block in &mut table.blocks {
+            block.words = 0..0;
+        }
+        table
+    }
+
+    #[test]
+    fn a_chunk_is_skimmed_when_its_blocks_only_say_where_to() {
+        let control = gcheck_controls::load("haas-mill").unwrap();
+        let dialect = Dialect::new(&control);
+        for (text, is_skimmed) in [
+            ("", true),
+            ("X1. Y-2.5\n\n Z.5\tA10.\r\nX1. I2. J0.\n", true),
+            ("X1. Y-2.5\nZ.5", false),
+            ("X1. Y2\n", false),
+            ("X1. X2.\n", false),
+            ("G1 X1.\n", false),
+            ("X1. F100.\n", false),
+            ("X1.\n(A)\n", false),
+            ("x1.\n", false),
+        ] {
+            assert_eq!(skim(text, &dialect).is_some(), is_skimmed, "{text:?}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3_000))]
+
+        #[test]
+        fn a_skimmed_chunk_has_the_blocks_of_a_lowered_one(
+            text in "(([XYZAIJR][-+]?[0-9]{1,3}[.][0-9]{0,12}[ \\t]?|[GFxT]?[-+. 0-9]?){0,4}\r?\n){0,8}",
+        ) {
+            for name in ["fanuc-mill", "linuxcnc"] {
+                let control = gcheck_controls::load(name).unwrap();
+                let dialect = Dialect::new(&control);
+                if let Some(skimmed) = skim(&text, &dialect) {
+                    let lowered = without_words(lower(&text, &dialect));
+                    prop_assert_eq!(skimmed, lowered, "{} on {:?}", name, text);
+                }
+            }
+        }
+    }
+}

@@ -74,10 +74,8 @@ struct Digits {
 }
 
 /// The digits that begin here. Eight bytes are looked at together: `None` when that is not enough to see where they end.
-#[expect(
-    clippy::inline_always,
-    reason = "half of the time of a large program is spent here, and a call doubles it"
-)]
+///
+/// A part of [`number_at`], and inlined with it.
 #[inline(always)]
 fn few_digits(text: &[u8], at: usize) -> Option<Digits> {
     const EACH: u64 = 0x0101_0101_0101_0101;

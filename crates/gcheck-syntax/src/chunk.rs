@@ -213,3 +213,28 @@ fn ends_before(chunk: &str, next: &str) -> bool {
     with_more.extend(next.bytes().next());
     next_cut(&with_more) == chunk.len()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::line_len;
+
+    #[test]
+    fn a_line_is_as_long_as_byte_by_byte() {
+        let slowly = |text: &str| match text.find(['\n', '\r']) {
+            None => text.len(),
+            Some(at) if text[at..].starts_with("\r\n") => at + 2,
+            Some(at) => at + 1,
+        };
+        // Bytes on both sides of what a line may end with, at every place of the eight that are looked at together.
+        let pieces = ["\n", "\r", "\r\n", "\t", "\0", "\u{B}", "\u{E}", "\u{8D}", "\u{10A}", "X"];
+        for before in 0..20 {
+            for first in pieces {
+                for second in pieces {
+                    let text = format!("{}{first}{second}{}", "X".repeat(before), "Y".repeat(before / 2));
+                    assert_eq!(line_len(text.as_bytes()), slowly(&text), "{text:?}");
+                }
+            }
+        }
+        assert_eq!(line_len(b""), 0);
+    }
+}
