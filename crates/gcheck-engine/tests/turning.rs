@@ -969,6 +969,21 @@ fn cycles_of_the_side_count_r_from_the_start() {
 }
 
 #[test]
+fn in_diameter_mode_the_depth_along_x_is_a_diameter_and_r_a_radius() {
+    oracle(
+        "n40 g7 g19 x40\nn50 g81 x10 r30 y1 z1\nn60 g80",
+        &expect![[r#"
+        rapid x20 z2
+        rapid x20 z2
+        rapid x30 z2
+        rapid x30 z1
+        feed x5 z1
+        rapid x30 z1
+        at x30 z1"#]],
+    );
+}
+
+#[test]
 fn holes_in_the_face_may_leave_r_out() {
     live(
         "fanuc-lathe",

@@ -162,7 +162,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(incremental) => incremental && rules.incremental_r,
             None => return self.unknown_levels(words, state),
         };
-        // Levels along X are diameters where X is; a distance is a radius.
+        // Levels along X are diameters where X is; `R` is a radius as a distance, and where cycles drill in any plane.
         let half = match state.is_diameter(self.model) {
             _ if depth != Axis::X => 1.0,
             Some(true) => 0.5,
@@ -170,8 +170,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None => f64::NAN,
         };
         let level = |letter: Letter| self.length(letter, state).map(|value| value * half);
-        let retract =
-            if rules.r_is_distance { self.length(Letter::of('R'), state) } else { level(Letter::of('R')) };
+        let r = Letter::of('R');
+        let retract = if rules.r_is_distance || rules.all_planes { self.length(r, state) } else { level(r) };
         let bottom = level(depth.letter());
         let [given_r, given_z] = &mut words.given;
         *given_r = retract.unwrap_or(*given_r);

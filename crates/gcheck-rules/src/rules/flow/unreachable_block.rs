@@ -362,14 +362,24 @@ mod tests {
 
     #[test]
     fn a_section_with_a_number_and_an_end_of_its_own_may_be_started_by_the_operator() {
-        check_rule(&RULE, "fanuc-mill", "O1\nN2 G0 X1.\nM2\n\nN6 (T06)\nG0 X2.\nX3.\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nN2 G0 X1.\nM2\n\nN6 (T06)\nG0 X2.\nX3.\nM2\n",
+            &expect![[r#"
             6 | G0 X2.
               | ^^^^^^ info[unreachable-block] no path reaches these 2 blocks
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", "O1\nN2 G0 X1.\nN3 M2\nN6 G0 X2.\nN7 X3.\nN8 M2\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nN2 G0 X1.\nN3 M2\nN6 G0 X2.\nN7 X3.\nN8 M2\n",
+            &expect![[r#"
             4 | N6 G0 X2.
               | ^^^^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -108,10 +108,16 @@ mod tests {
     fn a_setting_that_is_told_decides() {
         let mut alarms = World::default();
         alarms.machine.settings.insert("3403#5".to_owned(), "alarm".to_owned());
-        check_rule_in(&RULE, "fanuc-mill", "G2 X10. Y5. F100.\n", &alarms, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G2 X10. Y5. F100.\n",
+            &alarms,
+            &expect![[r#"
             1 | G2 X10. Y5. F100.
               | ^^ error[arc-without-centre] arc without centre or radius: `G2`
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
