@@ -25,6 +25,14 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/bushing.nc:13:7: error[letter-o-for-zero] letter `O` instead of a zero in `Z-O.125`
         fixtures/tour/bushing.nc:16:10: error[jump-target-missing] jump target `N210` does not exist in this program
         fixtures/tour/bushing.nc:25:17: warning[subprogram-missing] called program `O3099` is not here
+        fixtures/tour/impeller.nc:9:1: error[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
+        fixtures/tour/impeller.nc:12:9: warning[five-axis-axis-left-out] `Y` and `Z` stand still while `A` and `B` tilt the tool (`G143`)
+        fixtures/tour/impeller.nc:15:1: warning[five-axis-feed-per-minute] feed per minute (`G94`) while the tool tilts (`G143`)
+        fixtures/tour/impeller.nc:16:1: error[refused-in-five-axis-mode] arc (`G2`) under `G143`
+        fixtures/tour/impeller.nc:18:1: error[five-axis-length-in-incremental] incremental words under 5-axis length compensation (`G143`)
+        fixtures/tour/impeller.nc:20:4: warning[five-axis-length-left-on] 5-axis length compensation is still on at the tool change (`G143`)
+        fixtures/tour/impeller.nc:25:19: error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0.82, not 1 (`G141`)
+        fixtures/tour/impeller.nc:27:1: warning[cutter-vector-incomplete] move without a direction under 3D cutter compensation (`G141`)
         fixtures/tour/manifold.nc:10:1: error[loop-end-missing] loop `DO1` has no `END1`
         fixtures/tour/manifold.nc:15:1: error[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group

@@ -52,8 +52,7 @@ impl PathRule for FiveAxisLengthInIncremental {
         let (Some(length), Some(increments)) = (control.code_at(length), control.code_at(increments)) else {
             return;
         };
-        let message =
-            format!("incremental words under 5-axis length compensation (`{}`)", length.number());
+        let message = format!("incremental words under 5-axis length compensation (`{}`)", length.number());
         let finding = finding(cx, &META, message, length, increments);
         let finding = cx.resting_on_mode(finding, Role::Length);
         report.add(cx.resting_on_mode(finding, Role::Distance));

@@ -1,6 +1,7 @@
 //! A length along the tool that nothing names.
 
-use gcheck_engine::{Abstract, Domain, Fact};
+use gcheck_controls::Letter;
+use gcheck_engine::{Abstract, Domain};
 
 use crate::five_axis::is_along_tool;
 use crate::meta::declare_rule;
@@ -43,14 +44,24 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(FiveAxisLengthWithoutOffset) },
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(FiveAxisLengthWithoutOffset { is_given: false }) },
     }
 }
 
-struct FiveAxisLengthWithoutOffset;
+struct FiveAxisLengthWithoutOffset {
+    /// An `H` stood in a block before.
+    is_given: bool,
+}
 
 impl PathRule for FiveAxisLengthWithoutOffset {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        self.judge(cx, report);
+        self.is_given |= cx.origin().letters.contains(Letter::of('H'));
+    }
+}
+
+impl FiveAxisLengthWithoutOffset {
+    fn judge(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let codes = cx.codes();
         let Some(code) = codes.iter().copied().find(|code| is_along_tool(cx.model.effect(*code))) else {
             return;
@@ -73,18 +84,8 @@ impl PathRule for FiveAxisLengthWithoutOffset {
                         format!("{what} without a length offset (`{name}` without `H`)"),
                     )
                     .label("no `H` here, and none in effect");
-                match cx.trace().set_by(Fact::Length) {
-                    // What is cancelled may still be remembered.
-                    Some(at) => {
-                        let range = cx.range_of(at);
-                        let finding = finding.at_most(Severity::Warning);
-                        match range {
-                            Some(range) => finding.also(range, "the last length ended here"),
-                            None => finding,
-                        }
-                    }
-                    None => finding,
-                }
+                // What was given and cancelled may still be remembered.
+                if self.is_given { finding.at_most(Severity::Warning) } else { finding }
             }
         };
         let finding = finding
@@ -118,6 +119,19 @@ mod tests {
             &expect![[r#"
                 3 | G143 X1. Y1. Z1. A5. B5.
                   | ^^^^ warning[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_safety_line_gives_no_length() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G17 G40 G49 G80 G90\nT1 M6\nG143 X1. Y1. Z1. A5. B5.\nG49\nM30\n",
+            &expect![[r#"
+                3 | G143 X1. Y1. Z1. A5. B5.
+                  | ^^^^ error[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
             "#]],
         );
     }

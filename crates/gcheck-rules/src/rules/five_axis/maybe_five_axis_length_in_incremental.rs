@@ -5,7 +5,6 @@ use gcheck_engine::Role;
 
 use super::five_axis_length_in_incremental::{both, finding};
 use crate::boundary::LeftOn;
-use crate::five_axis::is_along_tool;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -68,7 +67,6 @@ impl PathRule for MaybeFiveAxisLengthInIncremental {
                 finding = finding.also(range, "on one of the paths set here");
             }
         }
-        debug_assert!(is_along_tool(length.effect()));
         report.add(cx.with_path(finding));
     }
 }

@@ -68,8 +68,7 @@ impl PathRule for RefusedInFiveAxisMode {
                 continue;
             }
             let Some(finding) = finding(cx, &META, &clash, "") else { continue };
-            let finding =
-                if clash.is_assumed { finding } else { cx.resting_on_mode(finding, clash.role) };
+            let finding = if clash.is_assumed { finding } else { cx.resting_on_mode(finding, clash.role) };
             report.add(finding);
         }
     }
