@@ -286,6 +286,21 @@ fn a_word_that_may_be_nothing_may_begin_nothing() {
 }
 
 #[test]
+fn moves_that_compensation_holds_back_are_of_the_drawing_before() {
+    check(
+        "G107 Y0. A0. Q100.\nG41 D1 G1 X10. Y20.\nX30.\nY41.4159\nG107\nG40 X50.",
+        &expect![[r#"
+        rapid x0 y10 z0 a0
+        rapid x0 y10 z5 a0
+        feed x10 y25 z5 a17.1887
+        feed x25 y25 z5 a17.1887
+        feed x25 y41.4159 z5 a36
+        feed x50 y41.4159 z5 a36
+        at x50 y41.4159 z5 a36"#]],
+    );
+}
+
+#[test]
 fn words_that_do_not_fit_are_refused() {
     check(
         "N5 G107 Y0. Q100.",

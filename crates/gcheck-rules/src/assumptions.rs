@@ -103,9 +103,9 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::CylinderStart(axis) => {
             Described::new(format!("a drawing on {} begins at the angle where the axis stands", axis.name()))
         }
-        Assumption::PocketEnd => {
-            Described::new("a pocket that the control clears leaves the tool over its start hole, at the rapid level")
-        }
+        Assumption::PocketEnd => Described::new(
+            "a pocket that the control clears leaves the tool over its start hole, at the rapid level",
+        ),
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }

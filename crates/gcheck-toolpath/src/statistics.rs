@@ -236,7 +236,8 @@ impl Section {
         for used in &other.offsets {
             self.offset(used.number).include_bounds(&used.extents);
         }
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } = other.unaccounted;
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
+            other.unaccounted;
         self.unaccounted.points += points;
         self.unaccounted.feeds += feeds;
         self.unaccounted.speeds += speeds;
@@ -435,6 +436,8 @@ impl Statistics {
     /// A pocket that the control clears: what it comes to is an estimate, and is said to be one.
     fn cleared(&mut self, step: &Step<'_>, clearing: &Clearing) {
         let work = self.work;
+        // The way down into a pocket is no hole.
+        self.holes = Holes::default();
         let section = self.section(step);
         if clearing.length.is_known() && clearing.seconds.is_finite() {
             section.times.cutting += clearing.seconds;

@@ -271,6 +271,7 @@ fn figures_as_json() {
               "seconds": {
                 "cutting": 18.545455,
                 "dwell": 0.4,
+                "estimated": 0.0,
                 "rapid": 3.82,
                 "tool_change": 4.0,
                 "total": 26.765455
@@ -294,6 +295,7 @@ fn figures_as_json() {
                 "no_feed": 0,
                 "no_speed": 0,
                 "partly": 0,
+                "pockets": 0,
                 "unknown_dwell": 0,
                 "unknown_point": 0
               }

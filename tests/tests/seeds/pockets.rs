@@ -69,8 +69,12 @@ const SENTENCES: &[Sentence] = &[
         proofs: &[
             Rule {
                 finding: "info[pocket-without-compensation]",
-                violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
-                conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+                violates: pocket(
+                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                ),
+                conforms: pocket(
+                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                ),
             },
             Assumes { program: on(CONTROL, POCKET), says: "the diameter of tool 2 is not known" },
         ],
@@ -79,16 +83,24 @@ const SENTENCES: &[Sentence] = &[
         says: "G41 or G42 belongs to it and is cancelled by G40",
         proofs: &[Rule {
             finding: "warning[compensation-left-on]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG0 X.1\nT2 M6\nG40\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nT2 M6\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG0 X.1\nT2 M6\nG40\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nT2 M6\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
         says: "F is the feed",
         proofs: &[Rule {
             finding: "error[feed-missing]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
@@ -125,10 +137,14 @@ const SENTENCES: &[Sentence] = &[
         says: "A step above the tool's diameter leaves ridges",
         proofs: &[Rule {
             finding: "warning[pocket-step-above-tool]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.6 F10.\nG40 X0.\nM30\n")
-                .with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0.\nM30\n")
-                .with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]),
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.6 F10.\nG40 X0.\nM30\n",
+            )
+            .with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0.\nM30\n",
+            )
+            .with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]),
         }],
     },
     Sentence {
@@ -150,10 +166,11 @@ const SENTENCES: &[Sentence] = &[
                 violates: pocket("G150 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\n"),
                 conforms: pocket("G150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\n"),
             },
-            Rule {
-                finding: "warning[subprogram-missing]",
-                violates: pocket("O1\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\n"),
-                conforms: pocket("O1\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 X1.\nM99\n"),
+            Assumes {
+                program: pocket(
+                    "O1\nG54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0.\nM30\n",
+                ),
+                says: "what program 9 does is not known",
             },
         ],
     },
@@ -161,8 +178,12 @@ const SENTENCES: &[Sentence] = &[
         says: "The outline is closed: its last move ends where its first one leads",
         proofs: &[Rule {
             finding: "error[pocket-outline-open]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nM99\n"),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nM99\n",
+            ),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
@@ -170,8 +191,12 @@ const SENTENCES: &[Sentence] = &[
         proofs: &[
             Rule {
                 finding: "error[pocket-outline-unfit]",
-                violates: pocket("G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nG81 Z-1. R.1\nM99\n"),
-                conforms: pocket("G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nG2 X1. Y0. R1.\nG3 X0. Y1. R1.\nM99\n"),
+                violates: pocket(
+                    "G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nG81 Z-1. R.1\nM99\n",
+                ),
+                conforms: pocket(
+                    "G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nG2 X1. Y0. R1.\nG3 X0. Y1. R1.\nM99\n",
+                ),
             },
             Rule {
                 finding: "error[pocket-outline-unfit]",
@@ -232,23 +257,33 @@ const SENTENCES: &[Sentence] = &[
     Sentence {
         says: "R is the level of rapid moves, above the floor",
         proofs: &[Rule {
-            finding: "error[cycle-r-below-bottom]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            finding: "warning[cycle-r-below-bottom]",
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
         says: "S may give the spindle's speed",
         proofs: &[Legal {
-            program: pocket("O1\nG20 G54 G90 G0 X0. Y0.\nM3\nG150 P9 G41 D1 S3000 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            program: pocket(
+                "O1\nG20 G54 G90 G0 X0. Y0.\nM3\nG150 P9 G41 D1 S3000 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
         says: "X and Y name the start hole, which lies inside the outline",
         proofs: &[Rule {
             finding: "error[pocket-start-outside]",
-            violates: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X2. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
-            conforms: pocket("G20 G54 G90 G0 X0. Y0.\nG150 P9 X.5 Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"),
+            violates: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X2. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
+            conforms: pocket(
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X.5 Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+            ),
         }],
     },
     Sentence {
@@ -260,7 +295,10 @@ const SENTENCES: &[Sentence] = &[
                     "tools.1.length=4",
                     "tools.2={ length = 4.0, diameter = 0.375 }",
                 ]),
-                prints: &["T2 cutting -1.0625 1.0625 -0.5625 0.5625 -0.3750 0.1000", "of cutting are an estimate"],
+                prints: &[
+                    "T2 cutting -1.0625 1.0625 -0.5625 0.5625 -0.3750 0.1000",
+                    "of cutting are an estimate",
+                ],
             },
             Assumes {
                 program: on(CONTROL, POCKET),
@@ -271,7 +309,9 @@ const SENTENCES: &[Sentence] = &[
     Sentence {
         says: "L with G91 repeats the pocket at a distance",
         proofs: &[Run {
-            program: pocket("O1\nG21 G54 G90 G0 X0. Y0.\nG91 G150 P9 X20. Z-5. Q2. R1. I2. L3 F100.\nG90 G0 Y5.\nM30\nO9\nG1 Y9.\nX9.\nM99\n"),
+            program: pocket(
+                "O1\nG21 G54 G90 G0 X0. Y0.\nG91 G150 P9 X20. Z-5. Q2. R1. I2. L3 F100.\nG90 G0 Y5.\nM30\nO9\nG1 Y9.\nX9.\nM99\n",
+            ),
             prints: &["rapid 60.0000 5.0000"],
         }],
     },

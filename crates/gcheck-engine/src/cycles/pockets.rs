@@ -154,7 +154,11 @@ fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Vec<(f64, f64)>
         return Err(CycleFault::OutlineOpen(gap).into());
     }
     let corners = flattened(wall);
-    if contains(&corners, (start.0.0, start.1.0)) { Ok(corners) } else { Err(CycleFault::StartOutside.into()) }
+    if contains(&corners, (start.0.0, start.1.0)) {
+        Ok(corners)
+    } else {
+        Err(CycleFault::StartOutside.into())
+    }
 }
 
 /// Checks and estimates a pocket whose outline is given as pieces in (X, Y). The first piece leads from the start hole to
@@ -452,7 +456,10 @@ mod tests {
         let refused =
             |outline: &[ProfileSegment], words: GeneralPocket| general_pocket(outline, &words).unwrap_err();
         let geometry = CycleError::Fault(CycleFault::Geometry);
-        assert_eq!(refused(&rectangle()[..4], general()), CycleFault::OutlineOpen(22.360_679_774_997_898).into());
+        assert_eq!(
+            refused(&rectangle()[..4], general()),
+            CycleFault::OutlineOpen(40.0_f64.hypot(10.0)).into()
+        );
         assert_eq!(refused(&rectangle()[..1], general()), CycleFault::OutlineEmpty.into());
         assert_eq!(refused(&[], general()), CycleError::Profile(super::super::ProfileFault::Empty));
         assert_eq!(

@@ -30,9 +30,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let linear = given(&[Axis::X, Axis::Y, Axis::Z]);
         let rotary = given(&[Axis::A, Axis::B, Axis::C]);
         let (q, r) = (self.length(Letter::of('Q'), state), self.length(Letter::of('R'), state));
-        if linear.len() > 1 || rotary.len() > 1 || q.is_some() && r.is_some() {
+        let [two_linear, two_rotary] = [&linear, &rotary].map(|axes| axes.len() > 1);
+        let two_sizes = q.is_some() && r.is_some();
+        if self.may_be_vacant(&linear)
+            || two_rotary && self.may_be_vacant(&rotary)
+            || two_sizes && (q.is_some_and(f64::is_nan) || r.is_some_and(f64::is_nan))
+        {
+            // Words that may be nothing may begin nothing, and may leave one of two.
+            state.diameters.forget();
+            state.wrapped = Wrapped::Unknown;
+            if let Some(mode) = state.modes.get_mut(Role::Cylinder.index()) {
+                *mode = mode.join(&ModeSet::one(ix));
+            }
+            self.emit(state, Event::Modal(ix));
+            return Ok(());
+        }
+        if two_linear || two_rotary || two_sizes {
             return Err(Fault::Conflict);
         }
+        // What compensation holds back was drawn before.
+        self.flush_compensation(state)?;
         let size = q.or(r.map(|radius| 2.0 * radius));
         let Some(rotary) = rotary.first().copied() else {
             if !linear.is_empty() || size.is_some() {
@@ -51,15 +68,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.diameters.set(rotary, if size >= 0.0 { size } else { f64::NAN });
         }
         let Some(linear) = linear.first().copied() else { return Ok(()) };
-        if self.words.get(linear.letter()).is_none_or(|value| D::is_vacant(&value) == Truth::Unknown) {
-            // A word that may be nothing may begin nothing.
-            state.wrapped = Wrapped::Unknown;
-            if let Some(mode) = state.modes.get_mut(Role::Cylinder.index()) {
-                *mode = mode.join(&ModeSet::one(ix));
-            }
-            self.emit(state, Event::Modal(ix));
-            return Ok(());
-        }
         let diameter = self.diameter_of(rotary, rules, state);
         // The same axis on another cylinder goes on with its drawing.
         if state.wrapped.cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
@@ -76,6 +84,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.emit(state, Event::Modal(ix));
         self.emit(state, Event::Cylinder(Some(cylinder)));
         Ok(())
+    }
+
+    /// May a word for one of the axes be left out, because its value may be nothing?
+    fn may_be_vacant(&self, axes: &[Axis]) -> bool {
+        let doubtful = |value: D::Value| D::is_vacant(&value) == Truth::Unknown;
+        axes.iter().any(|axis| self.words.get(axis.letter()).is_some_and(doubtful))
     }
 
     /// The diameter in effect for a rotary axis: the last one that is not zero, else that of the control's setting.

@@ -19,7 +19,7 @@ use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{At, State};
+use crate::state::{At, Frame, FrameKind, State};
 use crate::value::Domain;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -123,16 +123,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             strokes.push(Stroke::Rapid(start.xyz()));
             strokes.push(Stroke::Rapid([x, y, words.r]));
             strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
-            strokes.push(Stroke::Rapid(plan.end));
         }
         let mut end = start;
         end.set(Axis::Z, r);
         // Compensation belongs to the walls, and is ended by a move afterwards.
         let held = self.hold_compensation(state)?;
-        let outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
-        if let Some(cleared) = cleared.filter(|_| outcome.is_ok()) {
-            self.assumptions.insert(Assumption::PocketEnd);
+        let over_hole = plan.as_ref().ok().map(|plan| plan.end);
+        let mut outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        if outcome.is_ok()
+            && let Some((cleared, over_hole)) = cleared.zip(over_hole)
+        {
             self.emit(state, Event::Cleared(Clearing { at: state.actual, ..cleared }));
+            self.assumptions.insert(Assumption::PocketEnd);
+            outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
         }
         Self::release_compensation(held.without_path(), state);
         outcome?;
@@ -180,6 +183,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut drawn = state.clone();
         drawn.position = *start;
         drawn.actual = *start;
+        // It is read as a called program is.
+        drawn.frames.push(Frame {
+            kind: if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram },
+            entry: first,
+            caller: at,
+            repeats: Some(0),
+            locals: None,
+            counters: Vec::new(),
+            saved: None,
+            restore_on_return: false,
+            wanted_branch: None,
+        });
         let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
         Ok(Some(profile.segments).filter(|_| profile.complete))
     }

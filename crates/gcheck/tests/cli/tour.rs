@@ -48,5 +48,8 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/shaft.nc:6:1: error[decimal-point-on-integer] decimal point on a whole number: `T0202.`
         fixtures/tour/shaft.nc:9:4: error[address-without-value] address `Z` has no value
         fixtures/tour/shaft.nc:11:7: error[unclosed-comment] comment is not closed
+        fixtures/tour/sleeve.nc:11:10: warning[cylinder-word-value-ignored] the value of `A90.` does not count (`G107`)
+        fixtures/tour/sleeve.nc:24:4: warning[cylinder-left-on] Y is still wrapped at the tool change (`G107`)
+        fixtures/tour/sleeve.nc:28:6: error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
     "#]].assert_eq(&String::from_utf8_lossy(&output.stdout));
 }

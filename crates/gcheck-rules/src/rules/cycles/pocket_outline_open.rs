@@ -68,7 +68,11 @@ impl PathRule for PocketOutlineOpen {
         let (name, entry) = (code.number(), code.entry());
         let finding = match gap {
             Some(gap) => cx
-                .finding(&META, cx.letter_range('P'), format!("the pocket's outline is not closed (`{name}`)"))
+                .finding(
+                    &META,
+                    cx.letter_range('P'),
+                    format!("the pocket's outline is not closed (`{name}`)"),
+                )
                 .label(format!("it ends {} from where its first move leads", length(cx, gap)))
                 .help("end the outline at the point that its first move reaches"),
             None => cx
@@ -105,29 +109,50 @@ mod tests {
     use crate::Selection;
     use crate::testing::{World, check_rule, findings, words};
 
-    const HEAD: &str = "G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\nG1 Y1.\n";
+    const HEAD: &str =
+        "G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\nG1 Y1.\n";
 
     #[test]
     fn a_hair_is_a_warning_and_less_is_closed() {
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}X1.\nY-1.\nX-1.\nY1.0005\nX0.\nM99\n"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}X1.\nY-1.\nX-1.\nY1.0005\nX0.\nM99\n"),
+            &expect![[r#"
             3 | G150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
               |      ^^^^ warning[pocket-outline-open] the pocket's outline is not closed (`G150`)
-        "#]]);
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}X1.\nY-1.\nX-1.\nY1.0002\nX0.\nM99\n"), &expect![[""]]);
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}X1.\nY-1.\nX-1.\nY1.0002\nX0.\nM99\n"),
+            &expect![[""]],
+        );
     }
 
     #[test]
     fn one_move_is_no_outline() {
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}M99\n"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}M99\n"),
+            &expect![[r#"
             3 | G150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
               |      ^^^^ error[pocket-outline-open] the pocket has no outline (`G150`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn an_outline_that_depends_on_the_unknown_is_not_judged() {
         check_rule(&RULE, "haas-mill", &format!("{HEAD}X#100\nY-1.\nX-1.\nY1.\nM99\n"), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "G150 P100 X#1 Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\nG1 Y1.\nX1.\nM99\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G150 P100 X#1 Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\nG1 Y1.\nX1.\nM99\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

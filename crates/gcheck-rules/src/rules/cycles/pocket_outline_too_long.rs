@@ -139,9 +139,14 @@ mod tests {
             format!("{head}{}M99\n", "X1.\n".repeat(moves - 1))
         };
         check_rule(&RULE, "haas-mill", &program(40), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &program(41), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program(41),
+            &expect![[r#"
             2 | G150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
               |      ^^^^ warning[pocket-outline-too-long] the pocket's outline has 41 moves (`G150`)
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -159,7 +159,11 @@ fn unfit(cx: &PathCx<'_>, word: &Word) -> Option<Unfit> {
     let plain = |words: String, help, is_certain| Some(Unfit { words, help, is_certain, ends: false });
     if OTHER_AXES.contains(word.letter) && !word.letter.is_corner() {
         let letter = word.letter;
-        return plain(format!("a word `{letter}`"), "keep the outline in X and Y; the pocket's block gives the depth", false);
+        return plain(
+            format!("a word `{letter}`"),
+            "keep the outline in X and Y; the pocket's block gives the depth",
+            false,
+        );
     }
     let code = cx.scene.control().code_at(word.code)?;
     let name = code.number();
@@ -212,44 +216,57 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            &format!(
-                "{HEAD}G0 Y1.\nG1 X1. Z-1.\nG81 R.1\nT2 M6\nG150 P7\n#1=3\nM99\n"
-            ),
+            &format!("{HEAD}G0 Y1.\nG1 X1. Z-1.\nG81 R.1\nT2 M6\nG150 P7\n#1=3\nM99\n"),
             &expect![[r#"
                 6 | G0 Y1.
-                  | ^^ warning[pocket-outline-unfit] the pocket's outline has a rapid move (`G0`) (`G150`)
+                  | ^^ warning[pocket-outline-unfit] the pocket's outline has a rapid move (`G0`)
                 7 | G1 X1. Z-1.
-                  |        ^^^^ warning[pocket-outline-unfit] the pocket's outline has a word `Z` (`G150`)
+                  |        ^^^^ warning[pocket-outline-unfit] the pocket's outline has a word `Z`
                 8 | G81 R.1
-                  | ^^^ error[pocket-outline-unfit] the pocket's outline has a canned cycle (`G81`) (`G150`)
+                  | ^^^ error[pocket-outline-unfit] the pocket's outline has a canned cycle (`G81`)
                 9 | T2 M6
-                  |    ^^ error[pocket-outline-unfit] the pocket's outline has a tool change (`M6`) (`G150`)
+                  |    ^^ error[pocket-outline-unfit] the pocket's outline has a tool change (`M6`)
                 10 | G150 P7
-                   | ^^^^ error[pocket-outline-unfit] the pocket's outline has another pocket (`G150`) (`G150`)
+                   | ^^^^ error[pocket-outline-unfit] the pocket's outline has another pocket (`G150`)
                 11 | #1=3
-                   | ^^^^ warning[pocket-outline-unfit] the pocket's outline has a macro statement (`G150`)
+                   | ^^^^ warning[pocket-outline-unfit] the pocket's outline has a macro statement
             "#]],
         );
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}G1 Y1.\nM97 P8\nM5\nG4 P1.\nM99\n"), &expect![[r#"
-            7 | M97 P8
-              | ^^^ warning[pocket-outline-unfit] the pocket's outline has a call (`M97`) (`G150`)
-            8 | M5
-              | ^^ warning[pocket-outline-unfit] the pocket's outline has `M5` (spindle stop) (`G150`)
-            9 | G4 P1.
-              | ^^ warning[pocket-outline-unfit] the pocket's outline has `G4` (dwell) (`G150`)
-        "#]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}G1 Y1.\nM97 P8\nM5\nG4 P1.\nM99\n"),
+            &expect![[r#"
+                7 | M97 P8
+                  | ^^^ warning[pocket-outline-unfit] the pocket's outline has a call (`M97`)
+                8 | M5
+                  | ^^ warning[pocket-outline-unfit] the pocket's outline has `M5` (spindle stop)
+                9 | G4 P1.
+                  | ^^ warning[pocket-outline-unfit] the pocket's outline has `G4` (dwell)
+            "#]],
+        );
     }
 
     #[test]
     fn an_outline_returns() {
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}G1 Y1.\nX1.\n"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}G1 Y1.\nX1.\n"),
+            &expect![[r#"
             3 | G150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.
               |      ^^^^ error[pocket-outline-unfit] the pocket's outline does not return (`G150`)
-        "#]]);
-        check_rule(&RULE, "haas-mill", &format!("{HEAD}G1 Y1.\nX1.\nM30\nM99\n"), &expect![[r#"
-            8 | M30
-              | ^^^ error[pocket-outline-unfit] the pocket's outline has the end of the program (`M30`) (`G150`)
-        "#]]);
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{HEAD}G1 Y1.\nX1.\nM30\nM99\n"),
+            &expect![[r#"
+                8 | M30
+                  | ^^^ error[pocket-outline-unfit] the pocket's outline has the end of the program (`M30`)
+            "#]],
+        );
     }
 
     #[test]
@@ -264,7 +281,12 @@ mod tests {
 
     #[test]
     fn an_outline_elsewhere_or_unknown_is_not_looked_at() {
-        check_rule(&RULE, "haas-mill", "G150 P#1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG150 P7 X0.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G150 P#1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG150 P7 X0.\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]
@@ -272,7 +294,7 @@ mod tests {
         let program = format!("{HEAD}G1 Y1.\nG81 Z-1. R.1\nM99\n");
         let found = findings(&Selection::only(&RULE), "haas-mill", &program, &World::default());
         expect![[r#"
-            the pocket's outline has a canned cycle (`G81`) (`G150`)
+            the pocket's outline has a canned cycle (`G81`)
               here: an outline is only read: straight moves and arcs in X and Y
               there: the outline of this pocket
               note: `G150` (general pocket) reads its outline from a program of straight moves and arcs that ends with a return  [Haas 96-8000 rev AC May 2010 p.184; Haas 96-8000 June 1999 (easymanua.ls page 208); HM17 p.314-316]

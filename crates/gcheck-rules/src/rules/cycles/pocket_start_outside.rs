@@ -88,12 +88,19 @@ mod tests {
 
     #[test]
     fn round_outlines_count_too() {
-        let at = |x: &str| format!("G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X{x} Y0. Z-.5 Q.25 R.1 I.2 F20.\n{OUTLINE}");
+        let at = |x: &str| {
+            format!("G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X{x} Y0. Z-.5 Q.25 R.1 I.2 F20.\n{OUTLINE}")
+        };
         check_rule(&RULE, "haas-mill", &at(".99"), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &at("1.01"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &at("1.01"),
+            &expect![[r#"
             3 | G150 P100 X1.01 Y0. Z-.5 Q.25 R.1 I.2 F20.
               |           ^^^^^ error[pocket-start-outside] the pocket's start hole lies outside its outline (`G150`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-mill", &at("#100"), &expect![[""]]);
     }
 

@@ -1,7 +1,7 @@
 //! A pocket that is cut without the size of its tool.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Domain as _, Abstract, Role};
+use gcheck_engine::{Abstract, Domain as _, Role};
 
 use super::cycle_words_lost::cycle_code;
 use crate::meta::declare_rule;
@@ -59,7 +59,9 @@ impl PathRule for PocketWithoutCompensation {
                 format!("the pocket is cut without cutter compensation (`{name}`)"),
             )
             .label("the tool's centre follows the outline")
-            .help(format!("give `{left}` or `{right}` with `D` in this block, unless the outline is that of the centre"));
+            .help(format!(
+                "give `{left}` or `{right}` with `D` in this block, unless the outline is that of the centre"
+            ));
         if cx.letter_range('D') != cx.range() && Abstract::known(cx.state().d()) != Some(0.0) {
             finding = finding.note(format!("`D` alone does not switch it on: that is `{left}` or `{right}`"));
         }

@@ -35,11 +35,12 @@ const AXES: LetterSet = LetterSet::of("XYZABC");
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some(axes) = cx.scene.machine.axes else { return };
-    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else { return };
-    // A word that holds a variable may be left out.
-    let missing = |word: &&Word| {
-        AXES.contains(word.letter) && !axes.contains(word.letter) && word.number().is_some()
+    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
+        return;
     };
+    // A word that holds a variable may be left out.
+    let missing =
+        |word: &&Word| AXES.contains(word.letter) && !axes.contains(word.letter) && word.number().is_some();
     if cx.words_are_plain() {
         for word in cx.words().iter().filter(missing) {
             report.add(finding(cx, code, word, axes));
@@ -81,10 +82,16 @@ mod tests {
     #[test]
     fn only_axes_that_are_not_listed() {
         let program = "G107 Y0. B0. Q2.5\nG107 Y0. A0. Q2.5\nG107 B#1 Q2.\nG107\n";
-        check_rule_in(&RULE, "haas-mill", program, &world(), &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            program,
+            &world(),
+            &expect![[r#"
             1 | G107 Y0. B0. Q2.5
               |          ^^^ error[cylinder-axis-not-on-machine] the machine has no axis `B` for the cylinder (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -100,6 +107,7 @@ mod tests {
               here: not among the axes of the machine file
               note: the machine file lists X Y Z A
               help: name an axis that the machine has, or correct `axes` in the machine file
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

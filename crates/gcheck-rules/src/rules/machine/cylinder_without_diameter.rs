@@ -58,7 +58,9 @@ impl PathRule for CylinderWithoutDiameter {
             .help("give the diameter with `Q` or the radius with `R`");
         report.add(match cx.state().diameters().of(cylinder.rotary) {
             Some(_) => finding,
-            None => finding.assuming(format!("no program before this one gave cylinders on {axis} a diameter")),
+            None => {
+                finding.assuming(format!("no program before this one gave cylinders on {axis} a diameter"))
+            }
         });
     }
 }
@@ -82,12 +84,18 @@ mod tests {
     #[test]
     fn a_setting_of_zero_is_no_diameter() {
         let program = "G107 Y0. A0.\nG107 A0. Q2.\nG107 Y0. A0.\nG107 Y0. A0. R0.\nM30\n";
-        check_rule_in(&RULE, "haas-mill", program, &world(), &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            program,
+            &world(),
+            &expect![[r#"
             1 | G107 Y0. A0.
               | ^^^^ warning[cylinder-without-diameter] the cylinder has no diameter (`G107`)
             4 | G107 Y0. A0. R0.
               | ^^^^ warning[cylinder-without-diameter] the cylinder has no diameter (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -104,6 +112,7 @@ mod tests {
               note: setting 34 is 0, and a size of zero goes back to it
               assuming: no program before this one gave cylinders on A a diameter
               help: give the diameter with `Q` or the radius with `R`
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -52,16 +52,20 @@ impl PathRule for PocketStepAboveTool {
         };
         let Some(unit) = cx.state().units(cx.model).map(Units::in_mm) else { return };
         let tool = number.filter(|number| *number > 0).and_then(|number| cx.state().tables().tool(number));
-        let Some(diameter) = tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) else { return };
+        let Some(diameter) = tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) else {
+            return;
+        };
         for letter in ['I', 'J'] {
             // Without a point the number counts what a setting says.
-            let Some(step) = word(letter).filter(|word| word.shape.point).and_then(|word| word.number()) else {
+            let Some(step) = word(letter).filter(|word| word.shape.point).and_then(|word| word.number())
+            else {
                 continue;
             };
             if step * unit <= diameter * 1.000_001 {
                 continue;
             }
-            let shown = |mm: f64| if unit > 1.0 { format!("{:.4} inch", mm / unit) } else { format!("{mm:.3} mm") };
+            let shown =
+                |mm: f64| if unit > 1.0 { format!("{:.4} inch", mm / unit) } else { format!("{mm:.3} mm") };
             report.add(
                 cx.finding(
                     &META,
@@ -86,10 +90,16 @@ mod tests {
     #[test]
     fn inches_and_tools_of_unknown_size() {
         let program = "G20 G90 G54 G0 X0. Y0.\nG41 D1\nG150 P100 X0. Y0. Z-.5 Q.2 R.1 J.4 F20.\nG150 P100 D9 X0. Y0. Z-.5 Q.2 R.1 J.4 F20.\nG150 P100 D#1 X0. Y0. Z-.5 Q.2 R.1 J#2 F20.\nM30\n";
-        check_rule_in(&RULE, "haas-mill", program, &World::of_examples(&META), &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            program,
+            &World::of_examples(&META),
+            &expect![[r#"
             3 | G150 P100 X0. Y0. Z-.5 Q.2 R.1 J.4 F20.
               |                                ^^^ warning[pocket-step-above-tool] the pocket's strokes lie further apart than the tool is wide
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-mill", program, &expect![[""]]);
     }
 }

@@ -121,10 +121,16 @@ mod tests {
         let mut world = World::default();
         world.machine.settings.insert("34".to_owned(), "4".to_owned());
         world.machine.engine.settings.insert("34".to_owned(), "4".to_owned());
-        check_rule_in(&RULE, "haas-mill", "G107 Y0. A0.\nG107 Y0. B0.\nM30\n", &world, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G107 Y0. A0.\nG107 Y0. B0.\nM30\n",
+            &world,
+            &expect![[r#"
             2 | G107 Y0. B0.
               | ^^^^ info[cylinder-diameter-from-setting] the cylinder's diameter is not in the program (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -112,7 +112,11 @@ impl CylinderLeftOn {
         let name = cx.name_of(code);
         let (linear, rotary) = (cylinder.linear.name(), cylinder.rotary.name());
         let finding = cx
-            .finding(&META, range(cx, place), format!("{linear} is still wrapped {} (`{name}`)", place.words()))
+            .finding(
+                &META,
+                range(cx, place),
+                format!("{linear} is still wrapped {} (`{name}`)", place.words()),
+            )
             .label(match place {
                 Place::Boundary(_) => format!("a word for {linear} still turns {rotary}"),
                 Place::Reference => format!("{rotary} turns away from the drawing"),
@@ -140,7 +144,9 @@ fn limited(cx: &PathCx<'_>, place: Place, name: &str, finding: Finding) -> Optio
                 .note(format!("setting {number} decides whether the end of the program ends `{name}`"))
                 .assuming(assumed),
         ),
-        _ => Some(finding.note(format!("with setting {number} off the end of the program does not end `{name}`"))),
+        _ => Some(
+            finding.note(format!("with setting {number} off the end of the program does not end `{name}`")),
+        ),
     }
 }
 
@@ -150,7 +156,8 @@ fn takes_away(cx: &PathCx<'_>, cylinder: &Cylinder) -> bool {
     let names = |axis: Axis| letters.contains(axis.letter());
     let axes = LetterSet::of("XYZABC");
     let all = !letters.intersects(axes) && cx.model.semantics().reference_without_axes;
-    all || names(cylinder.rotary) || names(cylinder.linear) && cx.state().is_incremental(cx.model) == Some(false)
+    all || names(cylinder.rotary)
+        || names(cylinder.linear) && cx.state().is_incremental(cx.model) == Some(false)
 }
 
 fn range(cx: &PathCx<'_>, place: Place) -> Range<u32> {
@@ -183,14 +190,24 @@ mod tests {
 
     #[test]
     fn the_way_through_a_point_of_the_drawing_turns_the_part() {
-        check_rule(&RULE, "haas-mill", "G107 Y0. A0. Q2.5\nG28 Y0.\nG107\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 Y0. A0. Q2.5\nG28 Y0.\nG107\nM30\n",
+            &expect![[r#"
             2 | G28 Y0.
               | ^^^ warning[cylinder-left-on] Y is still wrapped at the return to the reference position (`G107`)
-        "#]]);
-        check_rule(&RULE, "haas-mill", "G107 Y0. A0. Q2.5\nG28\nG107\nM30\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 Y0. A0. Q2.5\nG28\nG107\nM30\n",
+            &expect![[r#"
             2 | G28
               | ^^^ warning[cylinder-left-on] Y is still wrapped at the return to the reference position (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -232,14 +249,22 @@ mod tests {
     #[test]
     fn a_setting_decides_at_the_end() {
         check_with("on", &expect![[""]]);
-        check_with("off", &expect![[r#"
+        check_with(
+            "off",
+            &expect![[r#"
             3 | M30
               | ^^^ warning[cylinder-left-on] Y is still wrapped at the end of the program (`G107`)
-        "#]]);
-        check_rule(&RULE, "haas-mill", "G107 Y0. A0. Q2.5\nG1 Y1. F10.\nM30\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 Y0. A0. Q2.5\nG1 Y1. F10.\nM30\n",
+            &expect![[r#"
             3 | M30
               | ^^^ info[cylinder-left-on] Y is still wrapped at the end of the program (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -253,13 +278,15 @@ mod tests {
               here: a word for Y still turns A
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
-        "#]].assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
+        "#]]
+        .assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
         expect![[r#"
             Y is still wrapped at the return to the reference position (`G107`)
               here: A turns away from the drawing
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
-        "#]].assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
+        "#]]
+        .assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
         expect![[r#"
             Y is still wrapped at the end of the program (`G107`)
               here: a word for Y still turns A
@@ -267,6 +294,7 @@ mod tests {
               note: setting 56 decides whether the end of the program ends `G107`
               assuming: setting 56 (M30 restores default G codes) is on
               help: end mapping before, with `G107` alone in its block
-        "#]].assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));
+        "#]]
+        .assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));
     }
 }

@@ -46,7 +46,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if cx.control().semantics().cylinder.is_none() || cx.block().letters.intersects(ROTARY) {
         return;
     }
-    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else { return };
+    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
+        return;
+    };
     // A word that holds a variable may be left out.
     let is_given = |word: &&Word| OF_CYLINDER.contains(word.letter) && word.number().is_some();
     if let Some(word) = cx.words().iter().find(is_given)
@@ -69,7 +71,10 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
             entry.code, entry.title, entry.source
         ))
         .alarm(alarm.map(|alarm| alarm.text.clone()))
-        .help(format!("name the axis that carries the part: `{}0.`", reads.iter().next().unwrap_or(Letter::of('A'))))
+        .help(format!(
+            "name the axis that carries the part: `{}0.`",
+            reads.iter().next().unwrap_or(Letter::of('A'))
+        ))
         .at_most(limit(entry.confidence))
 }
 
@@ -107,10 +112,15 @@ mod tests {
 
     #[test]
     fn a_lathe_takes_c_too() {
-        check_rule(&RULE, "haas-lathe", "G107 Z0. R1.\nG107 Z0. C0. R1.\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G107 Z0. R1.\nG107 Z0. C0. R1.\n",
+            &expect![[r#"
             1 | G107 Z0. R1.
               |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

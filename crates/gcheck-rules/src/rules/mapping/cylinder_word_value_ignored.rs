@@ -35,7 +35,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if cx.control().semantics().cylinder.is_none() {
         return;
     }
-    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else { return };
+    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
+        return;
+    };
     let is_flag = |word: &&Word| cx.facts(word).is_some_and(|facts| facts.kind == WordKind::Flag);
     let ignored = |word: &&Word| word.number().is_some_and(|value| value != 0.0);
     let moves = cx.codes().any(|(_, other)| other.entry().takes_axes && other.number() != code.number());
@@ -54,11 +56,18 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     } else {
         format!("names the axis to wrap; {letter} does not move here")
     };
-    Finding::new(&META, cx.range(word), format!("the value of `{text}` does not count (`{}`)", cx.written(code)))
-        .label(label)
-        .note(format!("`{}` ({}) ignores the values of its axis words  [{}]", entry.code, entry.title, entry.source))
-        .help(format!("write `{letter}0.`, and move the axis in a block before if it is to stand elsewhere"))
-        .at_most(limit(entry.confidence))
+    Finding::new(
+        &META,
+        cx.range(word),
+        format!("the value of `{text}` does not count (`{}`)", cx.written(code)),
+    )
+    .label(label)
+    .note(format!(
+        "`{}` ({}) ignores the values of its axis words  [{}]",
+        entry.code, entry.title, entry.source
+    ))
+    .help(format!("write `{letter}0.`, and move the axis in a block before if it is to stand elsewhere"))
+    .at_most(limit(entry.confidence))
 }
 
 #[cfg(test)]
@@ -91,8 +100,7 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found =
-            findings(&Selection::only(&RULE), "haas-mill", "G107 Y2. A90. Q2.5\n", &World::default());
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y2. A90. Q2.5\n", &World::default());
         expect![[r#"
             the value of `Y2.` does not count (`G107`)
               here: names the axis to wrap; Y does not move here

@@ -79,10 +79,15 @@ mod tests {
 
     #[test]
     fn a_word_that_may_be_nothing_may_begin_it() {
-        check_rule(&RULE, "haas-mill", "G107 Y#100 A0. Q2.\nT2 M6\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 Y#100 A0. Q2.\nT2 M6\nM30\n",
+            &expect![[r#"
             2 | T2 M6
               |    ^^ info[maybe-cylinder-left-on] an axis may still be wrapped at the tool change (`G107`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -100,6 +105,7 @@ mod tests {
               there: `G107` set here
               there: when this is taken
               help: end mapping on every path, with `G107` alone in its block
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }
