@@ -40,6 +40,14 @@ pub enum Assumption {
     ProbeTouch,
     /// The machine has all axes that the control may have.
     Axis(Axis),
+    /// The bar is long enough for the next part.
+    BarLength,
+    /// The bar is just as long as a part and its clamping, which no manual decides: a new one is taken.
+    BarAtLimit,
+    /// A new bar is in the chuck at the start, and the feeder's counters stand at zero.
+    NewBar,
+    /// Limits of the bar feeder stop it as general knowledge has it.
+    BarLimits,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
 }

@@ -14,6 +14,7 @@ use crate::machine::{Machine, Tool, WorkOffset};
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
+use crate::step::bar::{Bar, start_bar_counters};
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
@@ -115,12 +116,15 @@ pub(crate) fn start_state<D: Domain>(
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         }],
         macro_modal: None,
         compensation: None,
         left_compensation: None,
         nurbs: None,
+        bar: Bar::at_start(machine),
     };
+    start_bar_counters(model, machine, &mut state);
     state.in_effect = state.work.map_or(WorkOffset::UNKNOWN, |number| state.tables.offset(number));
     for (number, value) in &machine.variables {
         let [first, last] = model.semantics().locals;
@@ -173,6 +177,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
     state.variables.forget();
+    state.bar = Bar::UNKNOWN;
     state
 }
 

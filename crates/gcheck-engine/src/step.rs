@@ -4,6 +4,7 @@
 //! how paths are explored.
 
 mod arc;
+pub(crate) mod bar;
 pub(crate) mod compensation;
 pub(crate) mod contract;
 mod cycle;
@@ -91,6 +92,8 @@ pub enum Ending {
     Text,
     /// `#3000`.
     Alarm(i64),
+    /// The bar feeder has no bar left, or has made as many parts as it was told to.
+    BarsUsed,
 }
 
 pub(crate) type Step<T = ()> = Result<T, Fault>;
@@ -131,6 +134,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Assignee, D::Value)>,
+    /// Bar feeds so far.
+    pub(crate) bar_feeds: u64,
 }
 
 /// What an assignment writes to.
@@ -203,6 +208,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
+            bar_feeds: 0,
         }
     }
 

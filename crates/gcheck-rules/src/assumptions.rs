@@ -90,6 +90,19 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::ProbeTouch => Described::new("probing moves touch, at points that nobody knows"),
         Assumption::Axis(axis) => Described::new(format!("the machine has the axis `{}`", axis.name()))
             .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
+        Assumption::BarLength => {
+            Described::new("the bar is long enough for the next part: its length is not known")
+                .pin("[machine] bar_length = …")
+        }
+        Assumption::BarAtLimit => Described::new(
+            "a bar just as long as a part and its clamping is taken for too short: the manual does not say",
+        ),
+        Assumption::NewBar => Described::new(
+            "the program starts with a new bar in the chuck, pushed out as new bars are, and the feeder's counters at zero",
+        ),
+        Assumption::BarLimits => {
+            Described::new("the bar feeder stops when its limit of parts, bars or length is reached")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -170,7 +183,12 @@ fn weight(assumption: &Assumption) -> u8 {
         Assumption::WorkOffset(_) => 4,
         Assumption::ToolLength(_) | Assumption::ToolRadius(_) => 5,
         Assumption::Variable(_) => 6,
-        Assumption::Axis(_) | Assumption::ProbeTouch => 7,
+        Assumption::Axis(_)
+        | Assumption::ProbeTouch
+        | Assumption::BarLength
+        | Assumption::BarAtLimit
+        | Assumption::NewBar
+        | Assumption::BarLimits => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }
