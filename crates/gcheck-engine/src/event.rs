@@ -141,6 +141,8 @@ pub enum Event {
     Chuck(bool),
     /// The bar feeder is told to bring bar for the next part: the part before it is cut off.
     BarFeed(BarLengths),
+    /// The bar feeder is set up, in this mode (`None` unknown).
+    BarSetup(Option<u32>),
     /// What is left of the bar is taken out: this much behind the face of the chuck (NaN unknown).
     BarUnload(Mm),
     /// A new bar is brought to the chuck.

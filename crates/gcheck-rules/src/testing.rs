@@ -36,7 +36,8 @@ impl Default for World<'_> {
 
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
-    /// 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
+    /// 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3. Those of the group
+    /// `bar_feeder` have new bars of 1000 mm.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         let mut world = Self::default();
         if rule.group == "machine" {
@@ -57,6 +58,9 @@ impl World<'_> {
                 tool_table_is_complete: true,
                 ..Machine::default()
             };
+        }
+        if rule.group == "bar_feeder" {
+            world.machine.engine.bar.new_bar = Some(Mm(1000.0));
         }
         world
     }

@@ -143,6 +143,7 @@ impl<W: Write> Canonical<W> {
             Event::Chuck(clamped) => {
                 self.quoted(n, "COMMENT", if *clamped { "chuck clamped" } else { "chuck unclamped" })
             }
+            Event::BarSetup(_) => self.quoted(n, "COMMENT", "bar feeder set up"),
             Event::BarUnload(_) => self.quoted(n, "COMMENT", "bar unloaded"),
             Event::BarLoad => self.quoted(n, "COMMENT", "new bar loaded"),
             Event::BarPush(by) => self.line(n, |out| {

@@ -201,6 +201,7 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
             (Kind::Coolant, Some(action), None)
         }
         Event::Chuck(clamped) => (Kind::Bar, Some(if *clamped { "clamp" } else { "unclamp" }), None),
+        Event::BarSetup(mode) => (Kind::Bar, Some("setup"), Some(("mode", number(*mode)))),
         Event::BarUnload(rest) => {
             (Kind::Bar, Some("unload"), Some(("remnant", rest.0 / step.units.in_mm())))
         }

@@ -151,6 +151,8 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
     if let Some((name, value)) = record.value {
         let before = match record.action {
             Some("push") => "push ",
+            Some("setup") => "setup, mode ",
+            Some("unload") => "unload, left ",
             Some("orient") => "to ",
             Some("change") => "T",
             Some("set") => "now T",

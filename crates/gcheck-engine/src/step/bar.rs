@@ -149,11 +149,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.opaque_operation(ix, state);
             return Ok(());
         };
-        if !matches!(self.count(Letter::of('Q'))?, None | Some(Count::Known(0))) {
+        let mode = self.count(Letter::of('Q'))?.filter(|mode| *mode != Count::Known(0));
+        if let Some(mode) = mode {
             // The feeder is set up: bars come and go, and where they are is its own affair.
             self.assumptions.insert(Assumption::Code(ix));
             state.bar = Bar::UNKNOWN;
             state.spindle = state.spindle.filter(|spindle| *spindle == Spindle::Stopped);
+            let mode = if let Count::Known(mode) = mode { Some(mode) } else { None };
+            self.emit(state, Event::BarSetup(mode));
             return Ok(());
         }
         let command = BarCommand {

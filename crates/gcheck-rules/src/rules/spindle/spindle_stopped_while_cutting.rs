@@ -61,7 +61,8 @@ impl PathRule for SpindleStoppedWhileCutting {
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
             Event::OrientSpindle { .. } => self.is_oriented = true,
-            Event::Spindle(_) => self.is_oriented = false,
+            // A new bar is taken at an angle, and then the spindle is to turn again.
+            Event::Spindle(_) | Event::BarPush(_) => self.is_oriented = false,
             _ => {}
         }
     }
@@ -129,7 +130,7 @@ fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
 }
 
 fn stops(effect: Effect) -> bool {
-    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient)
+    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient | Effect::BarFeed)
 }
 
 /// The code that stopped the spindle, as programs write it.

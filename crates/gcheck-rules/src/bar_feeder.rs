@@ -1,0 +1,131 @@
+//! What rules ask about a bar feed: where its lengths come from, and how they are named.
+//!
+//! Knows: the words of the feed and the variables that stand in for them. Must not know: any rule.
+
+use std::ops::Range;
+
+use gcheck_controls::{BarFeederRules, Effect, Letter};
+use gcheck_engine::{Abstract, BarLengths, Domain, Event, Units};
+use gcheck_geometry::Mm;
+
+use crate::PathCx;
+
+/// A length that a bar is fed by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Length {
+    /// A part with its cutoff.
+    Part,
+    /// The push of a new bar.
+    Initial,
+    /// What must stay clamped.
+    Clamping,
+}
+
+/// Who gives a length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Given {
+    /// A word of the block.
+    Word,
+    /// Its variable, which the program set or somebody told.
+    Variable,
+    /// The control's own page, which nobody told.
+    Nobody,
+}
+
+impl Length {
+    pub(crate) const ALL: [Self; 3] = [Self::Part, Self::Initial, Self::Clamping];
+
+    pub(crate) const fn letter(self) -> char {
+        match self {
+            Self::Part => 'J',
+            Self::Initial => 'I',
+            Self::Clamping => 'K',
+        }
+    }
+
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Self::Part => "part length",
+            Self::Initial => "initial push",
+            Self::Clamping => "clamping length",
+        }
+    }
+
+    pub(crate) const fn variable(self, rules: &BarFeederRules) -> u32 {
+        match self {
+            Self::Part => rules.part,
+            Self::Initial => rules.initial_push,
+            Self::Clamping => rules.clamping,
+        }
+    }
+
+    /// As the feed has it; NaN unknown.
+    pub(crate) const fn of(self, lengths: &BarLengths) -> Mm {
+        match self {
+            Self::Part => lengths.part,
+            Self::Initial => lengths.initial,
+            Self::Clamping => lengths.clamping,
+        }
+    }
+}
+
+impl<'a> PathCx<'a> {
+    /// The variables of the control's bar feeder, for rules that watch programs which use one; silence for all others.
+    pub(crate) fn bar_feeder(&self) -> Option<&'a BarFeederRules> {
+        let rules = self.model.semantics().bar_feeder.as_ref();
+        if rules.is_none() || !self.file_uses(|effect| effect == Effect::BarFeed) {
+            self.enough();
+            return None;
+        }
+        rules
+    }
+
+    /// Who gives a length of the bar feed at hand.
+    pub(crate) fn given(&self, length: Length, rules: &BarFeederRules) -> Given {
+        if self.origin().letters.contains(Letter::of(length.letter())) {
+            Given::Word
+        } else if self.state().variables().is_written(length.variable(rules)) {
+            Given::Variable
+        } else {
+            Given::Nobody
+        }
+    }
+
+    /// Bytes of the word that gives a length, else of the feed's code.
+    pub(crate) fn length_range(&self, length: Length) -> Range<u32> {
+        if self.origin().letters.contains(Letter::of(length.letter())) {
+            self.letter_range(length.letter())
+        } else {
+            self.bar_feed_range()
+        }
+    }
+
+    /// Bytes of the feed's code.
+    pub(crate) fn bar_feed_range(&self) -> Range<u32> {
+        self.effect_range(|effect| effect == Effect::BarFeed)
+    }
+
+    /// The feed's code as programs write it.
+    pub(crate) fn bar_feed_name(&self) -> String {
+        self.cancel_of(Effect::BarFeed).unwrap_or_default()
+    }
+
+    /// A variable's number, if it is exactly known.
+    pub(crate) fn known_variable(&self, number: u32) -> Option<f64> {
+        Abstract::known(&self.state().variables().get(number))
+    }
+
+    /// A length as the program writes lengths: `1.75 in`.
+    pub(crate) fn shown(&self, length: Mm) -> String {
+        let (number, unit) = match self.state().units(self.model) {
+            Some(Units::Inch) => (format!("{:.4}", length.inch()), "in"),
+            _ => (format!("{:.3}", length.0), "mm"),
+        };
+        format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
+    }
+}
+
+/// What the feeder is told, when an event begins a feed.
+pub(crate) const fn lengths(event: &Event) -> Option<&BarLengths> {
+    if let Event::BarFeed(lengths) = event { Some(lengths) } else { None }
+}
