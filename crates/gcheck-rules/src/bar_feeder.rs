@@ -5,10 +5,10 @@
 use std::ops::Range;
 
 use gcheck_controls::{BarFeederRules, Effect, Letter};
-use gcheck_engine::{Abstract, BarLengths, Domain, Event, Units};
+use gcheck_engine::{Abstract, BarLengths, Domain, Event, Fact, Role, Units};
 use gcheck_geometry::Mm;
 
-use crate::PathCx;
+use crate::{Finding, PathCx, Severity};
 
 /// A length that a bar is fed by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,6 +108,16 @@ impl<'a> PathCx<'a> {
     /// The feed's code as programs write it.
     pub(crate) fn bar_feed_name(&self) -> String {
         self.cancel_of(Effect::BarFeed).unwrap_or_default()
+    }
+
+    /// The finding no more severe than the units that the block's lengths are read in.
+    pub(crate) fn resting_on_units(&self, finding: Finding) -> Finding {
+        let is_told = self.scene.machine.units_are_told;
+        if is_told || self.trace().set_by(Fact::Mode(Role::Units)).is_some() {
+            return finding;
+        }
+        let code = self.code_name(Role::Units).map_or_else(String::new, |code| format!(" (`{code}`)"));
+        finding.at_most(Severity::Warning).assuming(format!("the units{code} are as the control has them at the start"))
     }
 
     /// A variable's number, if it is exactly known.

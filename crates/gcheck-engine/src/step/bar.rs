@@ -8,10 +8,12 @@
 
 use gcheck_controls::{BarFeederRules, CodeIx, Letter};
 use gcheck_geometry::Mm;
+use gcheck_program::Word;
 
 use super::{Count, Ending, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::{BarLengths, Event, Spindle, Units};
+use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
 use crate::observer::{Observer, Origin};
@@ -144,13 +146,12 @@ pub(crate) fn start_bar_counters<D: Domain>(model: &Model<'_>, machine: &Machine
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G105`.
-    pub(super) fn bar_feed(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+    pub(super) fn bar_feed(&mut self, ix: CodeIx, words: &[Word], state: &mut State<D>) -> Step {
         let Some(rules) = &self.model.semantics().bar_feeder else {
             self.opaque_operation(ix, state);
             return Ok(());
         };
-        let mode = self.count(Letter::of('Q'))?.filter(|mode| *mode != Count::Known(0));
-        if let Some(mode) = mode {
+        if let Some(mode) = self.bar_mode(words)? {
             // The feeder is set up: bars come and go, and where they are is its own affair.
             self.assumptions.insert(Assumption::Code(ix));
             state.bar = Bar::UNKNOWN;
@@ -163,7 +164,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             part: self.bar_length('J', rules.part, state)?,
             initial: self.initial_push(rules, state)?,
             clamping: self.bar_length('K', rules.clamping, state)?,
-            orient: self.words.number(Letter::of('R')),
+            orient: self.words.number(Letter::of('R')).map(|angle| {
+                // What a number without a decimal point counts in, goes by the lengths of the address.
+                if self.words.is_pointed(Letter::of('R')) || angle == 0.0 { angle } else { f64::NAN }
+            }),
         };
         match self.count(Letter::of('P'))? {
             None => {}
@@ -180,6 +184,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.flow = Some(super::Flow::End(ending));
         }
         Ok(())
+    }
+
+    /// The mode that sets the feeder up; `None` for the feed.
+    fn bar_mode(&self, words: &[Word]) -> Step<Option<Count>> {
+        let letter = Letter::of('Q');
+        // A whole number, which elsewhere is a length and counts otherwise without a decimal point.
+        let written = words.iter().rfind(|word| word.letter == letter).and_then(Word::number);
+        let mode = match written {
+            Some(mode) if (0.0..=f64::from(u16::MAX)).contains(&mode) && mode.fract() == 0.0 => {
+                #[expect(clippy::cast_sign_loss, reason = "range checked in the pattern's guard")]
+                Some(Count::Known(mode as u32))
+            }
+            Some(_) => return Err(Fault::WordRange(letter)),
+            None => self.count(letter)?,
+        };
+        Ok(mode.filter(|mode| *mode != Count::Known(0)))
     }
 
     /// The cutoff program came back to the bar feed that called it.

@@ -234,7 +234,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::GeneralPocket => self.general_pocket(state)?,
             E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
             E::Engrave => self.opaque_operation(ix, state),
-            E::BarFeed => self.bar_feed(ix, state)?,
+            E::BarFeed => self.bar_feed(ix, words, state)?,
             E::NurbsClose => self.nurbs_close(state)?,
 
             E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,

@@ -86,7 +86,10 @@ mod tests {
 
     #[test]
     fn a_feed_that_calls_itself() {
-        check_rule(&RULE, "haas-lathe", "O1\nG105 J1.75 P2\nM30\nO2\nG105 J1.75 P2\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "O1\nG105 J1.75 P2\nM30\nO2\nG105 J1.75 P2\nM99\n", &expect![[r#"
+            5 | G105 J1.75 P2
+              | ^^^^ warning[bar-feed-in-cutoff-program] cutoff program feeds the bar itself (`G105`)
+        "#]]);
     }
 
     #[test]
@@ -95,7 +98,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "O1\nG105 J1.75 P2\nM30\nO2\nM98 P3\nM99\nO3\nG105 J1.75\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                8 | G105 J1.75
+                  | ^^^^ warning[bar-feed-in-cutoff-program] cutoff program feeds the bar itself (`G105`)
+            "#]],
         );
     }
 

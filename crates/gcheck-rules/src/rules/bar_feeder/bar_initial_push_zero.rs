@@ -103,8 +103,14 @@ mod tests {
 
     #[test]
     fn a_zero_of_the_block() {
-        check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I0\nM99\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "#3101=2.\nM5\nG105 J1. K1. I0\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I0\nM99\n", &expect![[r#"
+            2 | G105 J1. K1. I0
+              |              ^^ info[bar-initial-push-zero] new bar is pushed by the reference position (`#3112`)
+        "#]]);
+        check_rule(&RULE, "haas-lathe", "#3101=2.\nM5\nG105 J1. K1. I0\nM99\n", &expect![[r#"
+            3 | G105 J1. K1. I0
+              |              ^^ info[bar-initial-push-zero] initial push is zero, and `#3101` is not
+        "#]]);
         check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I#500\nM99\n", &expect![[""]]);
     }
 

@@ -112,14 +112,20 @@ mod tests {
             &RULE,
             "haas-lathe",
             "N1 G1 X0. F0.004\nG0 X3.\nM5\nG105 J1.75\nGOTO 1\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | GOTO 1
+                  | ^^^^^^ info[bar-job-without-end] bar job repeats until no bar is left
+            "#]],
         );
     }
 
     #[test]
     fn a_limit_that_is_not_known_is_one_and_zero_is_none() {
         check_rule(&RULE, "haas-lathe", "#3103=#500\nM5\nG105 J1.75\nM99\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "#3103=0\nM5\nG105 J1.75\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "#3103=0\nM5\nG105 J1.75\nM99\n", &expect![[r#"
+            4 | M99
+              | ^^^ info[bar-job-without-end] bar job repeats until no bar is left
+        "#]]);
     }
 
     #[test]

@@ -84,7 +84,10 @@ mod tests {
             "haas-lathe",
             "G20\nM5\nG105 J0.1 K1.9 I0.1\nM99\n",
             &world,
-            &expect![[""]],
+            &expect![[r#"
+                3 | G105 J0.1 K1.9 I0.1
+                  |      ^^^^ info[bar-just-long-enough] bar comes out just long enough for its last part
+            "#]],
         );
         check_rule_in(&RULE, "haas-lathe", "G20\nM5\nG105 J0.1 K1.95 I0.1\nM99\n", &world, &expect![[""]]);
         check_rule_in(&RULE, "haas-lathe", "G20\nM5\nG105 J0.1 K#500 I0.1\nM99\n", &world, &expect![[""]]);

@@ -103,7 +103,10 @@ mod tests {
 
     #[test]
     fn a_bare_feed_is_the_usual_form() {
-        check_rule(&RULE, "haas-lathe", "M5\nG105\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "M5\nG105\nM99\n", &expect![[r#"
+            2 | G105
+              | ^^^^ info[bar-length-missing] lengths of the bar feed are not given
+        "#]]);
     }
 
     #[test]
@@ -113,7 +116,10 @@ mod tests {
             "haas-lathe",
             "M5\nG105 J1.75\nM99\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                2 | G105 J1.75
+                  | ^^^^ warning[bar-length-missing] lengths of the bar feed are not given
+            "#]],
         );
     }
 
@@ -122,7 +128,10 @@ mod tests {
         let mut world = World::default();
         world.machine.engine.bar.new_bar = Some(Mm(1000.0));
         world.machine.engine.variables = [(3100, 1.75), (3101, 2.0)].into();
-        check_rule_in(&RULE, "haas-lathe", "M5\nG105\nM99\n", &world, &expect![[""]]);
+        check_rule_in(&RULE, "haas-lathe", "M5\nG105\nM99\n", &world, &expect![[r#"
+            2 | G105
+              | ^^^^ warning[bar-length-missing] clamping length of the bar feed is not given (`#3102`)
+        "#]]);
     }
 
     /// Given, though nobody knows how much.
@@ -149,7 +158,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "M97 P10\nM30\nN10 M5\n/G105 I2. K1.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | /G105 I2. K1.
+                  |  ^^^^ info[bar-length-missing] part length of the bar feed is not given (`#3100`)
+            "#]],
         );
     }
 }

@@ -97,7 +97,12 @@ mod tests {
             &RULE,
             "haas-lathe",
             "#3101=3.\nM5\nG105 J1.75 I2. K1.\nM5\nG105 J1.75\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | G105 J1.75
+                  | ^^^^ info[bar-override-does-not-last] `I` of the earlier bar feed does not last
+                5 | G105 J1.75
+                  | ^^^^ info[bar-override-does-not-last] `K` of the earlier bar feed does not last
+            "#]],
         );
     }
 
@@ -114,6 +119,9 @@ mod tests {
     #[test]
     fn values_that_are_not_known() {
         check_rule(&RULE, "haas-lathe", "#3100=#500\nM5\nG105 J1.75\nM5\nG105\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "M5\nG105 J#500\nM5\nG105\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "M5\nG105 J#500\nM5\nG105\nM30\n", &expect![[r#"
+            4 | G105
+              | ^^^^ info[bar-override-does-not-last] `J` of the earlier bar feed does not last
+        "#]]);
     }
 }

@@ -104,7 +104,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "O1\nG20\n#3100=1.5\nG105 P2\nM99\nO2\nG0 X2.1 Z-1.625\nG1 X-0.04 F0.004\nG0 X6.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G105 P2
+                  | ^^^^ warning[bar-push-shorter-than-part] bar is pushed by less than the part is long
+            "#]],
         );
     }
 

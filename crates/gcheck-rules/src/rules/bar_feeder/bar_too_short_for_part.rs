@@ -51,7 +51,7 @@ impl PathRule for BarTooShortForPart {
         let (part, clamping, initial) = (told.part, told.clamping, told.initial);
         // Numbers below zero are another rule's.
         if part > Mm::ZERO && clamping >= Mm::ZERO && part + clamping > bar {
-            report.add(
+            let finding =
                 cx.finding(&META, cx.length_range(Length::Part), "part and its clamping are longer than a new bar")
                     .label(format!(
                         "{} and {} to clamp; a bar has {}",
@@ -60,8 +60,8 @@ impl PathRule for BarTooShortForPart {
                         cx.shown(bar)
                     ))
                     .note("a bar that is shorter is taken out for the next one: every feed would take a new bar")
-                    .help("correct the part length (`J`), the clamping length (`K`) or `bar_length` of the machine file"),
-            );
+                    .help("correct the part length (`J`), the clamping length (`K`) or `bar_length` of the machine file");
+            report.add(cx.resting_on_units(finding));
         } else if clamping >= Mm::ZERO && initial > Mm::ZERO && bar - initial < clamping {
             report.add(
                 cx.finding(
@@ -94,10 +94,26 @@ mod tests {
 
     #[test]
     fn lengths_of_the_block_and_of_variables() {
-        check("G21\nM5\nG105 J980. K60. I50.\nM99\n", &expect![[""]]);
-        check("G21\n#3100=980.\n#3102=60.\nM5\nG105 I50.\nM99\n", &expect![[""]]);
-        check("G21\nM5\nG105 J98. K60. I970.\nM99\n", &expect![[""]]);
-        check("G20\nM5\nG105 J38. K2. I39.\nM99\n", &expect![[""]]);
+        check("G21\nM5\nG105 J980. K60. I50.\nM99\n", &expect![[r#"
+            3 | G105 J980. K60. I50.
+              |      ^^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
+        "#]]);
+        check("G21\n#3100=980.\n#3102=60.\nM5\nG105 I50.\nM99\n", &expect![[r#"
+            5 | G105 I50.
+              | ^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
+        "#]]);
+        check("G21\nM5\nG105 J98. K60. I970.\nM99\n", &expect![[r#"
+            3 | G105 J98. K60. I970.
+              |                ^^^^^ warning[bar-too-short-for-part] new bar is pushed too far out to be clamped
+        "#]]);
+        check("M5\nG105 J98. K2. I39.\nM99\n", &expect![[r#"
+            2 | G105 J98. K2. I39.
+              |      ^^^^ warning[bar-too-short-for-part] part and its clamping are longer than a new bar
+        "#]]);
+        check("G20\nM5\nG105 J38. K2. I39.\nM99\n", &expect![[r#"
+            3 | G105 J38. K2. I39.
+              |      ^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
+        "#]]);
     }
 
     #[test]

@@ -83,7 +83,12 @@ mod tests {
 
     #[test]
     fn before_and_behind() {
-        check_rule(&RULE, "haas-lathe", "M5\nM11\nG105 J1.75\nM10\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "M5\nM11\nG105 J1.75\nM10\nM99\n", &expect![[r#"
+            3 | G105 J1.75
+              | ^^^^ info[chuck-moved-at-bar-feed] chuck is open before the bar is fed (`M11`)
+            4 | M10
+              | ^^^ info[chuck-moved-at-bar-feed] bar feed has closed the chuck already (`M10`)
+        "#]]);
     }
 
     #[test]

@@ -15,6 +15,14 @@ declare_rule! {
     /// ## Why it matters
     /// The part is cut off and nothing follows: no push, no clamping, no next part.
     ///
+    /// ## Reported
+    /// With a program 9099 in another file that ends with `M30`:
+    /// ```nc,reported,haas-lathe
+    /// O1
+    /// M5
+    /// G105 J1.75 P9099
+    /// M99
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-lathe
     /// O1
@@ -111,8 +119,14 @@ mod tests {
 
     #[test]
     fn its_end_decides() {
-        check("O2\nG1 X0. F0.004\nM30\n", &expect![[""]]);
-        check("O2\nG1 X0. F0.004\n", &expect![[""]]);
+        check("O2\nG1 X0. F0.004\nM30\n", &expect![[r#"
+            3 | G105 J1.75 P2
+              |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
+        "#]]);
+        check("O2\nG1 X0. F0.004\n", &expect![[r#"
+            3 | G105 J1.75 P2
+              |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
+        "#]]);
         check("O2\nG1 X0. F0.004\nIF [#500 EQ 1] GOTO 9\nM99\nN9 M30\n", &expect![[""]]);
     }
 }

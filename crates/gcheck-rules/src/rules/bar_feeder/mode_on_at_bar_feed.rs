@@ -98,9 +98,17 @@ mod tests {
             &RULE,
             "haas-lathe",
             "G0 X0. Z0.1\nG97 S800 M3\nG83 Z-1. Q0.2 R0.1 F0.004\nM5\nG105 J1.75\nG80\nG105 J1.75\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | G105 J1.75
+                  | ^^^^ warning[mode-on-at-bar-feed] canned cycle is still on while the bar is fed (`G83`)
+            "#]],
         );
-        check_rule(&RULE, "haas-lathe", "M133 P1000\nG112\nM5\nG105 J1.75\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "haas-lathe", "M133 P1000\nG112\nM5\nG105 J1.75\nM30\n", &expect![[r#"
+            4 | G105 J1.75
+              | ^^^^ warning[mode-on-at-bar-feed] live tool still turns while the bar is fed
+            4 | G105 J1.75
+              | ^^^^ warning[mode-on-at-bar-feed] polar interpolation is still on while the bar is fed (`G112`)
+        "#]]);
     }
 
     #[test]

@@ -102,7 +102,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "O1\nG20\nG105 J2. P2\nM99\nO2\nG0 X2.1 Z-1.625\nG1 X-0.04 F0.004\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G105 J2. P2
+                  | ^^^^ warning[turret-in-the-way-of-bar] tool stands in the way of the bar
+            "#]],
         );
     }
 
