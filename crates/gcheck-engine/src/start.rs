@@ -14,8 +14,8 @@ use crate::machine::{Machine, Tool, WorkOffset};
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
-use crate::step::bar::{Bar, start_bar_counters};
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+use crate::step::bar::{Bar, start_bar_counters};
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 

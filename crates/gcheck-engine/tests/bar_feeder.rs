@@ -1,11 +1,13 @@
 //! The bar feeder: what a bar feed does, in which order, and when a job ends.
 
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
 use gcheck_engine::{
-    Assumption, BarFeeder, Concrete, Event, Machine, Model, NoLibrary, Observer, Options, Origin, Program,
-    Spindle, State, run,
+    Abstract, Assumption, At, Bar, BarFeeder, Concrete, Domain, Event, FlowCx, FlowObserver, Machine, Model,
+    NoLibrary, Observer, Options, Origin, Program, Spindle, State, Truth, flow, run,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
@@ -134,7 +136,8 @@ fn a_bar_just_long_enough_is_changed_and_said() {
         3: push 30
         3: chuck closes
         4: spindle stops
-    "#]].assert_eq(&ran.shown);
+    "#]]
+    .assert_eq(&ran.shown);
     assert!(ran.assumptions.contains(&Assumption::BarAtLimit));
     let ran = execute("G21\nM5\nG105 J9.999 K60. I30.\nM30\n", &bars(100.0, 2));
     assert!(ran.shown.contains("push 9.999") && !ran.assumptions.contains(&Assumption::BarAtLimit));
@@ -142,7 +145,10 @@ fn a_bar_just_long_enough_is_changed_and_said() {
 
 #[test]
 fn a_main_program_repeats_until_the_bars_are_used() {
-    check("G21\nM5\nG105 J25. K10. I30.\nM99\n", &bars(100.0, 2), &expect![[r#"
+    check(
+        "G21\nM5\nG105 J25. K10. I30.\nM99\n",
+        &bars(100.0, 2),
+        &expect![[r#"
         2: spindle stops
         3: feed
         3: chuck opens
@@ -175,42 +181,62 @@ fn a_main_program_repeats_until_the_bars_are_used() {
         3: chuck opens
         3: unload, left 20
         Ended(BarsUsed)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn without_bars_it_runs_once() {
-    let one = Machine { bar: BarFeeder { new_bar: Some(Mm(100.0)), bars: None, starts_new: true }, ..Machine::default() };
-    check("G21\nM5\nG105 J25. K10. I30.\nM99\n", &one, &expect![[r#"
+    let one = Machine {
+        bar: BarFeeder { new_bar: Some(Mm(100.0)), bars: None, starts_new: true },
+        ..Machine::default()
+    };
+    check(
+        "G21\nM5\nG105 J25. K10. I30.\nM99\n",
+        &one,
+        &expect![[r#"
         2: spindle stops
         3: feed
         3: chuck opens
         3: push 25
         3: chuck closes
         Ended(Restart)
-    "#]]);
-    check("G21\nM5\nG105 J25. K10. I30.\nM99\n", &Machine::default(), &expect![[r#"
+    "#]],
+    );
+    check(
+        "G21\nM5\nG105 J25. K10. I30.\nM99\n",
+        &Machine::default(),
+        &expect![[r#"
         2: spindle stops
         3: feed
         3: chuck opens
         3: push 25
         3: chuck closes
         Ended(Restart)
-    "#]]);
+    "#]],
+    );
     // Bars of which nobody knows when they are used up.
-    check("G21\nM5\nG105 J25. I30.\nM99\n", &bars(100.0, 3), &expect![[r#"
+    check(
+        "G21\nM5\nG105 J25. I30.\nM99\n",
+        &bars(100.0, 3),
+        &expect![[r#"
         2: spindle stops
         3: feed
         3: chuck opens
         3: push 25
         3: chuck closes
         Ended(Restart)
-    "#]]);
+    "#]],
+    );
     // A program that feeds no bar.
-    check("G21\nM5\nM99\n", &bars(100.0, 3), &expect![[r#"
+    check(
+        "G21\nM5\nM99\n",
+        &bars(100.0, 3),
+        &expect![[r#"
         2: spindle stops
         Ended(Restart)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
@@ -283,13 +309,20 @@ fn what_is_not_known_stays_unknown() {
 
 #[test]
 fn a_setup_mode_feeds_nothing() {
-    check("G21\nM5\nG105 Q2 J25.\nM30\n", &bars(1000.0, 1), &expect![[r#"
+    check(
+        "G21\nM5\nG105 Q2 J25.\nM30\n",
+        &bars(1000.0, 1),
+        &expect![[r#"
         2: spindle stops
         3: setup Some(2)
         4: spindle stops
         Ended(Program)
-    "#]]);
-    check("G21\nM5\nG105 Q0 J25. K1. I30.\nM30\n", &bars(1000.0, 1), &expect![[r#"
+    "#]],
+    );
+    check(
+        "G21\nM5\nG105 Q0 J25. K1. I30.\nM30\n",
+        &bars(1000.0, 1),
+        &expect![[r#"
         2: spindle stops
         3: feed
         3: chuck opens
@@ -297,13 +330,88 @@ fn a_setup_mode_feeds_nothing() {
         3: chuck closes
         4: spindle stops
         Ended(Program)
-    "#]]);
+    "#]],
+    );
 }
 
 #[test]
 fn a_feed_inside_the_cutoff_program_of_another_ends_too() {
     let ran = execute("O1\nG21\nG105 J25. P2\nM30\nO2\nG105 J25. P2\nM99\n", &bars(1000.0, 1));
     assert_eq!(ran.stopped, "Faulted(TooDeep)");
+}
+
+/// States before each block of all paths.
+#[derive(Default)]
+struct Allowed(Vec<(At, State<Abstract>)>);
+
+impl FlowObserver for Allowed {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        self.0.push((cx.origin.at, cx.state.clone()));
+    }
+}
+
+/// Bars and their counters before each block of a run.
+#[derive(Default)]
+struct Passed(Vec<(At, Bar, [Option<f64>; 4])>);
+
+impl Observer<Concrete> for Passed {
+    fn before(&mut self, origin: Origin, state: &State<Concrete>) {
+        let counters = [3106, 3107, 3108, 3109].map(|number| Concrete::known(&state.variables().get(number)));
+        self.0.push((origin.at, *state.bar(), counters));
+    }
+}
+
+/// Law 4 for the bar: what a run counts and has left, the analysis of all paths allows at the same block.
+#[test]
+fn all_paths_allow_what_a_run_does() {
+    let text = "\
+O1
+G21
+#3106=0
+N1 IF [#500 EQ 1] GOTO 2
+#3100=25.
+N2 IF [#501 EQ 1] THEN #3102=10.
+M5
+G105 I30. K20. P2
+M11
+M10
+IF [#3106 LT 5] GOTO 1
+M30
+O2
+G105 J3. K20. I30.
+M99
+";
+    let control = gcheck_controls::load("haas-lathe").unwrap();
+    let dialect = Dialect::new(&control);
+    let model = Model::new(&control);
+    let program = Program::new(Loaded::new(text, &dialect, |_, _, _| ()), &dialect, &NoLibrary);
+    for told in [Machine::default(), bars(300.0, 3)] {
+        let mut allowed = Allowed::default();
+        let result = flow(&program, &model, &told, Options::NONE, 50_000, &mut allowed);
+        assert!(!result.out_of_fuel);
+        for (branch, limit) in [(0.0, 0.0), (1.0, 1.0)] {
+            let machine = with(bars(300.0, 3), &[(500, branch), (501, limit), (3100, 12.0)]);
+            let mut passed = Passed::default();
+            run(&program, &model, &machine, Options::NONE, 2_000, &mut passed);
+            for (at, bar, counters) in passed.0 {
+                let allows = |state: &State<Abstract>| {
+                    let (length, clamped) = (state.bar().length(), state.bar().clamped());
+                    let same = !length.is_known() || length == bar.length();
+                    let held = clamped == Truth::Unknown || clamped == bar.clamped();
+                    let counted =
+                        [3106, 3107, 3108, 3109].into_iter().zip(counters).all(|(number, value)| {
+                            let allowed = state.variables().get(number);
+                            value.is_none_or(|value| Abstract::contains(&allowed, &Abstract::number(value)))
+                        });
+                    same && held && counted
+                };
+                assert!(
+                    allowed.0.iter().any(|(block, state)| *block == at && allows(state)),
+                    "block {at:?}: {bar:?} {counters:?}"
+                );
+            }
+        }
+    }
 }
 
 /// Words of every kind: no number makes a run hang or panic.

@@ -117,7 +117,9 @@ impl<'a> PathCx<'a> {
             return finding;
         }
         let code = self.code_name(Role::Units).map_or_else(String::new, |code| format!(" (`{code}`)"));
-        finding.at_most(Severity::Warning).assuming(format!("the units{code} are as the control has them at the start"))
+        finding
+            .at_most(Severity::Warning)
+            .assuming(format!("the units{code} are as the control has them at the start"))
     }
 
     /// A variable's number, if it is exactly known.
@@ -138,4 +140,80 @@ impl<'a> PathCx<'a> {
 /// What the feeder is told, when an event begins a feed.
 pub(crate) const fn lengths(event: &Event) -> Option<&BarLengths> {
     if let Event::BarFeed(lengths) = event { Some(lengths) } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use expect_test::expect;
+    use gcheck_geometry::Mm;
+
+    use crate::testing::{World, findings};
+    use crate::{Selection, Severity};
+
+    /// Findings of every rule on a bar job with this feed, in one line.
+    fn found(feed: &str, world: &World<'_>) -> Vec<(Severity, &'static str)> {
+        let program = format!("%\nO1\nG21 G18 G40 G80 G99\n{feed}\nM30\n%\n");
+        let found = findings(&Selection::default(), "haas-lathe", &program, world);
+        found.iter().map(|one| (one.severity, one.rule.id)).collect()
+    }
+
+    fn world() -> World<'static> {
+        let mut world = World::default();
+        world.machine.engine.bar.new_bar = Some(Mm(1000.0));
+        world
+    }
+
+    /// Every word missing, doubled, negative, zero, huge, no number, unknown.
+    #[test]
+    fn bad_input() {
+        let whole = [("I", "30."), ("J", "25."), ("K", "60."), ("Q", "0"), ("R", "90.")];
+        let mut shown = String::new();
+        for (letter, usual) in whole {
+            for value in ["", "twice", "-1.", "0", "99999.", "1.2.3", "X", "#500", "[1/0]"] {
+                let mut feed = "G105".to_owned();
+                for (other, usual) in whole.iter().filter(|(other, _)| *other != letter) {
+                    let _ = write!(feed, " {other}{usual}");
+                }
+                match value {
+                    "" => {}
+                    "twice" => {
+                        let _ = write!(feed, " {letter}{usual} {letter}{usual}");
+                    }
+                    "X" => {
+                        let _ = write!(feed, " {letter}");
+                    }
+                    value => {
+                        let _ = write!(feed, " {letter}{value}");
+                    }
+                }
+                let found: Vec<String> =
+                    found(&feed, &world()).iter().map(|(severity, id)| format!("{}[{id}]", severity.name())).collect();
+                let case = if value.is_empty() { "missing" } else { value };
+                let _ = writeln!(shown, "{letter} {case}: {}", found.join(" "));
+            }
+        }
+        expect![[""]].assert_eq(&shown);
+    }
+
+    /// What rests on a value that nobody knows is silent, wherever the feed stands.
+    #[test]
+    fn unknown_values_make_no_findings_of_this_group() {
+        let feed = "G105 I#500 J#501 K#502 R#503";
+        for program in [
+            format!("{feed}"),
+            format!("/{feed}"),
+            format!("#1=0\nWHILE [#1 LT 3] DO1\n{feed}\n#1=#1+1\nEND1"),
+            format!("M97 P10\nM30\nN10 {feed}\nM99"),
+            format!("IF [#504 EQ 1] GOTO 5\n{feed}\nN5 {feed}"),
+            "G105 I30. J25. K60. Q#500".to_owned(),
+            "G105 I30. J25. K60. P#500".to_owned(),
+        ] {
+            let found = found(&program, &world());
+            let of_group = found.iter().filter(|(_, id)| id.contains("bar-") || id.contains("cutoff"));
+            assert_eq!(of_group.count(), 0, "{program}: {found:?}");
+            assert!(!found.iter().any(|(severity, _)| *severity == Severity::Error), "{program}: {found:?}");
+        }
+    }
 }

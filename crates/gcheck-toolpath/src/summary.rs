@@ -292,7 +292,8 @@ impl Table<'_> {
         if !bar.is_used() {
             return;
         }
-        let count = |number: u64, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+        let count =
+            |number: u64, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
         let unit = match self.units {
             Units::Inch => "inch",
             Units::Mm => "mm",

@@ -261,7 +261,14 @@ M99
                 },
                 Proof::Run {
                     program: on(LATHE, "G21\nS900 M3\nG105 J25. K60. I30.\nM30\n").with(ONE_BAR),
-                    prints: &["spindle clockwise", "spindle stop", "bar unclamp", "bar push 25", "bar clamp", "end"],
+                    prints: &[
+                        "spindle clockwise",
+                        "spindle stop",
+                        "bar unclamp",
+                        "bar push 25",
+                        "bar clamp",
+                        "end",
+                    ],
                 },
             ],
         },
@@ -385,7 +392,8 @@ M99
             says: "A program goes on behind the feed, so that a bar job repeats by `M99` (our reading of the page).",
             proofs: &[
                 Proof::Stats {
-                    program: on(LATHE, "G21\nS900 M3\nG0 X50.\nG1 X0. F0.1\nG105 J25. K60. I30.\nM99\n").with(ONE_BAR),
+                    program: on(LATHE, "G21\nS900 M3\nG0 X50.\nG1 X0. F0.1\nG105 J25. K60. I30.\nM99\n")
+                        .with(ONE_BAR),
                     prints: &["37 parts from 1 bar, 37 a bar", "70 mm left of a bar"],
                 },
                 Proof::Rule {

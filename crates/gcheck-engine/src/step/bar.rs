@@ -81,7 +81,11 @@ impl Bar {
 
     pub(crate) fn join(&self, other: &Self) -> Self {
         Self {
-            length: if self.is_whole == other.is_whole { either(self.length, other.length) } else { f64::NAN },
+            length: if self.is_whole == other.is_whole {
+                either(self.length, other.length)
+            } else {
+                f64::NAN
+            },
             is_whole: self.is_whole && other.is_whole,
             waiting: either(self.waiting, other.waiting),
             clamped: if self.clamped == other.clamped { self.clamped } else { Truth::Unknown },
@@ -136,7 +140,9 @@ fn either(a: f64, b: f64) -> f64 {
 
 /// A run begins with its first bar: the counters of the feeder start with it, unless they were told.
 pub(crate) fn start_bar_counters<D: Domain>(model: &Model<'_>, machine: &Machine, state: &mut State<D>) {
-    let Some(rules) = model.semantics().bar_feeder.as_ref().filter(|_| machine.bar.starts_new) else { return };
+    let Some(rules) = model.semantics().bar_feeder.as_ref().filter(|_| machine.bar.starts_new) else {
+        return;
+    };
     for (number, value) in [(rules.parts, 0.0), (rules.bars, 1.0), (rules.run_length, 0.0)] {
         if !state.variables.is_written(number) {
             state.variables.set(number, D::assumed(D::number(value)));
@@ -192,7 +198,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // A whole number, which elsewhere is a length and counts otherwise without a decimal point.
         let written = words.iter().rfind(|word| word.letter == letter).and_then(Word::number);
         let mode = match written {
-            Some(mode) if (0.0..=f64::from(u16::MAX)).contains(&mode) && mode.fract() == 0.0 => {
+            Some(mode) if (0.0..=f64::from(u16::MAX)).contains(&mode) && mode.fract() == 0.0 =>
+            {
                 #[expect(clippy::cast_sign_loss, reason = "range checked in the pattern's guard")]
                 Some(Count::Known(mode as u32))
             }

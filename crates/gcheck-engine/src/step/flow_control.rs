@@ -195,7 +195,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(target) = target else {
             return self.missing_program(number, effect == Effect::CallLocal, state);
         };
-        self.flow = Some(Flow::Call(Callee { kind, target, repeats: Some(repeats - 1), arguments: None, bar_feed: None }));
+        self.flow = Some(Flow::Call(Callee {
+            kind,
+            target,
+            repeats: Some(repeats - 1),
+            arguments: None,
+            bar_feed: None,
+        }));
         Ok(())
     }
 
@@ -552,7 +558,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     return Err(Fault::NoSuchProgram);
                 };
                 self.enter(
-                    Callee { kind: FrameKind::OWord, target, repeats: Some(0), arguments: Some(values), bar_feed: None },
+                    Callee {
+                        kind: FrameKind::OWord,
+                        target,
+                        repeats: Some(0),
+                        arguments: Some(values),
+                        bar_feed: None,
+                    },
                     state,
                 )
             }

@@ -86,10 +86,15 @@ mod tests {
 
     #[test]
     fn a_feed_that_calls_itself() {
-        check_rule(&RULE, "haas-lathe", "O1\nG105 J1.75 P2\nM30\nO2\nG105 J1.75 P2\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG105 J1.75 P2\nM30\nO2\nG105 J1.75 P2\nM99\n",
+            &expect![[r#"
             5 | G105 J1.75 P2
               | ^^^^ warning[bar-feed-in-cutoff-program] cutoff program feeds the bar itself (`G105`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -63,12 +63,22 @@ impl PathRule for BarInitialPushZero {
             Some(stored) if stored != 0.0 => cx
                 .finding(&META, range, format!("initial push is zero, and `#{variable}` is not"))
                 .label("by what a new bar is pushed is not certain")
-                .note(format!("the reference position `#{reference}` is used when both are zero  [{}]", source(cx)))
+                .note(format!(
+                    "the reference position `#{reference}` is used when both are zero  [{}]",
+                    source(cx)
+                ))
                 .help("leave `I` out to push by the variable, or give the length"),
             _ => cx
-                .finding(&META, range, format!("new bar is pushed by the reference position (`#{reference}`)"))
+                .finding(
+                    &META,
+                    range,
+                    format!("new bar is pushed by the reference position (`#{reference}`)"),
+                )
                 .label("the initial push is zero")
-                .note(format!("`#{reference}` stands in for `I` and `#{variable}` when both are zero  [{}]", source(cx)))
+                .note(format!(
+                    "`#{reference}` stands in for `I` and `#{variable}` when both are zero  [{}]",
+                    source(cx)
+                ))
                 .assuming(format!("`#{reference}` was set when the feeder was set up"))
                 .help("give the push of a new bar: the part, its cutoff and what is faced off"),
         };
@@ -103,14 +113,24 @@ mod tests {
 
     #[test]
     fn a_zero_of_the_block() {
-        check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I0\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105 J1. K1. I0\nM99\n",
+            &expect![[r#"
             2 | G105 J1. K1. I0
               |              ^^ info[bar-initial-push-zero] new bar is pushed by the reference position (`#3112`)
-        "#]]);
-        check_rule(&RULE, "haas-lathe", "#3101=2.\nM5\nG105 J1. K1. I0\nM99\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "#3101=2.\nM5\nG105 J1. K1. I0\nM99\n",
+            &expect![[r#"
             3 | G105 J1. K1. I0
               |              ^^ info[bar-initial-push-zero] initial push is zero, and `#3101` is not
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I#500\nM99\n", &expect![[""]]);
     }
 

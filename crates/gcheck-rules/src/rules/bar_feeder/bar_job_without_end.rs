@@ -83,9 +83,9 @@ fn check(cx: &PathCx<'_>, back: Effect, report: &mut Report<'_>) {
     let Some(rules) = cx.bar_feeder() else { return };
     let limits = [rules.most_parts, rules.most_bars, rules.most_length];
     // Zero is no limit; a limit that nobody knows is one.
-    let is_limited = limits.iter().any(|limit| {
-        cx.state().variables().is_written(*limit) && cx.known_variable(*limit) != Some(0.0)
-    });
+    let is_limited = limits
+        .iter()
+        .any(|limit| cx.state().variables().is_written(*limit) && cx.known_variable(*limit) != Some(0.0));
     let has_end = cx.survey.ends.iter().any(|end| end.ends == Ends::Program);
     if is_limited || has_end {
         return;
@@ -94,8 +94,14 @@ fn check(cx: &PathCx<'_>, back: Effect, report: &mut Report<'_>) {
     report.add(
         cx.finding(&META, range, "bar job repeats until no bar is left")
             .label("starts the next part, whatever was made")
-            .assuming(format!("the feeder's limits (`#{}`, `#{}`) are not set on its page", limits[0], limits[1]))
-            .help(format!("set the number of parts (`#{}`), or keep a `/M30` in front to end the job", limits[0])),
+            .assuming(format!(
+                "the feeder's limits (`#{}`, `#{}`) are not set on its page",
+                limits[0], limits[1]
+            ))
+            .help(format!(
+                "set the number of parts (`#{}`), or keep a `/M30` in front to end the job",
+                limits[0]
+            )),
     );
 }
 
@@ -122,16 +128,26 @@ mod tests {
     #[test]
     fn a_limit_that_is_not_known_is_one_and_zero_is_none() {
         check_rule(&RULE, "haas-lathe", "#3103=#500\nM5\nG105 J1.75\nM99\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "#3103=0\nM5\nG105 J1.75\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "#3103=0\nM5\nG105 J1.75\nM99\n",
+            &expect![[r#"
             4 | M99
               | ^^^ info[bar-job-without-end] bar job repeats until no bar is left
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_program_that_ends_or_feeds_no_bar() {
         check_rule(&RULE, "haas-lathe", "M5\nG105 J1.75\nM30\n", &expect![[""]]);
         check_rule(&RULE, "haas-lathe", "G0 X1.\nM99\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "M5\nIF [#500 EQ 1] GOTO 9\nG105 J1.75\nM99\nN9 M30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nIF [#500 EQ 1] GOTO 9\nG105 J1.75\nM99\nN9 M30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -59,10 +59,17 @@ impl PathRule for BarJustLongEnough {
         }
         let made = if whole == 1.0 { "1 part".to_owned() } else { format!("{whole} parts") };
         report.add(
-            cx.finding(&META, cx.length_range(Length::Part), "bar comes out just long enough for its last part")
-                .label(format!("{} are left behind {made}: `J` and `K` exactly", cx.shown(told.part + told.clamping)))
-                .note("the manual says what happens with a longer bar and with a shorter one")
-                .help("make the clamping length (`K`) a little smaller or larger"),
+            cx.finding(
+                &META,
+                cx.length_range(Length::Part),
+                "bar comes out just long enough for its last part",
+            )
+            .label(format!(
+                "{} are left behind {made}: `J` and `K` exactly",
+                cx.shown(told.part + told.clamping)
+            ))
+            .note("the manual says what happens with a longer bar and with a shorter one")
+            .help("make the clamping length (`K`) a little smaller or larger"),
         );
     }
 }

@@ -63,7 +63,8 @@ impl PathRule for BarLengthMissing {
             }
         }
         let Some(first) = missing.first() else { return };
-        let variables: Vec<String> = missing.iter().map(|one| format!("`#{}`", one.variable(rules))).collect();
+        let variables: Vec<String> =
+            missing.iter().map(|one| format!("`#{}`", one.variable(rules))).collect();
         let variables = listed(&variables);
         let title = match missing.as_slice() {
             [one] => format!("{} of the bar feed is not given ({variables})", one.words()),
@@ -75,8 +76,14 @@ impl PathRule for BarLengthMissing {
             missing.iter().map(|one| format!("`{}` ({})", one.letter(), one.words())).collect();
         let finding = cx
             .finding(&META, cx.bar_feed_range(), title)
-            .label(format!("takes {variables} as the control has {}", if missing.len() == 1 { "it" } else { "them" }))
-            .assuming(format!("{variables} {} set on the control's page", if missing.len() == 1 { "is" } else { "are" }))
+            .label(format!(
+                "takes {variables} as the control has {}",
+                if missing.len() == 1 { "it" } else { "them" }
+            ))
+            .assuming(format!(
+                "{variables} {} set on the control's page",
+                if missing.len() == 1 { "is" } else { "are" }
+            ))
             .help(format!(
                 "give {} in the block, or tell gcheck what the page holds: {pin} under `[variables]`",
                 listed(&words)
@@ -103,10 +110,15 @@ mod tests {
 
     #[test]
     fn a_bare_feed_is_the_usual_form() {
-        check_rule(&RULE, "haas-lathe", "M5\nG105\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105\nM99\n",
+            &expect![[r#"
             2 | G105
               | ^^^^ info[bar-length-missing] lengths of the bar feed are not given
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -128,10 +140,16 @@ mod tests {
         let mut world = World::default();
         world.machine.engine.bar.new_bar = Some(Mm(1000.0));
         world.machine.engine.variables = [(3100, 1.75), (3101, 2.0)].into();
-        check_rule_in(&RULE, "haas-lathe", "M5\nG105\nM99\n", &world, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105\nM99\n",
+            &world,
+            &expect![[r#"
             2 | G105
               | ^^^^ warning[bar-length-missing] clamping length of the bar feed is not given (`#3102`)
-        "#]]);
+        "#]],
+        );
     }
 
     /// Given, though nobody knows how much.

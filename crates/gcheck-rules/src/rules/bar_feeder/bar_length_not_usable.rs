@@ -66,10 +66,14 @@ impl PathRule for BarLengthNotUsable {
                 Length::Clamping => "nothing would have to stay in the chuck",
             };
             report.add(
-                cx.finding(&META, cx.bar_feed_range(), format!("{name} of the bar feed is {how} (`#{variable}`)"))
-                    .label(label)
-                    .note(format!("`#{variable}` is {}", cx.shown(value)))
-                    .help(format!("set `#{variable}`, or give `{}` in the block", length.letter())),
+                cx.finding(
+                    &META,
+                    cx.bar_feed_range(),
+                    format!("{name} of the bar feed is {how} (`#{variable}`)"),
+                )
+                .label(label)
+                .note(format!("`#{variable}` is {}", cx.shown(value)))
+                .help(format!("set `#{variable}`, or give `{}` in the block", length.letter())),
             );
         }
     }
@@ -84,14 +88,19 @@ mod tests {
 
     #[test]
     fn zero_and_less() {
-        check_rule(&RULE, "haas-lathe", "#3100=-1.75\n#3101=-2.\n#3102=-1.\nM5\nG105\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "#3100=-1.75\n#3101=-2.\n#3102=-1.\nM5\nG105\nM99\n",
+            &expect![[r#"
             5 | G105
               | ^^^^ warning[bar-length-not-usable] clamping length of the bar feed is below zero (`#3102`)
             5 | G105
               | ^^^^ warning[bar-length-not-usable] initial push of the bar feed is below zero (`#3101`)
             5 | G105
               | ^^^^ warning[bar-length-not-usable] part length of the bar feed is below zero (`#3100`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-lathe", "#3100=1.75\n#3101=2.\n#3102=0\nM5\nG105\nM99\n", &expect![[""]]);
     }
 
@@ -99,10 +108,16 @@ mod tests {
     fn a_reference_position_of_zero() {
         let mut world = World::default();
         world.machine.engine.variables = [(3101, 0.0), (3112, 0.0)].into();
-        check_rule_in(&RULE, "haas-lathe", "M5\nG105 J1. K1.\nM99\n", &world, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105 J1. K1.\nM99\n",
+            &world,
+            &expect![[r#"
             2 | G105 J1. K1.
               | ^^^^ warning[bar-length-not-usable] reference position of the bar feed is zero (`#3112`)
-        "#]]);
+        "#]],
+        );
         world.machine.engine.variables = [(3101, 0.0), (3112, 4.0)].into();
         check_rule_in(&RULE, "haas-lathe", "M5\nG105 J1. K1.\nM99\n", &world, &expect![[""]]);
     }

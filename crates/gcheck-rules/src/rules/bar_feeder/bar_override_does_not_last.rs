@@ -119,9 +119,14 @@ mod tests {
     #[test]
     fn values_that_are_not_known() {
         check_rule(&RULE, "haas-lathe", "#3100=#500\nM5\nG105 J1.75\nM5\nG105\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-lathe", "M5\nG105 J#500\nM5\nG105\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105 J#500\nM5\nG105\nM30\n",
+            &expect![[r#"
             4 | G105
               | ^^^^ info[bar-override-does-not-last] `J` of the earlier bar feed does not last
-        "#]]);
+        "#]],
+        );
     }
 }

@@ -81,9 +81,15 @@ impl PathRule for BarPushShorterThanPart {
         }
         let mut finding = cx
             .finding(&META, cx.length_range(Length::Part), "bar is pushed by less than the part is long")
-            .label(format!("pushes {}; the part is cut off {} behind `Z0`", cx.shown(told.part), cx.shown(length)))
+            .label(format!(
+                "pushes {}; the part is cut off {} behind `Z0`",
+                cx.shown(told.part),
+                cx.shown(length)
+            ))
             .assuming("`Z0` is at the face of the part")
-            .help("push by the part, the width of the parting tool and what is faced off (`J` or its variable)");
+            .help(
+                "push by the part, the width of the parting tool and what is faced off (`J` or its variable)",
+            );
         if let Some(range) = cx.range_of(parting.at) {
             finding = finding.also(range, "cut off here");
         }

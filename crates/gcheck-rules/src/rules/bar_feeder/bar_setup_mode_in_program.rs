@@ -61,10 +61,15 @@ mod tests {
 
     #[test]
     fn computed_modes_too() {
-        check_rule(&RULE, "haas-lathe", "#1=2\nM5\nG105 Q#1\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "#1=2\nM5\nG105 Q#1\nM30\n",
+            &expect![[r#"
             3 | G105 Q#1
               |      ^^^ warning[bar-setup-mode-in-program] program sets the bar feeder up (`Q2`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "haas-lathe", "M5\nG105 Q#500\nM30\n", &expect![[""]]);
     }
 

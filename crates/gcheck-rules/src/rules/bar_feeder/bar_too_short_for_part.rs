@@ -94,26 +94,41 @@ mod tests {
 
     #[test]
     fn lengths_of_the_block_and_of_variables() {
-        check("G21\nM5\nG105 J980. K60. I50.\nM99\n", &expect![[r#"
+        check(
+            "G21\nM5\nG105 J980. K60. I50.\nM99\n",
+            &expect![[r#"
             3 | G105 J980. K60. I50.
               |      ^^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
-        "#]]);
-        check("G21\n#3100=980.\n#3102=60.\nM5\nG105 I50.\nM99\n", &expect![[r#"
+        "#]],
+        );
+        check(
+            "G21\n#3100=980.\n#3102=60.\nM5\nG105 I50.\nM99\n",
+            &expect![[r#"
             5 | G105 I50.
               | ^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
-        "#]]);
-        check("G21\nM5\nG105 J98. K60. I970.\nM99\n", &expect![[r#"
+        "#]],
+        );
+        check(
+            "G21\nM5\nG105 J98. K60. I970.\nM99\n",
+            &expect![[r#"
             3 | G105 J98. K60. I970.
               |                ^^^^^ warning[bar-too-short-for-part] new bar is pushed too far out to be clamped
-        "#]]);
-        check("M5\nG105 J98. K2. I39.\nM99\n", &expect![[r#"
+        "#]],
+        );
+        check(
+            "M5\nG105 J98. K2. I39.\nM99\n",
+            &expect![[r#"
             2 | G105 J98. K2. I39.
               |      ^^^^ warning[bar-too-short-for-part] part and its clamping are longer than a new bar
-        "#]]);
-        check("G20\nM5\nG105 J38. K2. I39.\nM99\n", &expect![[r#"
+        "#]],
+        );
+        check(
+            "G20\nM5\nG105 J38. K2. I39.\nM99\n",
+            &expect![[r#"
             3 | G105 J38. K2. I39.
               |      ^^^^ error[bar-too-short-for-part] part and its clamping are longer than a new bar
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -42,7 +42,8 @@ struct ChuckMovedAtBarFeed;
 
 impl PathRule for ChuckMovedAtBarFeed {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() || lengths(event).is_none() || cx.state().bar().clamped() != Truth::False {
+        if cx.bar_feeder().is_none() || lengths(event).is_none() || cx.state().bar().clamped() != Truth::False
+        {
             return;
         }
         let opener = cx.cancel_of(Effect::ChuckUnclamp).unwrap_or_default();
@@ -83,12 +84,17 @@ mod tests {
 
     #[test]
     fn before_and_behind() {
-        check_rule(&RULE, "haas-lathe", "M5\nM11\nG105 J1.75\nM10\nM99\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nM11\nG105 J1.75\nM10\nM99\n",
+            &expect![[r#"
             3 | G105 J1.75
               | ^^^^ info[chuck-moved-at-bar-feed] chuck is open before the bar is fed (`M11`)
             4 | M10
               | ^^^ info[chuck-moved-at-bar-feed] bar feed has closed the chuck already (`M10`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

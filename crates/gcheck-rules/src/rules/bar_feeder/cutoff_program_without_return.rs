@@ -67,7 +67,11 @@ impl PathRule for CutoffProgramWithoutReturn {
         let has = |is: &dyn Fn(Effect) -> bool| {
             part.clone().any(|block| {
                 let Some(place) = cx.place_of(At { file: entry.file, block }) else { return false };
-                place.table.words(place.block()).iter().any(|word| word.code.is_some() && is(cx.model.effect(word.code)))
+                place
+                    .table
+                    .words(place.block())
+                    .iter()
+                    .any(|word| word.code.is_some() && is(cx.model.effect(word.code)))
             })
         };
         if has(&|effect| effect == Effect::Return) {
@@ -119,14 +123,20 @@ mod tests {
 
     #[test]
     fn its_end_decides() {
-        check("O2\nG1 X0. F0.004\nM30\n", &expect![[r#"
+        check(
+            "O2\nG1 X0. F0.004\nM30\n",
+            &expect![[r#"
             3 | G105 J1.75 P2
               |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
-        "#]]);
-        check("O2\nG1 X0. F0.004\n", &expect![[r#"
+        "#]],
+        );
+        check(
+            "O2\nG1 X0. F0.004\n",
+            &expect![[r#"
             3 | G105 J1.75 P2
               |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
-        "#]]);
+        "#]],
+        );
         check("O2\nG1 X0. F0.004\nIF [#500 EQ 1] GOTO 9\nM99\nN9 M30\n", &expect![[""]]);
     }
 }

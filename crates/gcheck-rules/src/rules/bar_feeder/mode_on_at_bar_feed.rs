@@ -49,12 +49,18 @@ impl PathRule for ModeOnAtBarFeed {
             return;
         }
         for role in [Role::Compensation, Role::Cycle, Role::PolarInterpolation, Role::Cylinder] {
-            let Some(code) = cx.state().mode(role).only().filter(|code| *code != CodeIx::NONE) else { continue };
+            let Some(code) = cx.state().mode(role).only().filter(|code| *code != CodeIx::NONE) else {
+                continue;
+            };
             let Some((what, off)) = on(cx.model.effect(code), role) else { continue };
             let name = cx.name_of(code);
             let off = off.and_then(|off| cx.cancel_of(off)).unwrap_or_else(|| name.clone());
             let finding = cx
-                .finding(&META, cx.bar_feed_range(), format!("{what} is still on while the bar is fed (`{name}`)"))
+                .finding(
+                    &META,
+                    cx.bar_feed_range(),
+                    format!("{what} is still on while the bar is fed (`{name}`)"),
+                )
                 .label("the next part begins with it")
                 .help(format!("end it with `{off}` before the bar is fed"));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
@@ -103,12 +109,17 @@ mod tests {
                   | ^^^^ warning[mode-on-at-bar-feed] canned cycle is still on while the bar is fed (`G83`)
             "#]],
         );
-        check_rule(&RULE, "haas-lathe", "M133 P1000\nG112\nM5\nG105 J1.75\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M133 P1000\nG112\nM5\nG105 J1.75\nM30\n",
+            &expect![[r#"
             4 | G105 J1.75
               | ^^^^ warning[mode-on-at-bar-feed] live tool still turns while the bar is fed
             4 | G105 J1.75
               | ^^^^ warning[mode-on-at-bar-feed] polar interpolation is still on while the bar is fed (`G112`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

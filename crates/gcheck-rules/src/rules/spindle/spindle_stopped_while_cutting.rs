@@ -212,6 +212,17 @@ mod tests {
         );
     }
 
+    /// A bar job ends by starting again, and its bar feed stops the spindle, at an angle for a new bar or not.
+    #[test]
+    fn a_bar_feed_stops_the_spindle() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "T101\nG97 S900 M3\nG1 X1. F.01\nG0 X3.\nG105 J1.75 R90.\nG1 X0.\nM99\n",
+            &expect![[""]],
+        );
+    }
+
     #[test]
     fn a_program_that_knows_no_spindle_says_nothing() {
         check_rule(&RULE, "haas-mill", "G1 X2. F10.\nM0\nX3.\nM30\n", &expect![""]);
