@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use crate::bar_feeder::BarFeederRules;
 use crate::schema::Confidence;
 
 /// `execution.toml`.
@@ -341,6 +342,9 @@ pub struct Semantics {
     /// System variables that the engine computes: first number of a row of axes or a single one.
     #[serde(default)]
     pub system_variables: Vec<SystemVariable>,
+    /// The variables of a bar feeder, where the control commands one.
+    #[serde(default)]
+    pub bar_feeder: Option<BarFeederRules>,
     /// Where this stands.
     pub source: String,
     /// How sure it is.

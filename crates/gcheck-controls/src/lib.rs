@@ -10,6 +10,7 @@
 //! assert_eq!(g43.group().id, "tool-length");
 //! ```
 
+mod bar_feeder;
 mod code_number;
 mod control;
 mod detect;
@@ -19,6 +20,7 @@ mod loader;
 mod schema;
 mod validate;
 
+pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};

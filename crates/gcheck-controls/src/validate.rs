@@ -5,7 +5,7 @@
 
 use crate::control::Variable;
 use crate::schema::{Confidence, Motion, VariableKind};
-use crate::{CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
+use crate::{BarFeederRules, CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
 pub fn problems(control: &Control) -> Vec<String> {
@@ -244,6 +244,7 @@ impl Problems<'_> {
             }
         }
         self.refusals();
+        self.bar_feeder();
         let [first, last] = semantics.locals;
         for number in [first, last] {
             let is_local =
@@ -353,6 +354,18 @@ impl Problems<'_> {
             if !range.contains(&value) {
                 let (least, most) = range.into_inner();
                 self.say("semantics", format!("`{name}` is {value}, not from {least} to {most}"));
+            }
+        }
+    }
+
+    /// Every variable of a bar feeder is one of the control's own.
+    fn bar_feeder(&mut self) {
+        let control = self.control;
+        for number in control.semantics().bar_feeder.iter().flat_map(BarFeederRules::variables) {
+            let is_own = matches!(control.variable(number), Variable::Known(entry)
+                if matches!(entry.kind, VariableKind::System | VariableKind::Retained));
+            if !is_own {
+                self.say("semantics.bar-feeder", format!("#{number} is no variable of the control's own"));
             }
         }
     }

@@ -50,6 +50,14 @@ pub enum Assumption {
     CylinderStart(Axis),
     /// The tool stands over the start hole of a pocket, at the rapid level, when the control has cleared it.
     PocketEnd,
+    /// The bar is long enough for the next part.
+    BarLength,
+    /// The bar is just as long as a part and its clamping, which no manual decides: a new one is taken.
+    BarAtLimit,
+    /// A new bar is in the chuck at the start, and the feeder's counters stand at zero.
+    NewBar,
+    /// Limits of the bar feeder stop it as general knowledge has it.
+    BarLimits,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.

@@ -148,6 +148,14 @@ pub enum Event {
     Probe(bool),
     /// Chuck clamped or unclamped.
     Chuck(bool),
+    /// The bar feeder is told to bring bar for the next part: the part before it is cut off.
+    BarFeed(BarLengths),
+    /// The bar feeder is set up, in this mode (`None` unknown).
+    BarSetup(Option<u32>),
+    /// What is left of the bar is taken out: this much behind the face of the chuck (NaN unknown).
+    BarUnload(Mm),
+    /// A new bar is brought to the chuck.
+    BarLoad,
     /// The bar is pushed by this much.
     BarPush(Mm),
     /// A user's own command with its words P and Q.
@@ -170,6 +178,17 @@ pub enum Event {
     PalletChange,
     /// The program ends.
     End,
+}
+
+/// The lengths that a bar is fed by; NaN unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BarLengths {
+    /// A part with its cutoff.
+    pub part: Mm,
+    /// The push of a new bar.
+    pub initial: Mm,
+    /// What must stay clamped behind a part.
+    pub clamping: Mm,
 }
 
 /// A straight move.

@@ -49,6 +49,19 @@ pub struct Machine {
     pub posted_lengths: BTreeMap<u32, Mm>,
     /// Numbered variables that nobody set hold zero (the state after a fresh start).
     pub fresh: bool,
+    /// The bar feeder of a lathe.
+    pub bar: BarFeeder,
+}
+
+/// A bar feeder.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BarFeeder {
+    /// Length of a new bar.
+    pub new_bar: Option<Mm>,
+    /// Bars to be used up: the one in the chuck at the start, and those in the magazine.
+    pub bars: Option<u32>,
+    /// A new bar is in the chuck at the start, pushed out as a new bar is; else whatever the last program left.
+    pub starts_new: bool,
 }
 
 /// A work coordinate system.

@@ -17,6 +17,7 @@ use crate::model::{Model, Role};
 use crate::position::Position;
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 use crate::tool_shift::ToolShift;
+use crate::step::bar::{Bar, start_bar_counters};
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -120,12 +121,15 @@ pub(crate) fn start_state<D: Domain>(
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         }],
         macro_modal: None,
         compensation: None,
         left_compensation: None,
         nurbs: None,
+        bar: Bar::at_start(machine),
     };
+    start_bar_counters(model, machine, &mut state);
     state.in_effect = state.work.map_or(WorkOffset::UNKNOWN, |number| state.tables.offset(number));
     for (number, value) in &machine.variables {
         let [first, last] = model.semantics().locals;
@@ -180,6 +184,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
     state.variables.forget();
+    state.bar = Bar::UNKNOWN;
     state
 }
 

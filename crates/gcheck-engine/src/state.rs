@@ -14,6 +14,7 @@ use crate::machine::WorkOffset;
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
+use crate::step::bar::{Bar, BarCommand};
 use crate::step::compensation::Compensation;
 use crate::tool_shift::ToolShift;
 use crate::value::{Domain, Truth};
@@ -70,6 +71,8 @@ pub struct Frame<D: Domain> {
     pub(crate) restore_on_return: bool,
     /// The branch of an O-word `IF` that is to be decided next, when the one before it failed.
     pub(crate) wanted_branch: Option<At>,
+    /// The bar feed that called a cutoff program, and feeds when it comes back.
+    pub(crate) bar_feed: Option<Rc<BarCommand>>,
 }
 
 /// Modes saved by `M70` or `M73`.
@@ -352,6 +355,7 @@ pub struct State<D: Domain> {
     pub(crate) left_compensation: Option<Box<Compensation>>,
     /// Control points of a NURBS block under way.
     pub(crate) nurbs: Option<Rc<Vec<[f64; 3]>>>,
+    pub(crate) bar: Bar,
 }
 
 /// What `G66` will call.
@@ -563,6 +567,11 @@ impl<D: Domain> State<D> {
         if number == 0 { None } else { locals.get(number) }
     }
 
+    /// The bar in the chuck and in the feeder.
+    pub fn bar(&self) -> &Bar {
+        &self.bar
+    }
+
     /// The variables.
     pub fn variables(&self) -> &Variables<D> {
         &self.variables
@@ -752,6 +761,7 @@ impl<D: Domain> State<D> {
         if self.nurbs != other.nurbs {
             joined.nurbs = None;
         }
+        joined.bar = self.bar.join(&other.bar);
         joined
     }
 
@@ -780,6 +790,7 @@ impl<D: Domain> State<D> {
             && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
             && self.wrapped.contains(&inner.wrapped)
             && self.diameters.contains(&inner.diameters)
+            && self.bar.contains(&inner.bar)
             && self.variables.contains(&inner.variables)
     }
 }
@@ -831,6 +842,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.compensation == other.compensation
             && self.left_compensation.is_none() == other.left_compensation.is_none()
             && self.nurbs == other.nurbs
+            && self.bar == other.bar
     }
 }
 
@@ -877,6 +889,11 @@ fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
 }
 
 impl<D: Domain> Frame<D> {
+    /// Is it the cutoff program of a bar feed?
+    pub fn is_cutoff(&self) -> bool {
+        self.bar_feed.is_some()
+    }
+
     /// Is the block the branch that a failed condition chose?
     pub(crate) fn wants(&self, at: At) -> bool {
         self.wanted_branch == Some(at)
@@ -900,6 +917,11 @@ impl<D: Domain> Frame<D> {
             self.saved = None;
         }
         self.restore_on_return |= other.restore_on_return;
+        if let (Some(feed), Some(with)) = (&self.bar_feed, &other.bar_feed)
+            && feed != with
+        {
+            self.bar_feed = Some(Rc::new(feed.join(with)));
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 //! how paths are explored.
 
 mod arc;
+pub(crate) mod bar;
 pub(crate) mod compensation;
 pub(crate) mod contract;
 mod cycle;
@@ -95,6 +96,8 @@ pub enum Ending {
     Text,
     /// `#3000`.
     Alarm(i64),
+    /// The bar feeder has no bar left, or has made as many parts as it was told to.
+    BarsUsed,
 }
 
 pub(crate) type Step<T = ()> = Result<T, Fault>;
@@ -137,6 +140,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pending: Vec<(Assignee, D::Value)>,
     /// Variables that were written, and whether the control lets programs do that.
     writable: FxHashMap<u32, bool>,
+    /// Bar feeds so far.
+    pub(crate) bar_feeds: u64,
 }
 
 /// What an assignment writes to.
@@ -210,6 +215,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
             writable: FxHashMap::default(),
+            bar_feeds: 0,
         }
     }
 

@@ -106,6 +106,19 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::PocketEnd => Described::new(
             "a pocket that the control clears leaves the tool over its start hole, at the rapid level",
         ),
+        Assumption::BarLength => {
+            Described::new("the bar is long enough for the next part: its length is not known")
+                .pin("[machine] bar_length = …")
+        }
+        Assumption::BarAtLimit => Described::new(
+            "a bar just as long as a part and its clamping is taken for too short: the manual does not say",
+        ),
+        Assumption::NewBar => Described::new(
+            "the program starts with a new bar in the chuck, pushed out as new bars are, and the feeder's counters at zero",
+        ),
+        Assumption::BarLimits => {
+            Described::new("the bar feeder stops when its limit of parts, bars or length is reached")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -195,7 +208,11 @@ fn weight(assumption: &Assumption) -> u8 {
         | Assumption::UprightTool
         | Assumption::CylinderDiameter(_)
         | Assumption::CylinderStart(_)
-        | Assumption::PocketEnd => 7,
+        | Assumption::PocketEnd
+        | Assumption::BarLength
+        | Assumption::BarAtLimit
+        | Assumption::NewBar
+        | Assumption::BarLimits => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

@@ -5,6 +5,7 @@
 //! A rule is one file under `rules/<group>/`; `cargo xtask new-rule` scaffolds it and [`all`] lists them.
 
 mod assumptions;
+mod bar_feeder;
 mod boundary;
 mod check;
 mod context;
@@ -16,6 +17,7 @@ mod fixing;
 mod loops;
 mod meta;
 mod mistakes;
+mod parting;
 mod paths;
 mod rules;
 mod schemes;

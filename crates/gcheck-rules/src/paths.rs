@@ -325,7 +325,11 @@ fn sets(model: &Model<'_>, word: &Word, fact: Fact) -> bool {
                 | Effect::SpindleCounterClockwise
                 | Effect::SpindleStop
                 | Effect::SpindleOrient
+                | Effect::BarFeed
         ),
+        Fact::Chuck => {
+            matches!(model.effect(word.code), Effect::ChuckClamp | Effect::ChuckUnclamp | Effect::BarFeed)
+        }
         Fact::Shift => matches!(model.effect(word.code), Effect::SetPosition | Effect::LocalShift),
         Fact::Coolant => matches!(
             model.effect(word.code),

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use expect_test::Expect;
 use gcheck_controls::LetterSet;
-use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
+use gcheck_engine::{Axis, Machine, Position, SourceFile, Tool, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
@@ -39,7 +39,8 @@ impl Default for World<'_> {
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
     /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
-    /// rotary axes of diameter 0.
+    /// rotary axes of diameter 0. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         let mut world = Self::default();
         if rule.group == "machine" {
@@ -65,7 +66,29 @@ impl World<'_> {
                 ..Machine::default()
             };
         }
+        if rule.group == "bar_feeder" {
+            world.machine.engine.bar.new_bar = Some(Mm(1000.0));
+            world.programs = &OtherFile;
+        }
         world
+    }
+}
+
+/// A file with the program 9099.
+struct OtherFile;
+
+impl Programs for OtherFile {
+    fn has_number(&self, number: u32) -> bool {
+        number == 9099
+    }
+
+    fn has_name(&self, _: &str) -> bool {
+        false
+    }
+
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        let text = "O9099\nG1 X0. F0.004\nM30\n".to_owned();
+        (number == 9099).then(|| SourceFile { name: "O9099.nc".into(), text })
     }
 }
 

@@ -5,6 +5,7 @@
 //!
 //! Everything here takes [`Step`]s, one per event of a run, in order.
 
+mod bar;
 mod canonical;
 mod csv;
 mod jsonl;
@@ -18,6 +19,7 @@ mod summary;
 mod text;
 mod time;
 
+pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
 pub use csv::Csv;
 pub use jsonl::JsonLines;

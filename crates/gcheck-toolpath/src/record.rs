@@ -220,6 +220,9 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
             (Kind::Wrap, Some("on"), Some(("diameter", diameter)))
         }
         Event::Chuck(clamped) => (Kind::Bar, Some(if *clamped { "clamp" } else { "unclamp" }), None),
+        Event::BarSetup(mode) => (Kind::Bar, Some("setup"), Some(("mode", number(*mode)))),
+        Event::BarUnload(rest) => (Kind::Bar, Some("unload"), Some(("remnant", rest.0 / step.units.in_mm()))),
+        Event::BarLoad => (Kind::Bar, Some("load"), None),
         Event::BarPush(by) => (Kind::Bar, Some("push"), Some(("length", by.0 / step.units.in_mm()))),
         Event::Stop(kind) => {
             let action = match kind {

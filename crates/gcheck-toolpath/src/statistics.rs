@@ -6,6 +6,7 @@
 use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Units};
 use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
 
+use crate::bar::BarFigures;
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::step::{Step, View};
 use crate::time::{Clock, Timing, Untimed, length};
@@ -48,7 +49,7 @@ pub struct Values {
 }
 
 impl Values {
-    fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         // The same value comes again and again.
         if !value.is_finite() || self.last.is_some_and(|last| last.to_bits() == value.to_bits()) {
             return;
@@ -293,6 +294,7 @@ pub struct Statistics {
     inch_moves: u64,
     mm_moves: u64,
     rotary_rapids: bool,
+    bar: BarFigures,
 }
 
 impl Statistics {
@@ -308,6 +310,7 @@ impl Statistics {
             inch_moves: 0,
             mm_moves: 0,
             rotary_rapids: false,
+            bar: BarFigures::default(),
         }
     }
 
@@ -328,9 +331,14 @@ impl Statistics {
                 let tracker = self.clock.tracker;
                 tracker.motions(step, |motion| self.motion(step, motion));
             }
-            _ => {}
+            event => self.bar.add(event),
         }
         self.clock.after(step);
+    }
+
+    /// What the bar feeder did.
+    pub const fn bar(&self) -> &BarFigures {
+        &self.bar
     }
 
     /// The sections in the order in which they began.
@@ -414,6 +422,13 @@ impl Statistics {
         if self.current.and_then(|at| self.sections.get(at)).is_some_and(same) {
             return;
         }
+        // The tools of the next part are those of the first one.
+        if self.bar.is_used()
+            && let Some(earlier) = self.sections.iter().rposition(same)
+        {
+            self.current = Some(earlier);
+            return;
+        }
         if self.sections.len() >= MAX_SECTIONS {
             let earlier = self.sections.iter().rposition(same);
             self.current = Some(earlier.unwrap_or(MAX_SECTIONS - 1));
@@ -470,6 +485,9 @@ impl Statistics {
         let (view, work) = (self.view, self.work);
         let rapid = motion.way == Way::Rapid;
         self.rotary_rapids |= rapid && turns(motion);
+        if !rapid {
+            self.bar.cut();
+        }
 
         let section = self.section(step);
         section.moves += 1;

@@ -8,6 +8,7 @@ use gcheck_engine::{Axis, Units};
 use gcheck_geometry::{Bounds, Seconds};
 use serde::Serialize;
 
+use crate::bar::BarFigures;
 use crate::number::rounded;
 use crate::statistics::{Section, Statistics, Unaccounted, Values};
 use crate::step::{View, in_units};
@@ -55,6 +56,7 @@ impl Statistics {
             table.tools(&mut out, self.sections());
             table.extents(&mut out, self.sections());
         }
+        table.bar(&mut out, self.bar());
         table.missing(&mut out);
         table.assumed(&mut out, self);
         out
@@ -76,6 +78,7 @@ impl Statistics {
             },
             x_is_diameter: view.has_diameters(),
             total: figures(&total),
+            bar: self.bar().is_used().then(|| json::Bar::of(self.bar(), total.times.total(), units)),
             tools: self
                 .sections()
                 .iter()
@@ -284,6 +287,48 @@ impl Table<'_> {
         })
     }
 
+    /// Parts, bars and what is left of them.
+    fn bar(&self, out: &mut String, bar: &BarFigures) {
+        if !bar.is_used() {
+            return;
+        }
+        let count =
+            |number: u64, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+        let unit = match self.units {
+            Units::Inch => "inch",
+            Units::Mm => "mm",
+        };
+        let length = |mm: f64| plain(mm / self.units.in_mm());
+        let mut lines = Vec::new();
+        let mut made = count(bar.parts(), "part");
+        if bar.used_up() > 0 {
+            let _ = write!(made, " from {}", count(bar.used_up(), "bar"));
+            let (fewest, most) = (bar.by_bar().iter().min(), bar.by_bar().iter().max());
+            if let (Some(fewest), Some(most)) = (fewest, most) {
+                let _ = match fewest == most {
+                    true => write!(made, ", {most} a bar"),
+                    false => write!(made, ", {fewest} to {most} a bar"),
+                };
+            }
+        }
+        lines.push(made);
+        lines.push(if bar.pushed().is_known() {
+            format!("bar pushed {} {unit}", length(bar.pushed().0))
+        } else {
+            "bar pushed by lengths that are not known".to_owned()
+        });
+        if let Some((low, high)) = bar.remnants().range() {
+            let [low, high] = [low, high].map(length);
+            let left = if low == high { low } else { format!("{low} to {high}") };
+            lines.push(format!("{left} {unit} left of a bar, behind the face of the chuck"));
+        }
+        if let Some(time) = per_part(bar, self.total.times.total()) {
+            let unit = if self.has_hours() { "h" } else { "min" };
+            lines.push(format!("{} {unit} a part, without what the feeder takes", self.time(time)));
+        }
+        list(out, "bar feeder", &lines);
+    }
+
     fn missing(&self, out: &mut String) {
         let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
             self.total.unaccounted;
@@ -342,6 +387,12 @@ impl Table<'_> {
         }
         list(out, "assumed", &lines);
     }
+}
+
+fn per_part(bar: &BarFigures, time: Seconds) -> Option<Seconds> {
+    #[expect(clippy::cast_precision_loss, reason = "nobody makes so many parts")]
+    let parts = bar.parts() as f64;
+    (parts > 0.0).then(|| Seconds(time.0 / parts))
 }
 
 fn list(out: &mut String, title: &str, lines: &[String]) {
@@ -420,15 +471,44 @@ fn columns<R: AsRef<[String]>>(out: &mut String, rows: &[R], right: &[bool]) {
 mod json {
     use std::collections::BTreeMap;
 
-    use super::{Axis, Bounds, Names, Section, Serialize, Units, Values, View, in_units, rounded};
+    use super::{
+        Axis, BarFigures, Bounds, Names, Seconds, Section, Serialize, Units, Values, View, in_units, rounded,
+    };
 
     #[derive(Serialize)]
     pub(super) struct Whole<'a> {
         pub(super) units: &'static str,
         pub(super) x_is_diameter: bool,
         pub(super) total: Figures,
+        /// Only with a bar feeder.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub(super) bar: Option<Bar>,
         pub(super) tools: Vec<Tool<'a>>,
         pub(super) assumptions: Vec<Assumed>,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Bar {
+        parts: u64,
+        bars_used_up: u64,
+        parts_by_bar: Vec<u64>,
+        pushed: Option<f64>,
+        /// What was left of bars behind the face of the chuck.
+        remnant: Option<Range>,
+        seconds_per_part: Option<f64>,
+    }
+
+    impl Bar {
+        pub(super) fn of(bar: &BarFigures, time: Seconds, units: Units) -> Self {
+            Self {
+                parts: bar.parts(),
+                bars_used_up: bar.used_up(),
+                parts_by_bar: bar.by_bar().to_vec(),
+                pushed: rounded(in_units(Axis::X, bar.pushed().0, units)),
+                remnant: range(bar.remnants(), 1.0 / units.in_mm()),
+                seconds_per_part: super::per_part(bar, time).and_then(|time| rounded(time.0)),
+            }
+        }
     }
 
     #[derive(Serialize)]

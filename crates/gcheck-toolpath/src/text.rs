@@ -156,6 +156,8 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
             Some("push") => "push ",
             Some("on") => "diameter ",
             Some("cut") => "cut ",
+            Some("setup") => "setup, mode ",
+            Some("unload") => "unload, left ",
             Some("orient") => "to ",
             Some("change") => "T",
             Some("set") => "now T",

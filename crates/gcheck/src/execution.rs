@@ -166,7 +166,7 @@ impl Session<'_> {
 pub(crate) fn exit_code(result: &RunResult) -> u8 {
     use gcheck_engine::Ending;
     match result.stopped {
-        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape) => 0,
+        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => 0,
         Stopped::Ended(Ending::Text | Ending::Alarm(_)) | Stopped::Faulted(_) | Stopped::OutOfFuel => 1,
     }
 }

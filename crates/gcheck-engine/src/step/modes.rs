@@ -265,7 +265,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::GeneralPocket => self.general_pocket(state)?,
             E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
-            E::Engrave | E::BarFeed => self.opaque_operation(ix, state),
+            E::Engrave => self.opaque_operation(ix, state),
+            E::BarFeed => self.bar_feed(ix, words, state)?,
             E::NurbsClose => self.nurbs_close(state)?,
 
             E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
@@ -348,8 +349,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
-            E::ChuckClamp => self.emit(state, Event::Chuck(true)),
-            E::ChuckUnclamp => self.emit(state, Event::Chuck(false)),
+            E::ChuckClamp => self.chuck(true, state),
+            E::ChuckUnclamp => self.chuck(false, state),
             // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
             _ => {}
         }

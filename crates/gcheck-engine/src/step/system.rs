@@ -290,7 +290,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(None)
     }
 
-    fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+    pub(super) fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
         if axis.is_rotary() {
             return value;
         }

@@ -251,6 +251,10 @@ impl Domain for Abstract {
         AbstractValue::Vacant
     }
 
+    fn assumed(_: AbstractValue) -> AbstractValue {
+        Self::unknown()
+    }
+
     fn unknown() -> AbstractValue {
         AbstractValue::Unknown
     }

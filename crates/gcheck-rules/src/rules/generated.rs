@@ -11,6 +11,24 @@ pub(crate) mod arcs {
     pub(crate) mod zero_radius_arc;
 }
 
+pub(crate) mod bar_feeder {
+    pub(crate) mod bar_feed_in_cutoff_program;
+    pub(crate) mod bar_initial_push_zero;
+    pub(crate) mod bar_job_without_end;
+    pub(crate) mod bar_just_long_enough;
+    pub(crate) mod bar_length_missing;
+    pub(crate) mod bar_length_not_usable;
+    pub(crate) mod bar_override_does_not_last;
+    pub(crate) mod bar_push_shorter_than_part;
+    pub(crate) mod bar_setup_mode_in_program;
+    pub(crate) mod bar_too_short_for_part;
+    pub(crate) mod chuck_moved_at_bar_feed;
+    pub(crate) mod cutoff_program_without_return;
+    pub(crate) mod mode_on_at_bar_feed;
+    pub(crate) mod part_cut_off_twice;
+    pub(crate) mod turret_in_the_way_of_bar;
+}
+
 pub(crate) mod compensation {
     pub(crate) mod compensation_gouge;
     pub(crate) mod compensation_left_on;
@@ -254,6 +272,21 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &arcs::arc_wrong_plane_word::RULE,
     &arcs::full_circle_by_radius::RULE,
     &arcs::zero_radius_arc::RULE,
+    &bar_feeder::bar_feed_in_cutoff_program::RULE,
+    &bar_feeder::bar_initial_push_zero::RULE,
+    &bar_feeder::bar_job_without_end::RULE,
+    &bar_feeder::bar_just_long_enough::RULE,
+    &bar_feeder::bar_length_missing::RULE,
+    &bar_feeder::bar_length_not_usable::RULE,
+    &bar_feeder::bar_override_does_not_last::RULE,
+    &bar_feeder::bar_push_shorter_than_part::RULE,
+    &bar_feeder::bar_setup_mode_in_program::RULE,
+    &bar_feeder::bar_too_short_for_part::RULE,
+    &bar_feeder::chuck_moved_at_bar_feed::RULE,
+    &bar_feeder::cutoff_program_without_return::RULE,
+    &bar_feeder::mode_on_at_bar_feed::RULE,
+    &bar_feeder::part_cut_off_twice::RULE,
+    &bar_feeder::turret_in_the_way_of_bar::RULE,
     &compensation::compensation_gouge::RULE,
     &compensation::compensation_left_on::RULE,
     &compensation::compensation_off_in_arc::RULE,

@@ -127,6 +127,7 @@ fn ended(stopped: &Stopped) -> &'static str {
     match stopped {
         Stopped::Ended(Ending::Program) => "program-end",
         Stopped::Ended(Ending::Restart) => "restart",
+        Stopped::Ended(Ending::BarsUsed) => "bars-used",
         Stopped::Ended(Ending::Tape) => "tape-end",
         Stopped::Ended(Ending::Text) => "text-end",
         Stopped::Ended(Ending::Alarm(_)) => "alarm",

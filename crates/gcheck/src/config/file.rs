@@ -110,7 +110,7 @@ pub struct MachineTable {
     pub pivot_length: Option<Placed<f64>>,
     /// Length of a new bar, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
-    /// Bars in the feeder.
+    /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.
     pub bars: Option<u32>,
 }
 

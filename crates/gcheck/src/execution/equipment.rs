@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Unset};
-use gcheck_engine::{Axis, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
+use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
 use gcheck_toolpath::{Step, Timing};
@@ -59,6 +59,7 @@ impl Equipment {
                 start: fresh.then_some(Position::ZERO),
                 table_units,
                 fresh,
+                bar: BarFeeder { starts_new: start == Start::Fresh, ..BarFeeder::default() },
                 ..Machine::default()
             },
             units: in_force,
@@ -100,6 +101,8 @@ impl Equipment {
         machine.max_rpm = value(&table.max_rpm).map(Rpm).or(machine.max_rpm);
         machine.max_feed = value(&table.max_feed).map(|feed| MmPerMin(feed * mm)).or(machine.max_feed);
         machine.rapid = value(&table.rapid).map(|rate| MmPerMin(rate * mm)).or(machine.rapid);
+        machine.bar.new_bar = value(&table.bar_length).map(|bar| Mm(bar * mm)).or(machine.bar.new_bar);
+        machine.bar.bars = table.bars.or(machine.bar.bars);
         machine.tool_change = value(&table.tool_change_seconds).map(Seconds).or(machine.tool_change);
         for (name, value) in &layer.variables {
             if let Some(variable) = VariableName::parse(name) {

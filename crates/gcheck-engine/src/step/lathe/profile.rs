@@ -314,6 +314,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         });
         // The way to the first point was a rapid, and so is what the subprogram gives no code.
         scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));

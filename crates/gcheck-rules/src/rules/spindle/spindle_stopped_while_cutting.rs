@@ -61,7 +61,8 @@ impl PathRule for SpindleStoppedWhileCutting {
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
             Event::OrientSpindle { .. } => self.is_oriented = true,
-            Event::Spindle(_) => self.is_oriented = false,
+            // A new bar is taken at an angle, and then the spindle is to turn again.
+            Event::Spindle(_) | Event::BarPush(_) => self.is_oriented = false,
             _ => {}
         }
     }
@@ -129,7 +130,7 @@ fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
 }
 
 fn stops(effect: Effect) -> bool {
-    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient)
+    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient | Effect::BarFeed)
 }
 
 /// The code that stopped the spindle, as programs write it.
@@ -208,6 +209,17 @@ mod tests {
                 8 | G1 X5.
                   | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
             "#]],
+        );
+    }
+
+    /// A bar job ends by starting again, and its bar feed stops the spindle, at an angle for a new bar or not.
+    #[test]
+    fn a_bar_feed_stops_the_spindle() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "T101\nG97 S900 M3\nG1 X1. F.01\nG0 X3.\nG105 J1.75 R90.\nG1 X0.\nM99\n",
+            &expect![[""]],
         );
     }
 
