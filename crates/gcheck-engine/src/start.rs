@@ -15,6 +15,7 @@ use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -103,6 +104,8 @@ pub(crate) fn start_state<D: Domain>(
         blending: (0.0, None),
         probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
         probe_result: if machine.fresh { Truth::False } else { Truth::Unknown },
+        touched: Touch::None,
+        kept_touch: Touch::None,
         polar: [0.0; 2],
         variables: Variables::new(unwritten, known),
         frames: vec![Frame {
@@ -172,6 +175,8 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.transform.angle = f64::NAN;
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
+    state.touched = Touch::Unknown;
+    state.kept_touch = Touch::Unknown;
     state.variables.forget();
     state
 }

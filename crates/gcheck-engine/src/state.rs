@@ -14,6 +14,7 @@ use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
 use crate::step::compensation::Compensation;
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -327,6 +328,9 @@ pub struct State<D: Domain> {
     /// Point and result of the last probing move.
     pub(crate) probed: Position,
     pub(crate) probe_result: Truth,
+    /// The last probing move, and the one kept for a measurement between two touches.
+    pub(crate) touched: Touch,
+    pub(crate) kept_touch: Touch,
     /// Polar origin under `G16`.
     pub(crate) polar: [f64; 2],
     pub(crate) variables: Variables<D>,
@@ -538,6 +542,16 @@ impl<D: Domain> State<D> {
         &self.tables
     }
 
+    /// The last probing move.
+    pub fn touched(&self) -> Touch {
+        self.touched
+    }
+
+    /// The probing move whose touch is kept for a measurement between two.
+    pub fn kept_touch(&self) -> Touch {
+        self.kept_touch
+    }
+
     /// The active plane.
     pub fn plane(&self, model: &Model<'_>) -> Option<Plane> {
         match self.effect(Role::Plane, model)? {
@@ -675,6 +689,8 @@ impl<D: Domain> State<D> {
         }
         joined.probed = self.probed.join(&other.probed);
         joined.probe_result = truth(self.probe_result, other.probe_result);
+        joined.touched = self.touched.join(other.touched);
+        joined.kept_touch = self.kept_touch.join(other.kept_touch);
         joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
         joined.variables = self.variables.join(&other.variables, widen);
         for (frame, with) in joined.frames.iter_mut().zip(&other.frames) {
@@ -715,6 +731,8 @@ impl<D: Domain> State<D> {
             && truth(self.live_tool, inner.live_tool)
             && truth(self.mist, inner.mist)
             && truth(self.flood, inner.flood)
+            && self.touched.contains(inner.touched)
+            && self.kept_touch.contains(inner.kept_touch)
             && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
             && self.variables.contains(&inner.variables)
     }
@@ -759,6 +777,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.blending == other.blending
             && self.probed == other.probed
             && self.probe_result == other.probe_result
+            && (self.touched, self.kept_touch) == (other.touched, other.kept_touch)
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)
             && self.macro_modal == other.macro_modal
             && self.compensation == other.compensation

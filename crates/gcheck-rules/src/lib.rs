@@ -15,6 +15,7 @@ mod loops;
 mod meta;
 mod mistakes;
 mod paths;
+mod probing;
 mod rules;
 mod schemes;
 mod sections;
