@@ -3,7 +3,7 @@
 //! Knows: effects of codes that touch with a probe, modes as a block has them while it moves. Must not know: any rule.
 
 use gcheck_controls::{Code, CodeIx, Effect};
-use gcheck_engine::{Axis, Role, Way, Ways};
+use gcheck_engine::{At, Axis, Role, Way, Ways};
 
 use crate::PathCx;
 
@@ -50,6 +50,45 @@ impl PathCx<'_> {
             None => ModeInBlock::Several(mode.alternatives().to_vec()),
         }
     }
+}
+
+/// Blocks around a touch that go to it and away from it.
+const NEAR: u32 = 12;
+
+impl PathCx<'_> {
+    /// Does a block near this one have a code that `is` says yes to, with no tool change and no start of the spindle between
+    /// them? Feed moves around a touch go to it and away from it, and cut nothing.
+    pub(crate) fn is_near(&self, is: impl Fn(Effect) -> bool) -> bool {
+        let here = self.origin().at;
+        let is_there = |block: u32| {
+            let place = self.place_of(At { block, ..here })?;
+            let codes = place.table.words(place.block()).iter().map(|word| self.model.effect(word.code));
+            let mut parts = false;
+            for effect in codes {
+                if is(effect) {
+                    return Some(true);
+                }
+                parts |= parts_sections(effect);
+            }
+            parts.then_some(false)
+        };
+        let first = here.block.saturating_sub(NEAR);
+        let before = (first..=here.block).rev().find_map(is_there);
+        let behind = (here.block + 1..=here.block.saturating_add(NEAR)).find_map(is_there);
+        before == Some(true) || behind == Some(true)
+    }
+}
+
+/// What comes behind is another piece of work.
+fn parts_sections(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::ToolChange
+            | Effect::SpindleClockwise
+            | Effect::SpindleCounterClockwise
+            | Effect::SpindleClockwiseWithCoolant
+            | Effect::SpindleCounterClockwiseWithCoolant
+    )
 }
 
 /// Does a code with this effect move until the probe answers?

@@ -86,26 +86,41 @@ mod tests {
 
     #[test]
     fn the_second_touch_is_marked() {
-        check_rule(&RULE, "haas-mill", "G91 G31 Y-1. F10.\nG136 Y1. F10.\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G31 Y-1. F10.\nG136 Y1. F10.\nG90\nM30\n",
+            &expect![[r#"
             2 | G136 Y1. F10.
               | ^^^^ error[first-touch-missing] `G136` measures between two touches, but none was kept
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_touch_kept_too_late_does_not_count() {
-        check_rule(&RULE, "haas-mill", "G91 G136 Y1. F10.\nG31 Y-1. F10. M75\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G136 Y1. F10.\nG31 Y-1. F10. M75\nG90\nM30\n",
+            &expect![[r#"
             1 | G91 G136 Y1. F10.
               |     ^^^^ error[first-touch-missing] `G136` measures between two touches, but none was kept
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_tool_is_measured_between_two_touches_too() {
-        check_rule(&RULE, "haas-mill", "G91 G35 X1. D1 F10.\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G35 X1. D1 F10.\nG90\nM30\n",
+            &expect![[r#"
             1 | G91 G35 X1. D1 F10.
               |     ^^^ error[first-touch-missing] `G35` measures between two touches, but none was kept
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -83,10 +83,15 @@ mod tests {
 
     #[test]
     fn the_code_that_keeps_is_marked() {
-        check_rule(&RULE, "haas-mill", "G91 G31 X1. F10. M75\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G31 X1. F10. M75\nG90\nM30\n",
+            &expect![[r#"
             1 | G91 G31 X1. F10. M75
               |                  ^^^ warning[kept-touch-never-used] touch kept, but nothing measures from it
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

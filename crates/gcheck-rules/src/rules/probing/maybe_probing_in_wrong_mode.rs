@@ -50,7 +50,7 @@ impl PathRule for MaybeProbingInWrongMode {
             let Some(wrong) = modes.iter().copied().find(|mode| is_wrong(*mode)) else { continue };
             let mode = cx.name_of(wrong);
             let mut finding = worded(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
-            finding.message = format!("on some path, {}", finding.message);
+            finding.message = format!("on some path: {}", finding.message);
             report.add(cx.with_path(finding));
         }
     }
@@ -71,7 +71,7 @@ mod tests {
             "G41 D1 G1 X1. F10.\nIF [#100 EQ 1] GOTO10\nG40 X2.\nN10 G91 G31 Y-1. F10.\nG40 X1.\nG90\nM30\n",
             &expect![[r#"
                 4 | N10 G91 G31 Y-1. F10.
-                  |         ^^^ warning[maybe-probing-in-wrong-mode] on some path, `G31` with cutter compensation on (`G41`)
+                  |         ^^^ warning[maybe-probing-in-wrong-mode] on some path: probing with cutter compensation on (`G41`)
             "#]],
         );
     }

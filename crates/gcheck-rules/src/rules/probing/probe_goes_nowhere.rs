@@ -49,7 +49,7 @@ impl PathRule for ProbeGoesNowhere {
             return;
         }
         let Touch::Made(ways) = cx.state().touched() else { return };
-        if !cx.names_axes() || driven(ways).next().is_some() {
+        if needs_axis(cx) || driven(ways).next().is_some() || !has_plain_axes(cx) {
             return;
         }
         let name = cx.probing_code().map(|code| cx.name_of(code)).unwrap_or_default();
@@ -61,6 +61,21 @@ impl PathRule for ProbeGoesNowhere {
     }
 }
 
+/// Does the block lack an axis that another rule asks for?
+fn needs_axis(cx: &PathCx<'_>) -> bool {
+    let code = cx.probing_code().and_then(|code| cx.code_of(code));
+    !cx.names_axes() && code.is_none_or(|code| !code.entry().one_of.is_empty())
+}
+
+/// Are all axis words of the block numbers? A variable without a value leaves its word out.
+fn has_plain_axes(cx: &PathCx<'_>) -> bool {
+    let control = cx.scene.control();
+    let Some(place) = cx.place() else { return false };
+    let words = place.table.words(place.block());
+    let mut axes = words.iter().filter(|word| control.letter(word.letter).is_some_and(|entry| entry.axis));
+    axes.all(|word| word.number().is_some())
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -70,15 +85,39 @@ mod tests {
 
     #[test]
     fn an_increment_of_nothing_goes_nowhere_from_anywhere() {
-        check_rule(&RULE, "haas-mill", "G91 G31 Y0. F10.\nG36 Y0. X1. F10.\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G31 Y0. F10.\nG36 Y0. X1. F10.\nG90\nM30\n",
+            &expect![[r#"
             1 | G91 G31 Y0. F10.
               | ^^^^^^^^^^^^^^^^ warning[probe-goes-nowhere] probing move that goes nowhere (`G31`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_tool_length_is_measured_as_far_as_it_takes() {
         check_rule(&RULE, "haas-mill", "G90 G43 H1 Z0.\nG37 H1 Z0. F10.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn no_axis_at_all_is_no_way_either() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G31 Y1. F5. M75\nG0 Y4.\nG35 D1 F5.\nG36 F5.\nG90\nM30\n",
+            &expect![[r#"
+                3 | G35 D1 F5.
+                  | ^^^^^^^^^^ warning[probe-goes-nowhere] probing move that goes nowhere (`G35`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_argument_that_only_the_caller_knows_may_be_a_way() {
+        check_rule(&RULE, "fanuc-mill", "O9103\nG91 G31 Y#25 F10.\nM99\n", &expect![[""]]);
+        check_rule(&RULE, "haas-mill", "G91 G31 Y[#100*2.] F10.\nG90\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use gcheck_engine::{Abstract, Domain, Fact, Role};
 
 use crate::meta::declare_rule;
 use crate::probing::ModeInBlock;
-use crate::{Finding, PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
     /// A probing or measuring code runs in a mode that it must not run in: cutter compensation on, tool length compensation on
@@ -52,7 +52,7 @@ struct ProbingInWrongMode;
 
 impl PathRule for ProbingInWrongMode {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        for Demand { role, code, is_wrong, .. } in demands(cx) {
+        for Demand { role, code, most, is_wrong } in demands(cx) {
             let (mode, is_written) = match cx.mode_in_block(role) {
                 ModeInBlock::Written(mode) => (mode, true),
                 ModeInBlock::Before(mode) => (mode, false),
@@ -65,6 +65,7 @@ impl PathRule for ProbingInWrongMode {
             }
             let mode = cx.name_of(mode);
             let finding = worded(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
+            let finding = finding.at_most(most);
             report.add(if is_written {
                 finding
             } else {
@@ -78,6 +79,8 @@ impl PathRule for ProbingInWrongMode {
 pub(super) struct Demand<'a> {
     pub(super) role: Role,
     pub(super) code: Code<'a>,
+    /// How grave it is at most: what the data only recommends is no error.
+    pub(super) most: Severity,
     /// Is this code the wrong one to have in effect?
     pub(super) is_wrong: Box<dyn Fn(CodeIx) -> bool + 'a>,
 }
@@ -89,21 +92,27 @@ pub(super) fn demands<'a>(cx: &'a PathCx<'a>) -> Vec<Demand<'a>> {
         let ix = cx.scene.control().code_ix(CodeNumber::parse(name)?);
         Some((ix, cx.model.role(ix)?))
     };
-    let required = code.entry().requires.iter().filter_map(|name| of_name(name)).map(|(wanted, role)| {
+    let entry = code.entry();
+    let demand = |name: &str, most: Severity| {
+        let (wanted, role) = of_name(name)?;
         let wanted = cx.model.effect(wanted);
         let is_wrong = move |mode: CodeIx| {
             let effect = cx.model.effect(mode);
-            mode.is_some()
-                && effect != wanted
-                && effect != Effect::None
-                && !(role == Role::Length && has_no_length(cx))
+            let is_off = role == Role::Length && has_no_length(cx);
+            mode.is_some() && effect != wanted && effect != Effect::None && !is_off
         };
-        Demand { role, code, is_wrong: Box::new(is_wrong) as Box<dyn Fn(CodeIx) -> bool + 'a> }
+        Some(Demand { role, code, most, is_wrong: Box::new(is_wrong) })
+    };
+    let required = entry.requires.iter().filter_map(|name| demand(name, Severity::Error));
+    let recommended = entry.recommends.iter().filter_map(|name| demand(name, Severity::Warning));
+    let recommended = recommended.filter(|demand| matches!(demand.role, Role::Compensation | Role::Length));
+    let forbidden = entry.forbids.iter().filter_map(|name| of_name(name)).map(|(unwanted, role)| Demand {
+        role,
+        code,
+        most: Severity::Error,
+        is_wrong: Box::new(move |mode: CodeIx| mode == unwanted),
     });
-    let forbidden = code.entry().forbids.iter().filter_map(|name| of_name(name)).map(|(unwanted, role)| {
-        Demand { role, code, is_wrong: Box::new(move |mode: CodeIx| mode == unwanted) }
-    });
-    required.chain(forbidden).collect()
+    required.chain(recommended).chain(forbidden).collect()
 }
 
 /// `G43 H0` is no length.
@@ -124,24 +133,26 @@ pub(super) fn worded(
     let range = cx.word_range(|word| cx.code_of(word.code).is_some_and(|of| of.number() == code.number()));
     let (what, label, help) = match (role, code.effect()) {
         (Role::Compensation, _) => (
-            "with cutter compensation on",
+            "probing with cutter compensation on",
             "the path of a probe cannot be offset",
             "switch compensation off (`G40`) with a move away from the part before it",
         ),
         (Role::Length, Effect::ProbeLength) => (
-            "without tool length compensation",
+            "tool length measured with no length in effect",
             "measures the length in effect, and none is",
             "switch the length on before it: `G43 H…` with the offset that is measured",
         ),
         (Role::Length, _) => (
-            "with tool length compensation on",
+            "work offset measured with a tool length on",
             "the tool's length would go into the work offset",
             "switch the length off (`G49`) before it",
         ),
-        _ => ("in a mode it does not work in", "refused in this mode", "switch the mode off before it"),
+        _ => {
+            ("probing in a mode it does not work in", "refused in this mode", "switch the mode off before it")
+        }
     };
     finding.range = range;
-    finding.message = format!("`{name}` {what} (`{mode}`)");
+    finding.message = format!("{what} (`{mode}`)");
     finding
         .label(label)
         .note(format!("`{name}` ({}) must not run in this mode  [{}]", entry.title, entry.source))
@@ -164,7 +175,7 @@ mod tests {
             "G41 D1 G1 X1. F10.\nG91 G31 Y-1. F10.\nG40 X1.\nG90\nM30\n",
             &expect![[r#"
                 2 | G91 G31 Y-1. F10.
-                  |     ^^^ error[probing-in-wrong-mode] `G31` with cutter compensation on (`G41`)
+                  |     ^^^ error[probing-in-wrong-mode] probing with cutter compensation on (`G41`)
             "#]],
         );
     }
@@ -177,7 +188,7 @@ mod tests {
             "G90 G43 H1 Z1.\nG91 G49 G36 Y-1. F10.\nG43 G136 Y1. F10. H1\nG90\nM30\n",
             &expect![[r#"
                 3 | G43 G136 Y1. F10. H1
-                  |     ^^^^ error[probing-in-wrong-mode] `G136` with tool length compensation on (`G43`)
+                  |     ^^^^ error[probing-in-wrong-mode] work offset measured with a tool length on (`G43`)
             "#]],
         );
     }
@@ -189,16 +200,34 @@ mod tests {
 
     #[test]
     fn a_mode_as_at_power_on_is_a_warning() {
-        check_rule(&RULE, "haas-mill", "G37 H1 Z0. F10.\nM30\n", &expect![[r#"
-            1 | G37 H1 Z0. F10.
-              | ^^^ warning[probing-in-wrong-mode] `G37` without tool length compensation (`G49`)
-        "#]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G37 H1 Z0. F10.\nM30\n",
+            &expect![[r#"
+                1 | G37 H1 Z0. F10.
+                  | ^^^ warning[probing-in-wrong-mode] tool length measured with no length in effect (`G49`)
+            "#]],
+        );
     }
 
     #[test]
     fn a_caller_may_have_set_the_mode() {
         check_rule(&RULE, "haas-mill", "O9100\nG37 H1 Z0. F10.\nM99\n", &expect![[""]]);
         check_rule(&RULE, "haas-mill", "G65 P9100\nG37 H1 Z0. F10.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn what_the_data_recommends_is_a_warning() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G41 D1 G1 X10. F100.\nG31 Y-1. F10.\nG40 X20.\nM30\n",
+            &expect![[r#"
+                2 | G31 Y-1. F10.
+                  | ^^^ warning[probing-in-wrong-mode] probing with cutter compensation on (`G41`)
+            "#]],
+        );
     }
 
     #[test]
@@ -209,7 +238,7 @@ mod tests {
             "G18 T101\nG42 G1 X1. F.01\nG31 Z-1. F5.\nG40 X2.\nM30\n",
             &expect![[r#"
                 3 | G31 Z-1. F5.
-                  | ^^^ error[probing-in-wrong-mode] `G31` with cutter compensation on (`G42`)
+                  | ^^^ error[probing-in-wrong-mode] probing with cutter compensation on (`G42`)
             "#]],
         );
     }

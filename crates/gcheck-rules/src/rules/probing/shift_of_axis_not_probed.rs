@@ -1,6 +1,7 @@
 //! A shift of a measured offset along an axis that is not measured.
 
 use gcheck_controls::{Effect, Letter};
+use gcheck_program::BlockFlags;
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -45,7 +46,8 @@ impl PathRule for ShiftOfAxisNotProbed {
         let letters = cx.origin().letters;
         let Some(place) = cx.place() else { return };
         // A block that probes nothing is another rule's.
-        if !cx.names_axes() {
+        let is_malformed = cx.origin().flags.contains(BlockFlags::ERROR);
+        if is_malformed || !cx.names_axes() {
             return;
         }
         for (shift, axis) in [('I', 'X'), ('J', 'Y'), ('K', 'Z')] {

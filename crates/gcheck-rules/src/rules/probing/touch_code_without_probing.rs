@@ -92,23 +92,33 @@ mod tests {
 
     #[test]
     fn a_feed_move_touches_nothing() {
-        check_rule(&RULE, "haas-mill", "G91 G31 X1. F10.\nG1 X1. F10. M75\nG90\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G91 G31 X1. F10.\nG1 X1. F10. M75\nG90\nM30\n",
+            &expect![[r#"
             2 | G1 X1. F10. M75
               |             ^^^ error[touch-code-without-probing] `M75` keeps a touch in a block that does not probe
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_code_alone_speaks_of_the_probing_move_before_it() {
         check_rule(&RULE, "haas-mill", "G91 G31 X1. F10.\nM75\nM79\nG90\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "M75\nM78\nM79\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "M75\nM78\nM79\nM30\n",
+            &expect![[r#"
             1 | M75
               | ^^^ error[touch-code-without-probing] `M75` keeps a touch, but nothing was probed
             2 | M78
               | ^^^ warning[touch-code-without-probing] `M78` asks for a touch, but nothing was probed
             3 | M79
               | ^^^ warning[touch-code-without-probing] `M79` asks for a touch, but nothing was probed
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Two touches between which there is nothing to measure.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Event, Role, Touch, TravelKind, Way};
+use gcheck_engine::{At, Event, Role, Touch, TravelKind, Way};
 
 use super::first_touch_missing::keeping_code;
 use crate::meta::declare_rule;
@@ -48,17 +48,28 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS,
-            make: || Box::new(TouchesDoNotMeet),
+            watch: Watch::BLOCKS.union(Watch::CUTS),
+            make: || Box::new(TouchesDoNotMeet { kept: None }),
         },
     }
 }
 
-struct TouchesDoNotMeet;
+struct TouchesDoNotMeet {
+    /// The block that kept a touch last.
+    kept: Option<At>,
+}
 
 impl PathRule for TouchesDoNotMeet {
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        if cx.has_effect(keeps) {
+            self.kept = Some(cx.origin().at);
+        }
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if !is_probing(event) || !cx.has_effect(is_second_touch) || is_compensated(cx) {
+        // What is called may drive axes by arguments that only its caller knows.
+        let is_open = is_compensated(cx) || cx.is_called_only();
+        if is_open || !is_probing(event) || !cx.has_effect(is_second_touch) {
             return;
         }
         let (Touch::Made(first), Touch::Made(second)) = (cx.state().kept_touch(), cx.state().touched())
@@ -67,25 +78,32 @@ impl PathRule for TouchesDoNotMeet {
         };
         for (axis, way) in driven(second) {
             let letter = axis.name();
-            let (message, label) = match (first.of(axis), way) {
+            let keep = keeping_code(cx);
+            let (message, label, help) = match (first.of(axis), way) {
                 (Way::Still, _) => (
                     format!("the first touch did not go along {letter}"),
                     format!("measures along {letter}, where nothing was touched before"),
+                    format!("keep a first touch along {letter}: `{keep}` on its probing move"),
                 ),
                 (Way::Up, Way::Up) | (Way::Down, Way::Down) => (
                     format!("both touches go the same way along {letter}"),
                     "hits the side that the first touch hit, or one that looks the same way".to_owned(),
+                    format!("touch along {letter} from the other side, the opposite way"),
                 ),
                 _ => continue,
             };
-            let keep = keeping_code(cx);
-            report.add(
-                cx.finding(&META, cx.letter_range(letter), message)
-                    .label(label)
-                    .help(format!("touch along {letter} from the other side than the move with `{keep}`")),
-            );
+            let finding = cx.finding(&META, cx.letter_range(letter), message).label(label).help(help);
+            let kept = self.kept.and_then(|at| cx.find_word(at, |word| keeps(cx.model.effect(word.code))));
+            report.add(match kept {
+                Some(range) => finding.also(range, "the first touch is kept here"),
+                None => finding,
+            });
         }
     }
+}
+
+fn keeps(effect: Effect) -> bool {
+    effect == Effect::KeepTouch
 }
 
 /// Is the move one that the probe ends?
