@@ -88,7 +88,7 @@ pub(crate) const SYSTEM: System = System {
             ],
         },
         Sentence {
-            says: "A first touch on some path only, or behind a block skip, is a first touch that may be missing.",
+            says: "A first touch on some path only may be missing; behind a block delete it is missing when the switch is on.",
             proofs: &[
                 Rule {
                     finding: "warning[maybe-first-touch-missing]",
@@ -414,6 +414,11 @@ pub(crate) const SYSTEM: System = System {
                 Rule {
                     finding: "error[number-out-of-range]",
                     violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H0 Z0. F10.\nM30\n"),
+                    conforms: LENGTH,
+                },
+                Rule {
+                    finding: "warning[length-written-for-another-tool]",
+                    violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H2 Z0. F10. M79\nM30\n"),
                     conforms: LENGTH,
                 },
             ],

@@ -127,6 +127,7 @@ pub(crate) mod offsets {
 pub(crate) mod probing {
     pub(crate) mod first_touch_missing;
     pub(crate) mod kept_touch_never_used;
+    pub(crate) mod length_written_for_another_tool;
     pub(crate) mod maybe_first_touch_missing;
     pub(crate) mod maybe_probing_in_wrong_mode;
     pub(crate) mod measures_in_positions;
@@ -327,6 +328,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &offsets::work_offset_not_chosen::RULE,
     &probing::first_touch_missing::RULE,
     &probing::kept_touch_never_used::RULE,
+    &probing::length_written_for_another_tool::RULE,
     &probing::maybe_first_touch_missing::RULE,
     &probing::maybe_probing_in_wrong_mode::RULE,
     &probing::measures_in_positions::RULE,
