@@ -192,7 +192,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 continue;
             }
             if is_length {
-                lengths.iter().for_each(|axis| tool.offset.set(*axis, f64::NAN));
+                for axis in &lengths {
+                    tool.offset.set(*axis, f64::NAN);
+                }
             } else {
                 tool.diameter = Mm::UNKNOWN;
             }

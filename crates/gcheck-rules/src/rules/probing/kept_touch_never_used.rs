@@ -67,7 +67,7 @@ impl PathRule for KeptTouchNeverUsed {
         let Some(range) = cx.find_word(at, keeps) else { return };
         let measures = cx.cancel_of(Effect::ProbeCentre).unwrap_or_default();
         report.add(
-            cx.finding(&META, range, "touch kept, but nothing measures from it".to_owned())
+            cx.finding(&META, range, "touch kept, but nothing measures from it")
                 .label("the first touch of two; the second never comes")
                 .help(format!("touch the other side with `{measures}`, or take this code away")),
         );
