@@ -65,6 +65,10 @@ pub enum Effect {
     ProbeCentre,
     /// Keeps the first touch for a two-touch measurement (`M75`).
     KeepTouch,
+    /// An alarm when the probe touched (`M78`): behind its block it has not.
+    AlarmIfTouched,
+    /// An alarm when the probe did not touch (`M79`).
+    AlarmIfNotTouched,
 
     // Canned cycles that stay on.
     CycleDrill,
@@ -299,6 +303,9 @@ pub struct Semantics {
     /// Under inverse time no move is slower than this, in the program's units a minute.
     #[serde(default)]
     pub least_inverse_feed: f64,
+    /// The fastest feed that the manual lets a probing move have.
+    #[serde(default)]
+    pub probe_feed: Option<ProbeFeed>,
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
@@ -349,6 +356,16 @@ pub struct Semantics {
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
+}
+
+/// The fastest feed of a probing move, in the units of the program a minute.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ProbeFeed {
+    /// Inches a minute, in an inch program.
+    pub inch: f64,
+    /// Millimetres a minute, in a metric program.
+    pub mm: f64,
 }
 
 /// What a strict control refuses beside what its codes, addresses and block rules say, and when.

@@ -18,6 +18,7 @@ use crate::position::Position;
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 use crate::tool_shift::ToolShift;
 use crate::step::bar::{Bar, start_bar_counters};
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -109,6 +110,8 @@ pub(crate) fn start_state<D: Domain>(
         passed: Position::UNKNOWN,
         probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
         probe_result: if machine.fresh { Truth::False } else { Truth::Unknown },
+        touched: Touch::None,
+        kept_touch: Touch::None,
         polar: [0.0; 2],
         variables: Variables::new(unwritten, known),
         frames: vec![Frame {
@@ -183,6 +186,8 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.diameters.forget();
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
+    state.touched = Touch::Unknown;
+    state.kept_touch = Touch::Unknown;
     state.variables.forget();
     state.bar = Bar::UNKNOWN;
     state

@@ -17,6 +17,7 @@ use crate::position::{Axis, Position};
 use crate::step::bar::{Bar, BarCommand};
 use crate::step::compensation::Compensation;
 use crate::tool_shift::ToolShift;
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -344,6 +345,9 @@ pub struct State<D: Domain> {
     /// Point and result of the last probing move.
     pub(crate) probed: Position,
     pub(crate) probe_result: Truth,
+    /// The last probing move, and the one kept for a measurement between two touches.
+    pub(crate) touched: Touch,
+    pub(crate) kept_touch: Touch,
     /// Polar origin under `G16`.
     pub(crate) polar: [f64; 2],
     pub(crate) variables: Variables<D>,
@@ -582,6 +586,16 @@ impl<D: Domain> State<D> {
         &self.tables
     }
 
+    /// The last probing move.
+    pub fn touched(&self) -> Touch {
+        self.touched
+    }
+
+    /// The probing move whose touch is kept for a measurement between two.
+    pub fn kept_touch(&self) -> Touch {
+        self.kept_touch
+    }
+
     /// The active plane.
     pub fn plane(&self, model: &Model<'_>) -> Option<Plane> {
         match self.effect(Role::Plane, model)? {
@@ -745,6 +759,8 @@ impl<D: Domain> State<D> {
         joined.passed = self.passed.join(&other.passed);
         joined.probed = self.probed.join(&other.probed);
         joined.probe_result = truth(self.probe_result, other.probe_result);
+        joined.touched = self.touched.join(other.touched);
+        joined.kept_touch = self.kept_touch.join(other.kept_touch);
         joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
         joined.variables = self.variables.join(&other.variables, widen);
         for (frame, with) in joined.frames.iter_mut().zip(&other.frames) {
@@ -787,6 +803,8 @@ impl<D: Domain> State<D> {
             && truth(self.live_tool, inner.live_tool)
             && truth(self.mist, inner.mist)
             && truth(self.flood, inner.flood)
+            && self.touched.contains(inner.touched)
+            && self.kept_touch.contains(inner.kept_touch)
             && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
             && self.wrapped.contains(&inner.wrapped)
             && self.diameters.contains(&inner.diameters)
@@ -837,6 +855,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.passed == other.passed
             && self.probed == other.probed
             && self.probe_result == other.probe_result
+            && (self.touched, self.kept_touch) == (other.touched, other.kept_touch)
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)
             && self.macro_modal == other.macro_modal
             && self.compensation == other.compensation

@@ -285,14 +285,34 @@ impl<'a> Writer<'a> {
     }
 
     fn unlikely(&mut self) {
-        match self.choose(6) {
+        match self.choose(8) {
             0 => self.line("(NOTE)"),
             1 => self.line("G0 Z5."),
             2 => self.line("#[109+#1]=3."),
             3 => self.line("#2=#[110]"),
             4 => self.line("#111=#5001"),
+            5 | 6 => self.probing(),
             _ => self.line("#3=[1./#104]"),
         }
+    }
+
+    fn probing(&mut self) {
+        let line = [
+            "G31 X[#110] F50. M75",
+            "G31 Y-1. F50.",
+            "#111=#5061",
+            "G31 X2. F50. M78",
+            "G136 X-1. F50.",
+            "G36 Y1. I2. F50.",
+            "G37 H1 Z0. F50.",
+            "M75",
+        ][self.choose(8) as usize];
+        let is_foreign = match self.style {
+            Style::Local => false,
+            Style::Macro => !line.starts_with("G31") && !line.starts_with('#'),
+            Style::OWords => true,
+        };
+        self.line(if is_foreign { "#110=#5001" } else { line });
     }
 
     fn condition(&mut self) -> String {

@@ -19,6 +19,7 @@ mod meta;
 mod mistakes;
 mod parting;
 mod paths;
+mod probing;
 mod rules;
 mod schemes;
 mod sections;

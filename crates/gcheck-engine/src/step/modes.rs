@@ -255,6 +255,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.measure(effect, state)?;
             }
 
+            E::KeepTouch => state.kept_touch = state.touched,
+
             E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
                 self.profile_cycle(effect, ix, state)?;
             }

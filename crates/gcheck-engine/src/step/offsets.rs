@@ -420,7 +420,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if loaded { Err(Fault::NotNow(self.model.code_with(Effect::WriteOffsets), None)) } else { Ok(()) }
     }
 
-    fn forget_offsets(&mut self, state: &mut State<D>) {
+    pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
         self.reframe(state, |state| {
             Rc::make_mut(&mut state.tables).unsure = true;
             state.in_effect = WorkOffset::UNKNOWN;

@@ -175,6 +175,22 @@ pub(crate) mod offsets {
     pub(crate) mod work_offset_not_chosen;
 }
 
+pub(crate) mod probing {
+    pub(crate) mod first_touch_missing;
+    pub(crate) mod kept_touch_never_used;
+    pub(crate) mod length_written_for_another_tool;
+    pub(crate) mod maybe_first_touch_missing;
+    pub(crate) mod maybe_probing_in_wrong_mode;
+    pub(crate) mod measures_in_positions;
+    pub(crate) mod probe_feed_too_high;
+    pub(crate) mod probe_goes_nowhere;
+    pub(crate) mod probing_in_wrong_mode;
+    pub(crate) mod shift_of_axis_not_probed;
+    pub(crate) mod spindle_turns_while_probing;
+    pub(crate) mod touch_code_without_probing;
+    pub(crate) mod touches_do_not_meet;
+}
+
 pub(crate) mod program {
     pub(crate) mod ambiguous_jump_target;
     pub(crate) mod duplicate_sequence_number;
@@ -403,6 +419,19 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_not_chosen::RULE,
+    &probing::first_touch_missing::RULE,
+    &probing::kept_touch_never_used::RULE,
+    &probing::length_written_for_another_tool::RULE,
+    &probing::maybe_first_touch_missing::RULE,
+    &probing::maybe_probing_in_wrong_mode::RULE,
+    &probing::measures_in_positions::RULE,
+    &probing::probe_feed_too_high::RULE,
+    &probing::probe_goes_nowhere::RULE,
+    &probing::probing_in_wrong_mode::RULE,
+    &probing::shift_of_axis_not_probed::RULE,
+    &probing::spindle_turns_while_probing::RULE,
+    &probing::touch_code_without_probing::RULE,
+    &probing::touches_do_not_meet::RULE,
     &program::ambiguous_jump_target::RULE,
     &program::duplicate_sequence_number::RULE,
     &program::jump_target_missing::RULE,

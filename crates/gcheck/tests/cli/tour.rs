@@ -17,6 +17,10 @@ fn the_tour_shows_its_mistakes() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
     expect![[r#"
+        fixtures/tour/bore.nc:23:6: warning[touches-do-not-meet] the first touch did not go along Y
+        fixtures/tour/bore.nc:29:5: error[probing-in-wrong-mode] work offset measured with a tool length on (`G43`)
+        fixtures/tour/bore.nc:29:15: warning[probe-feed-too-high] probing at 150 inch/min (`F`)
+        fixtures/tour/bore.nc:38:5: error[word-forbidden] `X6.` in a block with `G37`
         fixtures/tour/bracket.nc:9:1: warning[lasting-word-never-given] `G43` without `H`, which no earlier block gives
         fixtures/tour/bracket.nc:11:5: warning[missing-decimal-point] decimal point missing: `F45`
         fixtures/tour/bracket.nc:15:9: error[unknown-code] unknown code `G54.1`

@@ -81,6 +81,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
+        if cx.is_near(probes) {
+            return;
+        }
         self.told.push(stopped_by);
         // `T1 M6 M3` in one block: which comes first is the builder's affair.
         let is_started_with_change =
@@ -196,6 +199,30 @@ mod tests {
     use super::RULE;
     use crate::Selection;
     use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn moves_around_a_touch_cut_nothing() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T20 M6\nG1 X1. Z-.3 F50.\nG91 G31 Y-1. F8. M75\nG1 Y.2 F50.\nG136 Y1. F8.\nM5\nG1 Y-.2\nT1 M6\nS3000 M3\n\
+             G1 X1. F10.\nG90\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_touch_with_another_tool_is_no_excuse() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S1000 M3\nG1 X1. F10.\nT20 M6\nG31 Y1. F8.\nT2 M6\nG1 X2. F10.\nM30\n",
+            &expect![[r#"
+                6 | G1 X2. F10.
+                  | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+            "#]],
+        );
+    }
 
     #[test]
     fn the_first_cut_of_each_stop_is_marked() {

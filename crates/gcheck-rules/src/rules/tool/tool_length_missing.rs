@@ -101,6 +101,14 @@ impl ToolLengthMissing {
         };
         let Some(on) = cx.scene.control().codes().find(|code| compensates(code.effect())) else { return };
         let on = on.number().to_string();
+        // A work offset is measured with the length off, and the probe goes to its place without it.
+        if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
+            return;
+        }
+        // A tool that is about to touch off finds its own zero.
+        if cx.is_near(|effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional)) {
+            return;
+        }
         let is_ever_used = cx.file_uses(compensates);
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
@@ -145,7 +153,10 @@ fn needs_no_length(cx: &PathCx<'_>) -> bool {
                 | Effect::ReturnReference(_)
                 | Effect::ReturnFromReference
                 | Effect::ToolChange
+                | Effect::ProbeDiameter
+                | Effect::ProbeOffset
                 | Effect::ProbeLength
+                | Effect::ProbeCentre
                 | Effect::Skip
                 | Effect::ProbeToward
                 | Effect::ProbeTowardOptional
@@ -202,6 +213,26 @@ mod tests {
     #[test]
     fn a_turret_knows_its_tools() {
         check_rule(&RULE, "fanuc-lathe", "T0101\nG1 X5. Z0. F.1\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_probe_that_measures_a_work_offset_works_without_its_length() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T20 M6\nG90 G54 G0 X0. Y0.\nZ1.\nG91 G36 Z-1. F5.\nT1 M6\nG90 G43 H1 Z1.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_tool_that_touches_off_finds_its_own_zero() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 T1 M6\nG0 X0 Y0\nG0 Z10\nG38.2 Z-20 F100\nG10 L20 P1 Z0\nT2 M6\nG43 Z10\nM2\n",
+            &expect![[""]],
+        );
     }
 
     #[test]
