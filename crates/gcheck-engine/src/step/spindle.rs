@@ -23,6 +23,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('F')));
         }
         state.feed_word = value.clone();
+        state.feed_given_under = *state.mode(Role::FeedMode);
         let mode = state.feed_mode(self.model);
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
