@@ -23,8 +23,9 @@ pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use execution::{
-    ArcRules, CompensationRules, CompensationStyle, CycleRules, DwellWord, Effect, Fix, LocalShift,
-    OffsetValue, Refusals, ReturnInMain, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, Unset,
+    ArcRules, CompensationRules, CompensationStyle, CycleRules, DwellWord, Effect, Fix, HelixFeed,
+    HelixRules, LocalShift, OffsetValue, Refusals, ReturnInMain, ReturnTo, Semantics, SystemValue,
+    SystemVariable, ToolRules, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};

@@ -383,6 +383,9 @@ pub struct CodeEntry {
     /// Of each list the items exclude each other; an item may be several letters: `["R", "IJK"]`.
     #[serde(default)]
     pub not_together: Vec<Vec<String>>,
+    /// Confidence of `not-together` where it differs from the entry's.
+    #[serde(default)]
+    pub not_together_confidence: Option<Confidence>,
     /// Letters that must not stand in the block with this code, though another code could use them.
     #[serde(default)]
     pub forbidden: Vec<String>,

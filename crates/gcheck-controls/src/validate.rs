@@ -279,10 +279,10 @@ impl Problems<'_> {
                 );
             }
         }
-        if let Some(setting) = &semantics.compensation.setting
-            && control.setting(setting).is_none()
-        {
-            self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+        for setting in semantics.compensation.setting.iter().chain(&semantics.helix.setting) {
+            if control.setting(setting).is_none() {
+                self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+            }
         }
         if semantics.loop_depth == Some(0) {
             self.say(PLACE, "`loop-depth` 0 allows no loop");

@@ -285,6 +285,7 @@ pub struct Statistics {
     inch_moves: u64,
     mm_moves: u64,
     rotary_rapids: bool,
+    helices: bool,
 }
 
 impl Statistics {
@@ -300,6 +301,7 @@ impl Statistics {
             inch_moves: 0,
             mm_moves: 0,
             rotary_rapids: false,
+            helices: false,
         }
     }
 
@@ -357,6 +359,11 @@ impl Statistics {
     /// The units in which most moves were written.
     pub const fn units(&self) -> Units {
         if self.inch_moves > self.mm_moves { Units::Inch } else { Units::Mm }
+    }
+
+    /// Was there an arc that leaves its plane?
+    pub const fn has_helices(&self) -> bool {
+        self.helices
     }
 
     /// The axes shown.
@@ -437,6 +444,7 @@ impl Statistics {
         let (view, work) = (self.view, self.work);
         let rapid = motion.way == Way::Rapid;
         self.rotary_rapids |= rapid && turns(motion);
+        self.helices |= motion.arc.is_some_and(|arc| arc.rise().0.abs() > 0.0);
 
         let section = self.section(step);
         section.moves += 1;

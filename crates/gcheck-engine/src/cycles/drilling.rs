@@ -337,12 +337,17 @@ impl Tool<'_, '_> {
             self.sink.at = self.point(self.clear());
             return Ok(());
         }
+        // The pitch ties the feed to the spindle: the override switches have no say.
+        self.sink.put(Stroke::FeedOverride(false))?;
         self.sink.put(Stroke::SpindleTurn { clockwise })?;
         self.feed_to(self.bottom())?;
         self.dwell()?;
         self.sink.put(Stroke::SpindleTurn { clockwise: !clockwise })?;
         self.feed_to(self.r())?;
         self.sink.put(Stroke::SpindleRestart)?;
+        if feed {
+            self.sink.put(Stroke::FeedOverride(true))?;
+        }
         self.rapid_if_elsewhere(self.clear())
     }
 

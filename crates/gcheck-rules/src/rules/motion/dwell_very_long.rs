@@ -138,12 +138,26 @@ mod tests {
     fn a_guessed_control_says_what_the_other_unit_makes() {
         let world = World { control_is_guessed: true, ..World::default() };
         let found = findings(&Selection::only(&RULE), "linuxcnc", "G4 P8000\nM2\n", &world);
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            dwell of 2 hours
+              here: 8000 seconds on this control
+              note: the control was guessed: one that counts in the other unit waits 8 seconds
+              help: check whether the value was meant in milliseconds
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]
     fn more_than_the_control_takes_is_reported_as_that() {
-        check_rule(&RULE, "generic-mill", "G4 X99999.\nG4 X100000.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G4 X99999.\nG4 X100000.\nM30\n",
+            &expect![[r#"
+            1 | G4 X99999.
+              |    ^^^^^^^ warning[dwell-very-long] dwell of 28 hours
+        "#]],
+        );
     }
 
     #[test]

@@ -235,10 +235,10 @@ mod tests {
         let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             the feed was given under another feed mode (`G93`)
-              here: the same number counts length a minute here (`G94`)
-              there: given as moves a minute (`G93`)
+              here: the same number is read as a length per minute here (`G94`)
+              there: given as moves per minute (`G93`)
               there: `G94` set here
-              note: this control keeps the number of `F` when its meaning changes
+              note: as far as is known, this control keeps the number of `F` when its meaning changes
               help: give `F` anew with `G94`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
