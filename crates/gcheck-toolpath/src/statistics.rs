@@ -361,6 +361,12 @@ impl Statistics {
         if self.inch_moves > self.mm_moves { Units::Inch } else { Units::Mm }
     }
 
+    /// Position of the feed override switch in percent, where it is another than 100.
+    pub fn feed_override(&self) -> Option<f64> {
+        let percent = self.clock.timing.feed_override() * 100.0;
+        ((percent - 100.0).abs() > 1e-9).then_some(percent)
+    }
+
     /// Was there an arc that leaves its plane?
     pub const fn has_helices(&self) -> bool {
         self.helices

@@ -325,6 +325,13 @@ impl Table<'_> {
             .into_iter()
             .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
             .collect();
+        if self.total.moves > 0
+            && let Some(percent) = statistics.feed_override()
+        {
+            lines.push(format!(
+                "the feed override stands at {percent} %: it does not count for rapid moves, threads and taps"
+            ));
+        }
         if self.total.moves > 0 {
             lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }

@@ -92,6 +92,11 @@ impl Timing {
         self
     }
 
+    /// Part of the programmed feed that is run.
+    pub(crate) const fn feed_override(&self) -> f64 {
+        self.feed_override
+    }
+
     /// Time of a tool change.
     pub const fn tool_change(&self) -> Seconds {
         self.tool_change

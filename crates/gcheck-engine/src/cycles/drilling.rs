@@ -877,16 +877,18 @@ mod tests {
             &words,
             [1.0, 5.0, 5.0],
             &expect![[r#"
-            rapid 1 1 5
-            rapid 1 1 2
-            spindle counter-clockwise
-            feed 1 1 -1
-            dwell 1
-            spindle clockwise
-            feed 1 1 2
-            spindle as before
-            rapid 1 1 5
-        "#]],
+                rapid 1 1 5
+                rapid 1 1 2
+                feed override false
+                spindle counter-clockwise
+                feed 1 1 -1
+                dwell 1
+                spindle clockwise
+                feed 1 1 2
+                spindle as before
+                feed override true
+                rapid 1 1 5
+            "#]],
         );
     }
 

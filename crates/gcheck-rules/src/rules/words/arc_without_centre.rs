@@ -59,7 +59,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: L
         .also(cx.range(end), "the end point alone does not make an arc")
         .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
         .help("add the centre or the radius, or write the straight move as a straight move")
-        .at_most(limit(entry.confidence))
+        .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
             entry.code, entry.title, entry.source
         ))
         .help(format!("keep `{a}` or `{b}`"))
-        .at_most(limit(entry.not_together_confidence.unwrap_or(entry.confidence)))
+        .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 
 fn meaning<'a>(code: Code<'a>, word: &Word) -> &'a str {
