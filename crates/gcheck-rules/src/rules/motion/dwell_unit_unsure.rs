@@ -4,7 +4,7 @@ use gcheck_controls::{DwellWord, Letter};
 use gcheck_engine::Event;
 
 use super::dwell_very_long::{LONG, duration};
-use super::dwell_very_short::is_too_short;
+use super::dwell_very_short::SHORT;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -48,8 +48,9 @@ struct DwellUnitUnsure {
 impl PathRule for DwellUnitUnsure {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Dwell(time) = event else { return };
-        // The rules of dwells that are long or short beyond reason say it themselves.
-        if self.is_told || time.0 >= LONG || is_too_short(time.0) {
+        // The rules of dwells that are long or short beyond reason say it themselves; the shortest one only keeps the control
+        // from reading ahead.
+        if self.is_told || time.0 >= LONG || time.0 < SHORT {
             return;
         }
         let Some(other) = other_reading(cx, time.0) else { return };
@@ -143,7 +144,7 @@ mod tests {
     fn words_name_both_times() {
         let found = findings(&Selection::only(&RULE), "haas-mill", "G4 P500\nM30\n", &guessed());
         expect![[r#"
-            dwell of 0.5 seconds, on other controls of 8 minutes
+            dwell of 0.5 seconds, on other controls of 8.3 minutes
               here: 0.5 seconds as Haas mill (classic control and NGC) reads it
               note: the control was guessed from the program: some count `P` in milliseconds, others in seconds
               help: name the control: `--control`, `control` in gcheck.toml, or a comment `(gcheck: control=…)`

@@ -1,6 +1,6 @@
 //! A dwell of many minutes.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{DwellWord, Effect, Letter, Unpointed};
 use gcheck_engine::Event;
 
 use super::dwell_unit_unsure::other_reading;
@@ -53,6 +53,16 @@ impl PathRule for DwellVeryLong {
         let is_time = |word: &gcheck_program::Word| {
             dwell.keys().any(|letter| gcheck_controls::Letter::parse(letter) == Some(word.letter))
         };
+        // A number without a point may be least increments there: nobody knows.
+        let by_parameter = cx.scene.control().numbers().unpointed == Unpointed::ByParameter;
+        let is_unsure = |word: &gcheck_program::Word| {
+            let kind = dwell.iter().find(|(letter, _)| Letter::parse(letter) == Some(word.letter));
+            let is_seconds = kind.is_some_and(|(_, kind)| *kind == DwellWord::Seconds);
+            is_seconds && !word.shape.point && word.number().is_some()
+        };
+        if by_parameter && cx.find_word(cx.origin().at, is_unsure).is_some() {
+            return;
+        }
         // What the control does not take is reported as that.
         if cx.place().is_some_and(|place| is_above_range(cx, &place, is_time)) {
             return;
@@ -100,8 +110,11 @@ pub(super) fn duration(seconds: f64) -> String {
     } else {
         (seconds / HOUR, "hours")
     };
-    let text =
-        if value < 10.0 && seconds < 2.0 * MINUTE { format!("{value:.2}") } else { format!("{value:.0}") };
+    let text = match (value < 10.0, seconds < 2.0 * MINUTE) {
+        (true, true) => format!("{value:.2}"),
+        (true, false) => format!("{value:.1}"),
+        (false, _) => format!("{value:.0}"),
+    };
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "1" { format!("1 {}", unit.trim_end_matches('s')) } else { format!("{text} {unit}") }
 }
@@ -129,7 +142,7 @@ mod tests {
                 1 | G4 P2000
                   |    ^^^^^ warning[dwell-very-long] dwell of 33 minutes
                 5 | G4 P#2
-                  |    ^^^ warning[dwell-very-long] dwell of 8 minutes
+                  |    ^^^ warning[dwell-very-long] dwell of 8.3 minutes
             "#]],
         );
     }
@@ -139,12 +152,20 @@ mod tests {
         let world = World { control_is_guessed: true, ..World::default() };
         let found = findings(&Selection::only(&RULE), "linuxcnc", "G4 P8000\nM2\n", &world);
         expect![[r#"
-            dwell of 2 hours
+            dwell of 2.2 hours
               here: 8000 seconds on this control
               note: the control was guessed: one that counts in the other unit waits 8 seconds
               help: check whether the value was meant in milliseconds
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn seconds_that_may_be_least_increments_are_not_judged() {
+        check_rule(&RULE, "generic-mill", "G4 X10000\nG4 X500.\nM30\n", &expect![[r#"
+            2 | G4 X500.
+              |    ^^^^^ warning[dwell-very-long] dwell of 8.3 minutes
+        "#]]);
     }
 
     #[test]

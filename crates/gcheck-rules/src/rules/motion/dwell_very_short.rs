@@ -36,7 +36,7 @@ declare_rule! {
 }
 
 /// Seconds: less than a spindle needs for a turn.
-const SHORT: f64 = 0.02;
+pub(super) const SHORT: f64 = 0.02;
 /// Milliseconds: the shortest dwell there is only keeps the control from reading ahead.
 const SHORTEST: f64 = 1.0001;
 
@@ -74,7 +74,7 @@ impl PathRule for DwellVeryShort {
 }
 
 /// Less than anybody could want, but more than what is written to keep the control from reading ahead.
-pub(super) fn is_too_short(seconds: f64) -> bool {
+fn is_too_short(seconds: f64) -> bool {
     seconds * 1000.0 > SHORTEST && seconds < SHORT
 }
 

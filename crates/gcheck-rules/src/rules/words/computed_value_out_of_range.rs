@@ -113,16 +113,26 @@ mod tests {
 
     #[test]
     fn a_range_that_is_only_assumed_makes_a_warning() {
-        check_rule(&RULE, "fanuc-mill", "#1=-1\nG4 X[#1]\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "#1=-1\nG4 X[#1]\nM30\n",
+            &expect![[r#"
             2 | G4 X[#1]
               |    ^^^^^ warning[computed-value-out-of-range] computed value of `X` cannot be used here
-        "#]]);
-        check_rule(&RULE, "generic-mill", "#1=-1\nG4 P[#1]\nG4 U[#1]\nM30\n", &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "#1=-1\nG4 P[#1]\nG4 U[#1]\nM30\n",
+            &expect![[r#"
             2 | G4 P[#1]
               |    ^^^^^ warning[computed-value-out-of-range] computed value of `P` cannot be used here
             3 | G4 U[#1]
               |    ^^^^^ error[computed-value-out-of-range] computed value of `U` cannot be used here
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
