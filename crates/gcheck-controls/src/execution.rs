@@ -298,6 +298,9 @@ pub struct Semantics {
     pub loop_depth: Option<u8>,
     /// Circles: how far start and end radius may differ, and what else is refused.
     pub arcs: ArcRules,
+    /// Arcs that leave their plane.
+    #[serde(default)]
+    pub helix: HelixRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
     /// Under inverse time no move is slower than this, in the program's units a minute.
@@ -473,6 +476,29 @@ pub struct ArcRules {
     pub straight_setting: Option<String>,
     /// How sure the tolerances are.
     pub confidence: Confidence,
+}
+
+/// Arcs that leave their plane.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct HelixRules {
+    /// What `F` is measured along.
+    #[serde(default)]
+    pub feed: HelixFeed,
+    /// The setting that decides it, by number, where one does; it is worded as the values of `feed`.
+    #[serde(default)]
+    pub setting: Option<String>,
+}
+
+/// What the feed of a helix is measured along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HelixFeed {
+    /// The path of the tool, the way along the normal included.
+    #[default]
+    Path,
+    /// Its circle in the plane: the tool itself is faster.
+    Circle,
 }
 
 /// How canned cycles move. Lengths in millimetres.

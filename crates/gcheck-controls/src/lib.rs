@@ -26,9 +26,8 @@ pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use execution::{
     ArcRules, CompensationRules, CompensationStyle, CycleRules, CylinderRules, DwellWord, Effect, Fix,
-    LocalShift, MessageComment, OffsetValue, ProbeFeed, Refusals, ReturnInMain, ReturnTo, Semantics,
-    SystemValue, SystemVariable,
-    ToolRules, Unset,
+    HelixFeed, HelixRules, LocalShift, MessageComment, OffsetValue, ProbeFeed, Refusals, ReturnInMain,
+    ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};

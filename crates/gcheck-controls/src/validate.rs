@@ -286,7 +286,8 @@ impl Problems<'_> {
                 );
             }
         }
-        for setting in semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting) {
+        let named = semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting);
+        for setting in named.chain(&semantics.helix.setting) {
             if control.setting(setting).is_none() {
                 self.say(PLACE, format!("the setting `{setting}` does not exist here"));
             }

@@ -80,6 +80,7 @@ pub(crate) fn start_state<D: Domain>(
         d: D::number(0.0),
         feed: D::number(0.0),
         feed_word: D::number(0.0),
+        feed_given_under: in_force.get(Role::FeedMode.index()).copied().unwrap_or(ModeSet::ANY),
         speed: D::number(0.0),
         speed_limit: f64::INFINITY,
         spindle: Some(Spindle::Stopped),
@@ -171,6 +172,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.d = D::unknown();
     state.feed = D::unknown();
     state.feed_word = D::unknown();
+    state.feed_given_under = ModeSet::ANY;
     state.speed = D::unknown();
     state.speed_limit = f64::NAN;
     state.spindle = None;

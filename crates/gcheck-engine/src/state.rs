@@ -310,6 +310,8 @@ pub struct State<D: Domain> {
     pub(crate) feed: D::Value,
     /// The feed as the program wrote it.
     pub(crate) feed_word: D::Value,
+    /// The feed mode under which it was given.
+    pub(crate) feed_given_under: ModeSet,
     /// Turns a minute or metres a minute; 0 none given.
     pub(crate) speed: D::Value,
     /// Limit of constant surface speed, turns a minute; NaN unknown, infinite none.
@@ -472,6 +474,16 @@ impl<D: Domain> State<D> {
     /// The feed as it was given: 0 for none.
     pub fn feed(&self) -> &D::Value {
         &self.feed
+    }
+
+    /// The feed mode under which the feed was given: a change of the mode may leave a number that means something else.
+    pub fn feed_given_under(&self) -> &ModeSet {
+        &self.feed_given_under
+    }
+
+    /// The feed as the program wrote it: its number without a unit, 0 for none.
+    pub fn feed_word(&self) -> &D::Value {
+        &self.feed_word
     }
 
     /// The speed as it was given: 0 for none.
@@ -728,6 +740,7 @@ impl<D: Domain> State<D> {
         joined.d = value(&self.d, &other.d);
         joined.feed = value(&self.feed, &other.feed);
         joined.feed_word = value(&self.feed_word, &other.feed_word);
+        joined.feed_given_under = self.feed_given_under.join(&other.feed_given_under);
         joined.speed = value(&self.speed, &other.speed);
         joined.speed_limit = number(self.speed_limit, other.speed_limit);
         joined.spindle = if self.spindle == other.spindle { self.spindle } else { None };
@@ -796,6 +809,7 @@ impl<D: Domain> State<D> {
             && D::contains(&self.h, &inner.h)
             && D::contains(&self.d, &inner.d)
             && D::contains(&self.feed, &inner.feed)
+            && self.feed_given_under.contains(&inner.feed_given_under)
             && D::contains(&self.speed, &inner.speed)
             && D::contains(&self.tool, &inner.tool)
             && D::contains(&self.selected, &inner.selected)
@@ -835,6 +849,7 @@ impl<D: Domain> PartialEq for State<D> {
             && self.d == other.d
             && self.feed == other.feed
             && self.feed_word == other.feed_word
+            && self.feed_given_under == other.feed_given_under
             && self.speed == other.speed
             && self.speed_limit.to_bits() == other.speed_limit.to_bits()
             && self.spindle == other.spindle

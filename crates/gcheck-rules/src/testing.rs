@@ -14,7 +14,8 @@ use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
 use crate::{
-    Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene, Selection, check,
+    DocExample, Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene,
+    Selection, check,
 };
 
 /// What a test says about the world around the program.
@@ -71,6 +72,11 @@ impl World<'_> {
             world.programs = &OtherFile;
         }
         world
+    }
+
+    /// What one example holds in.
+    pub(crate) fn of_example(rule: &RuleMeta, example: &DocExample) -> Self {
+        Self { control_is_guessed: example.guessed, ..Self::of_examples(rule) }
     }
 }
 

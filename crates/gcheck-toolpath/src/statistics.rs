@@ -295,6 +295,7 @@ pub struct Statistics {
     mm_moves: u64,
     rotary_rapids: bool,
     bar: BarFigures,
+    helices: bool,
 }
 
 impl Statistics {
@@ -311,6 +312,7 @@ impl Statistics {
             mm_moves: 0,
             rotary_rapids: false,
             bar: BarFigures::default(),
+            helices: false,
         }
     }
 
@@ -375,6 +377,17 @@ impl Statistics {
     /// The units in which most moves were written.
     pub const fn units(&self) -> Units {
         if self.inch_moves > self.mm_moves { Units::Inch } else { Units::Mm }
+    }
+
+    /// Position of the feed override switch in percent, where it is another than 100.
+    pub fn feed_override(&self) -> Option<f64> {
+        let percent = self.clock.timing.feed_override() * 100.0;
+        ((percent - 100.0).abs() > 1e-9).then_some(percent)
+    }
+
+    /// Was there an arc that leaves its plane?
+    pub const fn has_helices(&self) -> bool {
+        self.helices
     }
 
     /// The axes shown.
@@ -488,6 +501,7 @@ impl Statistics {
         if !rapid {
             self.bar.cut();
         }
+        self.helices |= motion.arc.is_some_and(|arc| arc.rise().0.abs() > 0.0);
 
         let section = self.section(step);
         section.moves += 1;

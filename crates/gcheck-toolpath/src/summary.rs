@@ -382,6 +382,13 @@ impl Table<'_> {
                 clock(self.total.estimated, false)
             ));
         }
+        if self.total.moves > 0
+            && let Some(percent) = statistics.feed_override()
+        {
+            lines.push(format!(
+                "the feed override stands at {percent} %: it does not count for rapid moves, threads and taps"
+            ));
+        }
         if self.total.moves > 0 {
             lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }

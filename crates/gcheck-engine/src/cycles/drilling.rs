@@ -328,12 +328,17 @@ impl Tool<'_, '_> {
             self.sink.at = self.point(self.clear());
             return Ok(());
         }
+        // The pitch ties the feed to the spindle: the override switches have no say.
+        self.sink.put(Stroke::FeedOverride(false))?;
         self.sink.put(Stroke::SpindleTurn { clockwise })?;
         self.feed_to(self.bottom())?;
         self.dwell()?;
         self.sink.put(Stroke::SpindleTurn { clockwise: !clockwise })?;
         self.feed_to(self.r())?;
         self.sink.put(Stroke::SpindleRestart)?;
+        if feed {
+            self.sink.put(Stroke::FeedOverride(true))?;
+        }
         self.rapid_if_elsewhere(self.clear())
     }
 
@@ -866,16 +871,18 @@ mod tests {
             &words,
             [1.0, 5.0, 5.0],
             &expect![[r#"
-            rapid 1 1 5
-            rapid 1 1 2
-            spindle counter-clockwise
-            feed 1 1 -1
-            dwell 1
-            spindle clockwise
-            feed 1 1 2
-            spindle as before
-            rapid 1 1 5
-        "#]],
+                rapid 1 1 5
+                rapid 1 1 2
+                feed override false
+                spindle counter-clockwise
+                feed 1 1 -1
+                dwell 1
+                spindle clockwise
+                feed 1 1 2
+                spindle as before
+                feed override true
+                rapid 1 1 5
+            "#]],
         );
     }
 

@@ -23,6 +23,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('F')));
         }
         state.feed_word = value.clone();
+        state.feed_given_under = *state.mode(Role::FeedMode);
         let mode = state.feed_mode(self.model);
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
@@ -126,11 +127,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     if is_seconds { number } else { number / 1000.0 }
                 }
             };
-            found = Some(seconds);
+            found = Some((letter, seconds));
         }
         match found {
-            Some(seconds) if seconds < 0.0 => Err(Fault::WordRange(Letter::of('P'))),
-            Some(seconds) => {
+            Some((letter, seconds)) if seconds < 0.0 => Err(Fault::WordRange(letter)),
+            Some((_, seconds)) => {
                 self.emit(state, Event::Dwell(Seconds(seconds)));
                 Ok(())
             }

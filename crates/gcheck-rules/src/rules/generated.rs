@@ -151,12 +151,15 @@ pub(crate) mod modal {
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
+    pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
     pub(crate) mod feed_missing;
+    pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod inverse_time_feed_missing;
     pub(crate) mod maybe_feed_missing;
+    pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
@@ -262,6 +265,7 @@ pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
+    pub(crate) mod dwell_time_in_other_word;
     pub(crate) mod lasting_word_never_given;
     pub(crate) mod missing_decimal_point;
     pub(crate) mod number_out_of_range;
@@ -400,12 +404,15 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::two_codes_of_one_group::RULE,
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
+    &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
     &motion::feed_missing::RULE,
+    &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::inverse_time_feed_missing::RULE,
     &motion::maybe_feed_missing::RULE,
+    &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
@@ -487,6 +494,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &words::arc_without_centre::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
+    &words::dwell_time_in_other_word::RULE,
     &words::lasting_word_never_given::RULE,
     &words::missing_decimal_point::RULE,
     &words::number_out_of_range::RULE,

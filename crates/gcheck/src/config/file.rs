@@ -98,6 +98,8 @@ pub struct MachineTable {
     pub rapid: Option<Placed<f64>>,
     /// Rapid traverse of the rotary axes, in degrees a minute.
     pub rotary_rapid: Option<Placed<f64>>,
+    /// Position of the feed override switch that times are computed for, in percent; 100 without it.
+    pub feed_override: Option<Placed<f64>>,
     /// Duration of a tool change, in seconds.
     pub tool_change_seconds: Option<Placed<f64>>,
     /// Where the rotary axes sit.

@@ -68,8 +68,14 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
         }
-        let positive =
-            [&table.max_rpm, &table.max_feed, &table.rapid, &table.rotary_rapid, &table.bar_length];
+        let positive = [
+            &table.max_rpm,
+            &table.max_feed,
+            &table.rapid,
+            &table.rotary_rapid,
+            &table.feed_override,
+            &table.bar_length,
+        ];
         if let Some(number) = positive.into_iter().flatten().find(|n| n.value.is_nan() || n.value <= 0.0) {
             return Err(self.text.problem(number, "must be greater than zero"));
         }

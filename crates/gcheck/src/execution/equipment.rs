@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Unset};
+use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, HelixFeed, Letter, LetterSet, Unset};
 use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
@@ -26,11 +26,16 @@ pub(crate) struct Equipment {
     /// Nobody said them.
     pub(crate) units_assumed: bool,
     pub(crate) timing: Timing,
+    /// The setting that decides how helices are fed, when nobody told its value.
+    pub(crate) helix_setting: Option<String>,
     /// Tools of the table on disk, in its order.
     pub(crate) table: Vec<u32>,
     /// Remarks of the table on disk.
     pub(crate) remarks: BTreeMap<u32, String>,
 }
+
+/// Value of the setting of helices that measures their feed along the path of the tool.
+const HELIX_BY_PATH: &str = "path";
 
 /// From where programs are executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,23 +70,44 @@ impl Equipment {
             units: in_force,
             units_assumed: configured.is_none(),
             timing: Timing::new(None, None),
+            helix_setting: None,
             table: Vec::new(),
             remarks: BTreeMap::new(),
         };
-        let mut rotary_rapid = None;
+        let (mut rotary_rapid, mut feed_override) = (None, None);
         let mut rotary = RotaryAxes::default();
         for layer in layers {
             let in_layer = layer.units.map_or(in_force, units);
             equipment.put(layer, in_layer, control)?;
             rotary.put(&layer.machine, in_layer);
             rotary_rapid = layer.machine.rotary_rapid.as_ref().map(|rate| rate.value).or(rotary_rapid);
+            feed_override = layer.machine.feed_override.as_ref().map(|part| part.value).or(feed_override);
         }
         equipment.machine.kinematics = rotary.kinematics();
         equipment.timing = Timing::new(equipment.machine.rapid, equipment.machine.tool_change);
         if let Some(rate) = rotary_rapid {
             equipment.timing = equipment.timing.with_rotary_rapid(rate);
         }
+        if let Some(percent) = feed_override {
+            equipment.timing = equipment.timing.with_feed_override(percent);
+        }
+        equipment.put_helix_feed(control);
         Ok(equipment)
+    }
+
+    /// What the feed of a helix is measured along: as a setting says, else as the control usually does.
+    fn put_helix_feed(&mut self, control: &Control) {
+        let helix = &control.semantics().helix;
+        let setting = helix.setting.as_deref();
+        let told = setting.and_then(|number| self.machine.settings.get(number));
+        let by_circle = match told {
+            Some(value) => value != HELIX_BY_PATH,
+            None => helix.feed == HelixFeed::Circle,
+        };
+        if by_circle {
+            self.timing = self.timing.with_helix_by_circle();
+        }
+        self.helix_setting = setting.filter(|_| told.is_none()).map(str::to_owned);
     }
 
     fn put(&mut self, layer: &ExecutionFacts, units: Units, control: &Control) -> Result<(), Problem> {

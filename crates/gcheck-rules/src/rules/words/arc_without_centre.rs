@@ -61,7 +61,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: L
             .also(cx.range(end), "the end point alone does not make an arc")
             .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
             .help("add the centre or the radius, or write the straight move as a straight move")
-            .at_most(limit(entry.confidence));
+            .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)));
     match cx.control().semantics().arcs.straight_setting.as_deref() {
         Some(setting) if cx.scene.setting(setting).is_none_or(|(value, _)| value != "alarm") => finding
             .note(format!("setting {setting} decides: a straight line, or an alarm"))
