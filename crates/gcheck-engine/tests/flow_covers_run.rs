@@ -308,7 +308,7 @@ impl<'a> Writer<'a> {
             "M75",
         ][self.choose(8) as usize];
         let is_foreign = match self.style {
-            Style::Local => false,
+            Style::Local | Style::FiveAxis => false,
             Style::Macro => !line.starts_with("G31") && !line.starts_with('#'),
             Style::OWords => true,
         };

@@ -14,13 +14,16 @@ use gcheck_program::{Dialect, Loaded};
 use proptest::prelude::*;
 
 /// What moves do: programmed point, axes in work coordinates, axes in machine coordinates.
-#[derive(Default)]
-struct Moves(Vec<[Position; 3]>);
+struct Moves<'m> {
+    model: &'m Model<'m>,
+    made: Vec<[Position; 3]>,
+}
 
-impl Observer<Concrete> for Moves {
+impl Observer<Concrete> for Moves<'_> {
     fn event(&mut self, _: Origin, state: &State<Concrete>, event: &Event) {
         if let Event::Travel(travel) = event {
-            self.0.push([travel.programmed, travel.to, state.to_machine(&travel.to)]);
+            let machine = state.to_machine(&travel.to, self.model);
+            self.made.push([travel.programmed, travel.to, machine]);
         }
     }
 }
@@ -56,15 +59,17 @@ fn head(first: RotaryAxis, second: RotaryAxis) -> Kinematics {
     }
 }
 
-fn run_on(machine: &Machine, text: &str) -> (Moves, RunResult) {
+/// The moves, how the run ended, and where the machine stands then.
+fn run_on(machine: &Machine, text: &str) -> (Vec<[Position; 3]>, RunResult, Position) {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
     let loaded = Loaded::new(text, &dialect, |_, _, _| ());
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let model = Model::new(&control);
-    let mut moves = Moves::default();
+    let mut moves = Moves { model: &model, made: Vec::new() };
     let result = run(&program, &model, machine, Options::NONE, 100_000, &mut moves);
-    (moves, result)
+    let stands = result.state.machine(&model);
+    (moves.made, result, stands)
 }
 
 fn number(value: f64) -> String {
@@ -82,13 +87,12 @@ fn xyz(position: &Position) -> String {
 
 /// A line a move: the programmed point and where the axes stand, then where the program ends.
 fn check(machine: &Machine, text: &str, expected: &Expect) {
-    let (moves, result) = run_on(machine, text);
+    let (moves, result, stands) = run_on(machine, text);
     let mut shown = String::new();
-    for [programmed, to, _] in &moves.0 {
+    for [programmed, to, _] in &moves {
         writeln!(shown, "{} -> {}", xyz(programmed), xyz(to)).unwrap();
     }
-    writeln!(shown, "reads {}, stands {}", xyz(result.state.position()), xyz(&result.state.machine()))
-        .unwrap();
+    writeln!(shown, "reads {}, stands {}", xyz(result.state.position()), xyz(&stands)).unwrap();
     expected.assert_eq(&shown);
 }
 
@@ -201,7 +205,7 @@ fn no_length_cancels_by_a_word_alone_too() {
         reads 1 0 0, stands 1 0 0
     "#]],
     );
-    let (_, result) = run_on(&machine(10.0, 1.0), program);
+    let (_, result, _) = run_on(&machine(10.0, 1.0), program);
     assert_eq!(result.state.tool_shift().along_tool(), None);
 }
 
@@ -237,7 +241,7 @@ fn an_unknown_length_of_an_upright_tool_leaves_x_and_y_known() {
         reads 2 2 2, stands 2 2 2
     "#]],
     );
-    let (_, result) = run_on(&machine, program);
+    let (_, result, _) = run_on(&machine, program);
     assert!(result.assumptions.contains(&Assumption::ToolLength(1)));
     assert!(result.assumptions.contains(&Assumption::HeadKinematics));
     assert!(result.assumptions.contains(&Assumption::UprightTool));
@@ -416,7 +420,7 @@ proptest! {
         let machine = machine(f64::from(length), 1.0);
         let along = |code: &str| {
             let text = format!("G21 G90 G54 G0 A0. B0.\n{code} H1 X{x}. Y{y}. Z{z}.\nM0\n");
-            run_on(&machine, &text).1.state.machine()
+            run_on(&machine, &text).2
         };
         prop_assert_eq!(along("G143"), along("G43"));
     }
@@ -430,8 +434,8 @@ proptest! {
         let mut machine = machine(f64::from(length), 1.0);
         let (first, second) = if order { (RotaryAxis::A, RotaryAxis::B) } else { (RotaryAxis::B, RotaryAxis::A) };
         machine.kinematics = Some(head(first, second));
-        let (moves, _) = run_on(&machine, &format!("G21 G90 G54\nG143 H1 X10. Y20. Z30. A{a:.1} B{b:.1}\n"));
-        let [programmed, to, _] = moves.0.last().unwrap();
+        let (moves, ..) = run_on(&machine, &format!("G21 G90 G54\nG143 H1 X10. Y20. Z30. A{a:.1} B{b:.1}\n"));
+        let [programmed, to, _] = moves.last().unwrap();
         let away = [Axis::X, Axis::Y, Axis::Z].map(|axis| (to.raw(axis) - programmed.raw(axis)).powi(2));
         let away = away.iter().sum::<f64>().sqrt();
         prop_assert!((away - f64::from(length)).abs() < 1e-9, "{} instead of {}", away, length);
@@ -445,9 +449,9 @@ proptest! {
         prop_assume!(length > 1.0);
         let [i, j, k] = parts.map(|part| part / length);
         let machine = machine(0.0, f64::from(diameter));
-        let (moves, _) =
+        let (moves, ..) =
             run_on(&machine, &format!("G21 G90 G54 F9.\nG1 G141 D1 X1. Y2. Z3. I{i:.9} J{j:.9} K{k:.9}\n"));
-        let [programmed, to, _] = moves.0.last().unwrap();
+        let [programmed, to, _] = moves.last().unwrap();
         for (axis, part) in [Axis::X, Axis::Y, Axis::Z].into_iter().zip([i, j, k]) {
             let by = to.raw(axis) - programmed.raw(axis);
             prop_assert!((by - part * f64::from(diameter) / 2.0).abs() < 1e-6);

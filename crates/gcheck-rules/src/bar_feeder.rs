@@ -188,8 +188,10 @@ mod tests {
                         let _ = write!(feed, " {letter}{value}");
                     }
                 }
-                let found: Vec<String> =
-                    found(&feed, &world()).iter().map(|(severity, id)| format!("{}[{id}]", severity.name())).collect();
+                let found: Vec<String> = found(&feed, &world())
+                    .iter()
+                    .map(|(severity, id)| format!("{}[{id}]", severity.name()))
+                    .collect();
                 let case = if value.is_empty() { "missing" } else { value };
                 let _ = writeln!(shown, "{letter} {case}: {}", found.join(" "));
             }

@@ -194,6 +194,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         });
         let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
         Ok(Some(profile.segments).filter(|_| profile.complete))
