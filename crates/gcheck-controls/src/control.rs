@@ -325,6 +325,7 @@ impl Control {
                 any_words: true,
                 one_of: Vec::new(),
                 not_together: Vec::new(),
+                choice_confidence: None,
                 forbidden: Vec::new(),
                 requires: Vec::new(),
                 recommends: Vec::new(),

@@ -3,8 +3,6 @@
 //! Knows: the hints of each control and how to weigh them. Must not know: how evidence is found in a program; the caller
 //! collects [`Evidence`] from comments, codes and forms of syntax.
 
-use std::sync::LazyLock;
-
 use crate::Hint;
 use crate::loader::all_control_files;
 
@@ -42,14 +40,10 @@ pub struct Score {
 /// What the evidence is worth for each control, the best first. Controls without any hint found are left out.
 pub fn scores(evidence: &Evidence) -> Vec<Score> {
     let mut scores: Vec<Score> =
-        HINTS.iter().filter_map(|(control, hints)| score(control, hints, evidence)).collect();
+        all_control_files().filter_map(|file| score(&file.name, &file.detect, evidence)).collect();
     scores.sort_by(|a, b| b.points.cmp(&a.points).then_with(|| a.guess.control.cmp(&b.guess.control)));
     scores
 }
-
-/// The hints of every control that can be chosen, read once.
-static HINTS: LazyLock<Vec<(String, Vec<Hint>)>> =
-    LazyLock::new(|| all_control_files().map(|file| (file.name, file.detect)).collect());
 
 fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
     let mut points = 0;

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
+use crate::bar_feeder::BarFeederRules;
 use crate::schema::Confidence;
 
 /// `execution.toml`.
@@ -64,6 +65,10 @@ pub enum Effect {
     ProbeCentre,
     /// Keeps the first touch for a two-touch measurement (`M75`).
     KeepTouch,
+    /// An alarm when the probe touched (`M78`): behind its block it has not.
+    AlarmIfTouched,
+    /// An alarm when the probe did not touch (`M79`).
+    AlarmIfNotTouched,
 
     // Canned cycles that stay on.
     CycleDrill,
@@ -81,8 +86,6 @@ pub enum Effect {
     CycleFineBore,
     /// Along the tool at any angle, depth in `E`.
     CycleAlongTool,
-    /// Radial with live tools: depth in X.
-    CycleRadial,
     CycleCancel,
 
     // Turning.
@@ -288,11 +291,17 @@ pub struct Semantics {
     pub loop_depth: Option<u8>,
     /// Circles: how far start and end radius may differ, and what else is refused.
     pub arcs: ArcRules,
+    /// Arcs that leave their plane.
+    #[serde(default)]
+    pub helix: HelixRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
     /// Under inverse time no move is slower than this, in the program's units a minute.
     #[serde(default)]
     pub least_inverse_feed: f64,
+    /// The fastest feed that the manual lets a probing move have.
+    #[serde(default)]
+    pub probe_feed: Option<ProbeFeed>,
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
@@ -307,6 +316,10 @@ pub struct Semantics {
     pub compensation: CompensationRules,
     /// How tools are called and measured.
     pub tools: ToolRules,
+    /// Cylindrical mapping that wraps a linear axis, by the words of its code; where a word for the rotary axis holds the
+    /// radius, there is none.
+    #[serde(default)]
+    pub cylinder: Option<CylinderRules>,
     /// Addresses that are increments of an axis whatever the mode: `{ U = "X", W = "Z" }`.
     #[serde(default)]
     pub increments: BTreeMap<String, String>,
@@ -332,10 +345,23 @@ pub struct Semantics {
     /// System variables that the engine computes: first number of a row of axes or a single one.
     #[serde(default)]
     pub system_variables: Vec<SystemVariable>,
+    /// The variables of a bar feeder, where the control commands one.
+    #[serde(default)]
+    pub bar_feeder: Option<BarFeederRules>,
     /// Where this stands.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
+}
+
+/// The fastest feed of a probing move, in the units of the program a minute.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct ProbeFeed {
+    /// Inches a minute, in an inch program.
+    pub inch: f64,
+    /// Millimetres a minute, in a metric program.
+    pub mm: f64,
 }
 
 /// What a strict control refuses beside what its codes, addresses and block rules say, and when.
@@ -404,7 +430,7 @@ pub enum ReturnTo {
 }
 
 /// How circles are judged. Lengths in millimetres.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ArcRules {
     /// Start and end radius may differ by this much…
@@ -426,8 +452,34 @@ pub struct ArcRules {
     pub turns: bool,
     /// Centre words when both `R` and they stand: `R` wins, else refused.
     pub radius_wins: bool,
+    /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
+    #[serde(default)]
+    pub straight_setting: Option<String>,
     /// How sure the tolerances are.
     pub confidence: Confidence,
+}
+
+/// Arcs that leave their plane.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct HelixRules {
+    /// What `F` is measured along.
+    #[serde(default)]
+    pub feed: HelixFeed,
+    /// The setting that decides it, by number, where one does; it is worded as the values of `feed`.
+    #[serde(default)]
+    pub setting: Option<String>,
+}
+
+/// What the feed of a helix is measured along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HelixFeed {
+    /// The path of the tool, the way along the normal included.
+    #[default]
+    Path,
+    /// Its circle in the plane: the tool itself is faster.
+    Circle,
 }
 
 /// How canned cycles move. Lengths in millimetres.
@@ -456,6 +508,15 @@ pub struct CycleRules {
     pub rise_to_r: bool,
     /// Tapping needs a turning spindle before.
     pub tap_needs_spindle: bool,
+    /// Cycles of live tools across the spindle's axis: they drill along X, whatever the plane.
+    #[serde(default)]
+    pub across: Vec<String>,
+    /// `R` is a distance from the level at which the cycle begins, along X a radius; else it is a level.
+    #[serde(default)]
+    pub r_is_distance: bool,
+    /// Moves that the outline of a pocket may have, where a book gives a number.
+    #[serde(default)]
+    pub pocket_moves: Option<u32>,
 }
 
 /// How `G41` and `G42` move.
@@ -471,6 +532,16 @@ pub struct CompensationRules {
     pub freezes_modes: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
+}
+
+/// Cylindrical mapping that wraps a linear axis around a rotary one.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CylinderRules {
+    /// Settings with the diameter that counts until a program gives one: of the first rotary axis, of the second.
+    pub settings: Vec<String>,
+    /// The end of the program ends mapping when this setting is on.
+    pub ended_by_setting: Option<String>,
 }
 
 /// Shapes of compensated paths.

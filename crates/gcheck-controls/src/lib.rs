@@ -10,6 +10,7 @@
 //! assert_eq!(g43.group().id, "tool-length");
 //! ```
 
+mod bar_feeder;
 mod code_number;
 mod control;
 mod detect;
@@ -19,13 +20,14 @@ mod loader;
 mod schema;
 mod validate;
 
+pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;
 pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use execution::{
-    ArcRules, CompensationRules, CompensationStyle, CycleRules, DwellWord, Effect, Fix, LocalShift,
-    MessageComment, OffsetValue, Refusals, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules,
-    Unset,
+    ArcRules, CompensationRules, CompensationStyle, CycleRules, CylinderRules, DwellWord, Effect, Fix,
+    HelixFeed, HelixRules, LocalShift, MessageComment, OffsetValue, ProbeFeed, Refusals, ReturnTo, Semantics,
+    SystemValue, SystemVariable, ToolRules, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};

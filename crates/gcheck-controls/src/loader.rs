@@ -52,6 +52,18 @@ impl fmt::Display for LoadError {
 
 impl std::error::Error for LoadError {}
 
+/// What each folder says of itself in `control.toml`, in the order of [`SOURCES`]. Every run asks several times.
+static CONTROL_FILES: LazyLock<Vec<Result<ControlFile, LoadError>>> = LazyLock::new(|| {
+    let read = |source| {
+        parse_file(source, "control.toml").map(|file| {
+            file.unwrap_or_else(|| {
+                unreachable!("the build script lists only folders that have a control.toml")
+            })
+        })
+    };
+    SOURCES.iter().map(read).collect()
+});
+
 static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(|| {
     SOURCES.iter().filter(|s| control_file(s).is_ok_and(|c| !c.is_abstract)).map(|s| s.name).collect()
 });
@@ -92,14 +104,16 @@ pub fn load(name: &str) -> Result<Arc<Control>, LoadError> {
 }
 
 /// Detection needs only the hints, which stand in `control.toml`: no code table is read for it.
-pub(crate) fn all_control_files() -> impl Iterator<Item = ControlFile> {
-    SOURCES.iter().filter_map(|s| control_file(s).ok()).filter(|c| !c.is_abstract)
+pub(crate) fn all_control_files() -> impl Iterator<Item = &'static ControlFile> {
+    CONTROL_FILES.iter().filter_map(|file| file.as_ref().ok()).filter(|file| !file.is_abstract)
 }
 
-fn control_file(source: &Source) -> Result<ControlFile, LoadError> {
-    parse_file(source, "control.toml").map(|f| {
-        f.unwrap_or_else(|| unreachable!("the build script lists only folders that have a control.toml"))
-    })
+fn control_file(source: &Source) -> Result<&'static ControlFile, LoadError> {
+    let file = SOURCES.iter().zip(CONTROL_FILES.iter()).find(|(other, _)| other.name == source.name);
+    match file {
+        Some((_, file)) => file.as_ref().map_err(Clone::clone),
+        None => Err(LoadError::Unknown { name: source.name.to_owned() }),
+    }
 }
 
 fn parse_file<T: serde::de::DeserializeOwned>(source: &Source, file: &str) -> Result<Option<T>, LoadError> {
@@ -130,13 +144,13 @@ struct Layers {
 
 fn resolve(name: &str) -> Result<Control, LoadError> {
     let mut chain = vec![source(name)?];
-    let mut base = control_file(source(name)?)?.base;
+    let mut base = control_file(source(name)?)?.base.as_deref();
     while let Some(name) = base {
-        let next = source(&name)?;
+        let next = source(name)?;
         if chain.iter().any(|s| s.name == next.name) || chain.len() > 8 {
             return Err(data_error(name, "is its own base"));
         }
-        base = control_file(next)?.base;
+        base = control_file(next)?.base.as_deref();
         chain.push(next);
     }
     let mut layers = Layers::default();
@@ -152,7 +166,7 @@ fn data_error(name: impl Into<String>, message: &str) -> LoadError {
 
 /// Puts one folder over what its bases gave: an entry with the same key replaces the base's entry whole.
 fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
-    let mut head = control_file(source)?;
+    let mut head = control_file(source)?.clone();
     if let Some(base) = layers.head.take() {
         head.machine = head.machine.or(base.machine);
         head.syntax = head.syntax.or(base.syntax);

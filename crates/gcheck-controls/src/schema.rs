@@ -383,6 +383,9 @@ pub struct CodeEntry {
     /// Of each list the items exclude each other; an item may be several letters: `["R", "IJK"]`.
     #[serde(default)]
     pub not_together: Vec<Vec<String>>,
+    /// Confidence of `one-of` and `not-together` where it differs from the entry's.
+    #[serde(default)]
+    pub choice_confidence: Option<Confidence>,
     /// Letters that must not stand in the block with this code, though another code could use them.
     #[serde(default)]
     pub forbidden: Vec<String>,
@@ -465,6 +468,9 @@ pub struct WordEntry {
     /// The value must be greater than this.
     #[serde(default)]
     pub above: Option<f64>,
+    /// Confidence of `min`, `max` and `above` where it differs from the word's.
+    #[serde(default)]
+    pub range_confidence: Option<Confidence>,
     /// Value when left out, in words.
     #[serde(default)]
     pub default: Option<String>,

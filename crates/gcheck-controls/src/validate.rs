@@ -4,8 +4,8 @@
 //! that examples are legal blocks is proved where programs can be checked.
 
 use crate::control::Variable;
-use crate::schema::{Confidence, VariableKind};
-use crate::{CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
+use crate::schema::{Confidence, Motion, VariableKind};
+use crate::{BarFeederRules, CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
 pub fn problems(control: &Control) -> Vec<String> {
@@ -244,6 +244,7 @@ impl Problems<'_> {
             }
         }
         self.refusals();
+        self.bar_feeder();
         let [first, last] = semantics.locals;
         for number in [first, last] {
             let is_local =
@@ -271,6 +272,12 @@ impl Problems<'_> {
                 self.say(PLACE, format!("`{letter}` is no address here"));
             }
         }
+        for name in &cycles.across {
+            let code = CodeNumber::parse(name).and_then(|number| control.code(number));
+            if !code.is_some_and(|code| code.entry().motion == Motion::Cycle) {
+                self.say(PLACE, format!("`{name}` drills across, but is no canned cycle here"));
+            }
+        }
         for (letter, axis) in &semantics.increments {
             if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
                 self.say(
@@ -279,10 +286,11 @@ impl Problems<'_> {
                 );
             }
         }
-        if let Some(setting) = &semantics.compensation.setting
-            && control.setting(setting).is_none()
-        {
-            self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+        let named = semantics.compensation.setting.iter().chain(&semantics.arcs.straight_setting);
+        for setting in named.chain(&semantics.helix.setting) {
+            if control.setting(setting).is_none() {
+                self.say(PLACE, format!("the setting `{setting}` does not exist here"));
+            }
         }
         if semantics.loop_depth == Some(0) {
             self.say(PLACE, "`loop-depth` 0 allows no loop");
@@ -347,6 +355,18 @@ impl Problems<'_> {
             if !range.contains(&value) {
                 let (least, most) = range.into_inner();
                 self.say("semantics", format!("`{name}` is {value}, not from {least} to {most}"));
+            }
+        }
+    }
+
+    /// Every variable of a bar feeder is one of the control's own.
+    fn bar_feeder(&mut self) {
+        let control = self.control;
+        for number in control.semantics().bar_feeder.iter().flat_map(BarFeederRules::variables) {
+            let is_own = matches!(control.variable(number), Variable::Known(entry)
+                if matches!(entry.kind, VariableKind::System | VariableKind::Retained));
+            if !is_own {
+                self.say("semantics.bar-feeder", format!("#{number} is no variable of the control's own"));
             }
         }
     }

@@ -40,6 +40,26 @@ pub enum Assumption {
     ProbeTouch,
     /// The machine has all axes that the control may have.
     Axis(Axis),
+    /// Which way the two axes of a tilting head turn, and which carries the other.
+    HeadKinematics,
+    /// The tool is parallel to Z where the rotary axes read zero.
+    UprightTool,
+    /// No earlier program gave cylinders on a rotary axis a diameter that still counts.
+    CylinderDiameter(Axis),
+    /// A drawing is wrapped from the angle at which the rotary axis stands when it begins.
+    CylinderStart(Axis),
+    /// The tool stands over the start hole of a pocket, at the rapid level, when the control has cleared it.
+    PocketEnd,
+    /// The bar is long enough for the next part.
+    BarLength,
+    /// The bar is just as long as a part and its clamping, which no manual decides: a new one is taken.
+    BarAtLimit,
+    /// A new bar is in the chuck at the start, and the feeder's counters stand at zero.
+    NewBar,
+    /// Limits of the bar feeder stop it as general knowledge has it.
+    BarLimits,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
+    /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.
+    Passes(CodeIx),
 }

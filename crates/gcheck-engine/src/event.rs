@@ -9,6 +9,7 @@ use std::rc::Rc;
 use gcheck_controls::CodeIx;
 use gcheck_geometry::{Mm, Plane, Seconds};
 
+use crate::cylinder::Cylinder;
 use crate::position::Position;
 
 /// One event. Its block, and the state in which it happens, come beside it ([`crate::Observer`]).
@@ -53,6 +54,9 @@ pub enum Event {
     Shift(Position),
     /// The tool offsets now in effect.
     LengthOffset(Position),
+    /// The vector that the next move is shifted along by the size of the cutter: I, J and K as the block gives them (`None`
+    /// left out, NaN unknown).
+    CutterVector([Option<f64>; 3]),
     /// The rotation about Z now in effect, degrees.
     Rotation(f64),
     /// A tool's entry in the tool table was written.
@@ -135,10 +139,23 @@ pub enum Event {
         /// Longest wait.
         timeout: Seconds,
     },
+    /// A linear axis is wrapped around a cylinder: its coordinates are those of the unrolled surface, and a rotary axis turns
+    /// in its place. `None` when that ends.
+    Cylinder(Option<Cylinder>),
+    /// The control cleared a pocket by a path of its own, between the moves that are certain.
+    Cleared(Clearing),
     /// The probe input begins or ceases to matter.
     Probe(bool),
     /// Chuck clamped or unclamped.
     Chuck(bool),
+    /// The bar feeder is told to bring bar for the next part: the part before it is cut off.
+    BarFeed(BarLengths),
+    /// The bar feeder is set up, in this mode (`None` unknown).
+    BarSetup(Option<u32>),
+    /// What is left of the bar is taken out: this much behind the face of the chuck (NaN unknown).
+    BarUnload(Mm),
+    /// A new bar is brought to the chuck.
+    BarLoad,
     /// The bar is pushed by this much.
     BarPush(Mm),
     /// A user's own command with its words P and Q.
@@ -163,6 +180,17 @@ pub enum Event {
     End,
 }
 
+/// The lengths that a bar is fed by; NaN unknown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BarLengths {
+    /// A part with its cutoff.
+    pub part: Mm,
+    /// The push of a new bar.
+    pub initial: Mm,
+    /// What must stay clamped behind a part.
+    pub clamping: Mm,
+}
+
 /// A straight move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Travel {
@@ -176,6 +204,23 @@ pub struct Travel {
     pub to: Position,
     /// Made by a canned cycle or another operation that expands to several moves.
     pub expanded: bool,
+}
+
+/// What clearing a pocket comes to: an estimate from its area. What rests on an unknown tool or feed is NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clearing {
+    /// Smallest X, Y and Z of the tool's centre.
+    pub from: [Mm; 3],
+    /// Largest X, Y and Z of the tool's centre.
+    pub to: [Mm; 3],
+    /// Levels that are cleared.
+    pub levels: u32,
+    /// Way at feed, without the way down.
+    pub length: Mm,
+    /// Time of that way.
+    pub seconds: Seconds,
+    /// Where the tool stands, work coordinates.
+    pub at: Position,
 }
 
 /// How a straight move is driven.

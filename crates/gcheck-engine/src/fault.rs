@@ -148,7 +148,7 @@ pub enum ArcFault {
 }
 
 /// Why a canned cycle cannot run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CycleFault {
     /// A word that the cycle needs.
     Missing(Letter),
@@ -168,6 +168,12 @@ pub enum CycleFault {
     Plane,
     /// Words that contradict each other.
     Geometry,
+    /// A pocket whose outline does not end where its first move leads, by this much (mm).
+    OutlineOpen(f64),
+    /// A pocket whose outline has no piece behind the move that leads to it.
+    OutlineEmpty,
+    /// A pocket whose start hole lies outside its outline.
+    StartOutside,
 }
 
 /// Why compensation cannot go on.

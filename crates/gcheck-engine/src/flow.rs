@@ -122,6 +122,11 @@ impl FlowResult {
             Reach::Never
         }
     }
+
+    /// The first block from `from` on, in its file, that was not reached; it may stand behind the file's last.
+    pub fn first_unreached(&self, from: At) -> At {
+        self.reached.first_missing(from)
+    }
 }
 
 /// A set of blocks: by file, a bit a block.
@@ -146,6 +151,27 @@ impl Marks {
         if let Some(word) = set.get_mut(index) {
             *word |= 1 << (at.block % 64);
         }
+    }
+
+    /// The blocks from `from` to before `to`, which stands in the same file.
+    fn insert_all(&mut self, from: At, to: At) {
+        for block in from.block..to.block {
+            self.insert(At { block, ..from });
+        }
+    }
+
+    fn first_missing(&self, from: At) -> At {
+        let set = self.0.get(from.file as usize).map_or(&[][..], Vec::as_slice);
+        let mut block = from.block;
+        while let Some(word) = set.get((block / 64) as usize) {
+            // The bits in front of the block count as set.
+            let missing = !(word | ((1 << (block % 64)) - 1));
+            if missing != 0 {
+                return At { block: block / 64 * 64 + missing.trailing_zeros(), ..from };
+            }
+            block = (block / 64 + 1) * 64;
+        }
+        At { block, ..from }
     }
 }
 
@@ -211,7 +237,7 @@ const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
 const MOST_VISITS: u32 = 200;
 /// Turns of a loop that are executed exactly; from there on it is widened, so that a loop that counts past its end is seen to.
-const MOST_EXACT_TURNS: u32 = 10_000;
+pub const MOST_EXACT_TURNS: u32 = 15_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
@@ -330,6 +356,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.executor.observer.solo = !self.parted;
         self.executor.observer.muted = false;
         loop {
+            at = self.move_on(at, &mut state);
             if self.blocks >= self.fuel {
                 return Stretch::OutOfFuel;
             }
@@ -364,6 +391,25 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 }
             }
         }
+    }
+
+    /// Executes the blocks from here on that only move: the block behind them.
+    fn move_on(&mut self, from: At, state: &mut State<Abstract>) -> At {
+        let Some(moves) = self.executor.plain_moves(from, state) else { return from };
+        let mut at = from;
+        while self.blocks < self.fuel {
+            self.executor.observer.stepping = Some(at);
+            if !self.executor.plain_move(&moves, at, state) {
+                break;
+            }
+            self.blocks += 1;
+            at = at.next();
+        }
+        self.result.reached.insert_all(from, at);
+        if !self.parted {
+            self.result.always.insert_all(from, at);
+        }
+        at
     }
 
     /// A loop's head is met again in a solo stretch. `false` ends the stretch: the loop has nothing new to show.
@@ -654,5 +700,26 @@ impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
             let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
             self.observer.after(&cx);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{At, Marks};
+
+    #[test]
+    fn the_first_block_that_is_missing_is_found() {
+        let at = |block: u32| At { file: 1, block };
+        let mut marks = Marks::default();
+        assert_eq!(marks.first_missing(at(5)), at(5));
+        marks.insert_all(at(3), at(200));
+        for (from, missing) in
+            [(0, 0), (2, 2), (3, 200), (63, 200), (64, 200), (191, 200), (200, 200), (500, 500)]
+        {
+            assert_eq!(marks.first_missing(at(from)), at(missing), "from {from}");
+        }
+        marks.insert_all(at(200), at(256));
+        assert_eq!(marks.first_missing(at(10)), at(256));
+        assert_eq!(marks.first_missing(At { file: 0, block: 7 }), At { file: 0, block: 7 });
     }
 }

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
 use crate::position::{Axis, Position};
@@ -43,8 +43,25 @@ pub struct Machine {
     pub tool_table_is_complete: bool,
     /// Units of the control's tables of offsets and tools; those of the program when not given.
     pub table_units: Option<Units>,
+    /// The rotary axes that tilt the tool or the part.
+    pub kinematics: Option<Kinematics>,
+    /// By number of the tool: the length that programs were posted for.
+    pub posted_lengths: BTreeMap<u32, Mm>,
     /// Numbered variables that nobody set hold zero (the state after a fresh start).
     pub fresh: bool,
+    /// The bar feeder of a lathe.
+    pub bar: BarFeeder,
+}
+
+/// A bar feeder.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct BarFeeder {
+    /// Length of a new bar.
+    pub new_bar: Option<Mm>,
+    /// Bars to be used up: the one in the chuck at the start, and those in the magazine.
+    pub bars: Option<u32>,
+    /// A new bar is in the chuck at the start, pushed out as a new bar is; else whatever the last program left.
+    pub starts_new: bool,
 }
 
 /// A work coordinate system.

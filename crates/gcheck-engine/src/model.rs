@@ -3,8 +3,8 @@
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
 use gcheck_controls::{
-    CodeIx, CodeNumber, Control, Effect, GroupIx, Letter, LetterSet, Semantics, SystemVariable, Unpointed,
-    WordKind,
+    CodeIx, CodeNumber, Control, CylinderRules, Effect, GroupIx, Letter, LetterSet, Semantics,
+    SystemVariable, Unpointed, WordKind,
 };
 use rustc_hash::FxHashMap;
 
@@ -106,7 +106,6 @@ impl Role {
             | E::CycleBoreDwell
             | E::CycleFineBore
             | E::CycleAlongTool
-            | E::CycleRadial
             | E::CycleCancel => Self::Cycle,
             E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
             E::Absolute | E::Incremental => Self::Distance,
@@ -165,6 +164,8 @@ pub(crate) struct CodeModel {
     pub(crate) modal: bool,
     /// Axis words in its block are the code's own.
     pub(crate) takes_axes: bool,
+    /// A canned cycle that drills along X, whatever the plane.
+    pub(crate) across: bool,
 }
 
 /// A control prepared for execution.
@@ -204,6 +205,8 @@ impl<'c> Model<'c> {
         let semantics = control.semantics();
         let phases = control.phases();
         let rank = |name: &str| Rank(phases.iter().position(|p| p == name).unwrap_or(phases.len()) as u8);
+        let across: Vec<CodeNumber> =
+            semantics.cycles.across.iter().filter_map(|name| CodeNumber::parse(name)).collect();
         let codes: Vec<CodeModel> = control
             .codes()
             .map(|code| CodeModel {
@@ -213,6 +216,7 @@ impl<'c> Model<'c> {
                 group: code.group_ix(),
                 modal: code.group().modal,
                 takes_axes: code.entry().takes_axes,
+                across: across.contains(&code.number()),
             })
             .collect();
         let mut scaled = [None; Letter::COUNT];
@@ -323,6 +327,11 @@ impl<'c> Model<'c> {
         self.code(code).map_or(Effect::None, |c| c.effect)
     }
 
+    /// Is a code a canned cycle that drills along X, whatever the plane?
+    pub fn drills_across(&self, code: CodeIx) -> bool {
+        self.code(code).is_some_and(|c| c.across)
+    }
+
     /// The mode a code switches.
     pub fn role(&self, code: CodeIx) -> Option<Role> {
         self.code(code)?.role
@@ -346,6 +355,30 @@ impl<'c> Model<'c> {
     /// The axis that an address moves, and whether the word is an increment whatever the mode.
     pub(crate) fn axis_of(&self, letter: Letter) -> Option<(Axis, bool)> {
         self.axis_of.get(letter.index()).copied().flatten()
+    }
+
+    /// The addresses that move an axis: its own, and that of its increments.
+    pub(crate) fn letters_of(&self, axis: Axis) -> impl Iterator<Item = Letter> + '_ {
+        let is_of = move |letter: &Letter| self.axis_of(*letter).is_some_and(|(moved, _)| moved == axis);
+        self.axis_letters.iter().filter(is_of)
+    }
+
+    /// The setting that gives cylinders on a rotary axis their diameter: the first is that of the machine's first rotary axis.
+    pub fn cylinder_setting<'r>(
+        &self,
+        rotary: Axis,
+        rules: &'r CylinderRules,
+        machine: &crate::Machine,
+    ) -> Option<&'r str> {
+        let rotary_axes: Vec<Axis> = match &machine.axes {
+            Some(axes) => {
+                Axis::ALL.into_iter().filter(|axis| axis.is_rotary() && axes.contains(axis)).collect()
+            }
+            // Of a machine that nobody described, as most are numbered.
+            None => vec![Axis::A, Axis::B],
+        };
+        let place = rotary_axes.iter().position(|axis| *axis == rotary)?;
+        rules.settings.get(place).map(String::as_str)
     }
 
     /// Does the control read numbers without decimal point as least increments, as far as data alone says?

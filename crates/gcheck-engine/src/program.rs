@@ -111,7 +111,7 @@ impl<'a> Program<'a> {
     }
 
     /// Where the program of a number begins, as seen from a file.
-    pub(crate) fn find_number(&self, number: u32, from: u32) -> Option<At> {
+    pub fn find_number(&self, number: u32, from: u32) -> Option<At> {
         let in_file = |file: u32| {
             let block = self.file(file)?.loaded.outline().program(number)?.blocks.start;
             Some(At { file, block })

@@ -54,7 +54,14 @@ pub fn run<O: Observer<Concrete>>(
     let mut state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
     let mut at = At { file: 0, block: 0 };
     let mut blocks = 0;
+    let mut feeds = 0;
     let stopped = loop {
+        if let Some(moves) = executor.plain_moves(at, &state) {
+            while blocks < fuel && executor.plain_move(&moves, at, &mut state) {
+                blocks += 1;
+                at = at.next();
+            }
+        }
         if blocks >= fuel {
             break Stopped::OutOfFuel;
         }
@@ -62,6 +69,10 @@ pub fn run<O: Observer<Concrete>>(
         match executor.step(at, &mut state) {
             Outcome::Next => at = at.next(),
             Outcome::Jump(to) => at = to,
+            Outcome::End(Ending::Restart) if executor.starts_again(&state) && executor.bar_feeds > feeds => {
+                feeds = executor.bar_feeds;
+                at = At { file: 0, block: 0 };
+            }
             Outcome::End(ending) => break Stopped::Ended(ending),
             Outcome::Fork(_) => break Stopped::Faulted(Fault::Undecidable),
             Outcome::Fault(fault) => break Stopped::Faulted(fault),

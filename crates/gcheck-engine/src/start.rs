@@ -9,12 +9,16 @@ use gcheck_controls::{CodeIx, Unset};
 use gcheck_geometry::Mm;
 
 use crate::assumption::Assumption;
+use crate::cylinder::{Diameters, Wrapped};
 use crate::event::{Spindle, Units};
 use crate::machine::{Machine, Tool, WorkOffset};
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::Position;
 use crate::state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
+use crate::step::bar::{Bar, start_bar_counters};
+use crate::tool_shift::ToolShift;
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -71,10 +75,12 @@ pub(crate) fn start_state<D: Domain>(
         shift_on: true,
         local: Position::ZERO,
         length: Position::ZERO,
+        tool_shift: ToolShift::NONE,
         h: D::number(0.0),
         d: D::number(0.0),
         feed: D::number(0.0),
         feed_word: D::number(0.0),
+        feed_given_under: in_force.get(Role::FeedMode.index()).copied().unwrap_or(ModeSet::ANY),
         speed: D::number(0.0),
         speed_limit: f64::INFINITY,
         spindle: Some(Spindle::Stopped),
@@ -99,11 +105,14 @@ pub(crate) fn start_state<D: Domain>(
         cycle: CycleWords::NONE,
         turning: None,
         transform: Transform::NONE,
-        cylinder: None,
+        wrapped: Wrapped::No,
+        diameters: Diameters::default(),
         blending: (0.0, None),
         passed: Position::UNKNOWN,
         probed: if machine.fresh { Position::ZERO } else { Position::UNKNOWN },
         probe_result: if machine.fresh { Truth::False } else { Truth::Unknown },
+        touched: Touch::None,
+        kept_touch: Touch::None,
         polar: [0.0; 2],
         variables: Variables::new(unwritten, known),
         frames: vec![Frame {
@@ -116,12 +125,15 @@ pub(crate) fn start_state<D: Domain>(
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         }],
         macro_modal: None,
         compensation: None,
         left_compensation: None,
         nurbs: None,
+        bar: Bar::at_start(machine),
     };
+    start_bar_counters(model, machine, &mut state);
     state.in_effect = state.work.map_or(WorkOffset::UNKNOWN, |number| state.tables.offset(number));
     for (number, value) in &machine.variables {
         let [first, last] = model.semantics().locals;
@@ -160,6 +172,7 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.d = D::unknown();
     state.feed = D::unknown();
     state.feed_word = D::unknown();
+    state.feed_given_under = ModeSet::ANY;
     state.speed = D::unknown();
     state.speed_limit = f64::NAN;
     state.spindle = None;
@@ -173,9 +186,13 @@ pub(crate) fn unknown_state<D: Domain>(model: &Model<'_>, machine: &Machine) -> 
     state.cycle = state.cycle.unknown();
     state.transform.angle = f64::NAN;
     state.passed = Position::UNKNOWN;
+    state.diameters.forget();
     state.probed = Position::UNKNOWN;
     state.probe_result = Truth::Unknown;
+    state.touched = Touch::Unknown;
+    state.kept_touch = Touch::Unknown;
     state.variables.forget();
+    state.bar = Bar::UNKNOWN;
     state
 }
 

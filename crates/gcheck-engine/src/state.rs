@@ -8,12 +8,16 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::{Mm, Plane};
 
+use crate::cylinder::{Diameters, Wrapped};
 use crate::event::{FeedMode, Spindle, Units};
 use crate::machine::WorkOffset;
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
+use crate::step::bar::{Bar, BarCommand};
 use crate::step::compensation::Compensation;
+use crate::tool_shift::ToolShift;
+use crate::touch::Touch;
 use crate::value::{Domain, Truth};
 use crate::variables::{Locals, Variables};
 
@@ -68,6 +72,8 @@ pub struct Frame<D: Domain> {
     pub(crate) restore_on_return: bool,
     /// The branch of an O-word `IF` that is to be decided next, when the one before it failed.
     pub(crate) wanted_branch: Option<At>,
+    /// The bar feed that called a cutoff program, and feeds when it comes back.
+    pub(crate) bar_feed: Option<Rc<BarCommand>>,
 }
 
 /// Modes saved by `M70` or `M73`.
@@ -350,6 +356,12 @@ impl Transform {
         }
         joined
     }
+
+    /// Does nothing, so that programmed and work coordinates are one?
+    #[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
+    pub(crate) fn is_off(&self) -> bool {
+        self.angle == 0.0 && self.mirror == [false; 3] && self.scale == [1.0; 3]
+    }
 }
 
 /// Everything that the next block may depend on.
@@ -374,12 +386,16 @@ pub struct State<D: Domain> {
     pub(crate) local: Position,
     /// Tool offsets in effect.
     pub(crate) length: Position,
+    /// Shifts by the tool between the programmed point and the axes.
+    pub(crate) tool_shift: ToolShift,
     pub(crate) h: D::Value,
     pub(crate) d: D::Value,
     /// In millimetres a minute or turn, or moves a minute; 0 none given.
     pub(crate) feed: D::Value,
     /// The feed as the program wrote it.
     pub(crate) feed_word: D::Value,
+    /// The feed mode under which it was given.
+    pub(crate) feed_given_under: ModeSet,
     /// Turns a minute or metres a minute; 0 none given.
     pub(crate) speed: D::Value,
     /// Limit of constant surface speed, turns a minute; NaN unknown, infinite none.
@@ -404,8 +420,10 @@ pub struct State<D: Domain> {
     /// Words of turning cycles; none before the first one.
     pub(crate) turning: Option<Rc<TurningWords>>,
     pub(crate) transform: Transform,
-    /// Radius of the mapped cylinder, millimetres.
-    pub(crate) cylinder: Option<f64>,
+    /// A linear axis wrapped around a cylinder.
+    pub(crate) wrapped: Wrapped,
+    /// Diameters of cylinders as the program gave them.
+    pub(crate) diameters: Diameters,
     /// In the program's units when it was given; a change of units does not convert it.
     pub(crate) blending: (f64, Option<f64>),
     /// The point that the last return to a reference position passed, programmed coordinates.
@@ -413,6 +431,9 @@ pub struct State<D: Domain> {
     /// Point and result of the last probing move.
     pub(crate) probed: Position,
     pub(crate) probe_result: Truth,
+    /// The last probing move, and the one kept for a measurement between two touches.
+    pub(crate) touched: Touch,
+    pub(crate) kept_touch: Touch,
     /// Polar origin under `G16`.
     pub(crate) polar: [f64; 2],
     pub(crate) variables: Variables<D>,
@@ -424,6 +445,7 @@ pub struct State<D: Domain> {
     pub(crate) left_compensation: Option<Box<Compensation>>,
     /// Control points of a NURBS block under way.
     pub(crate) nurbs: Option<Rc<Vec<[f64; 3]>>>,
+    pub(crate) bar: Bar,
 }
 
 /// What `G66` will call.
@@ -507,6 +529,12 @@ impl<D: Domain> State<D> {
         self.modes[role.index()] = ModeSet::one(code);
     }
 
+    /// The role's code may also be one of these.
+    #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
+    pub(crate) fn join_mode(&mut self, role: Role, other: &ModeSet) {
+        self.modes[role.index()] = self.modes[role.index()].join(other);
+    }
+
     /// The effect in force for a role, if it is the only one it may be.
     pub fn effect(&self, role: Role, model: &Model<'_>) -> Option<Effect> {
         self.mode(role).only().map(|code| model.effect(code))
@@ -530,6 +558,16 @@ impl<D: Domain> State<D> {
     /// The feed as it was given: 0 for none.
     pub fn feed(&self) -> &D::Value {
         &self.feed
+    }
+
+    /// The feed mode under which the feed was given: a change of the mode may leave a number that means something else.
+    pub fn feed_given_under(&self) -> &ModeSet {
+        &self.feed_given_under
+    }
+
+    /// The feed as the program wrote it: its number without a unit, 0 for none.
+    pub fn feed_word(&self) -> &D::Value {
+        &self.feed_word
     }
 
     /// The speed as it was given: 0 for none.
@@ -577,6 +615,11 @@ impl<D: Domain> State<D> {
         &self.length
     }
 
+    /// Shifts by the tool between the programmed point and the axes.
+    pub fn tool_shift(&self) -> &ToolShift {
+        &self.tool_shift
+    }
+
     /// Number of the active work coordinate system, 1 the first.
     pub fn work(&self) -> Option<u16> {
         self.work
@@ -591,6 +634,16 @@ impl<D: Domain> State<D> {
     /// Transformations in effect.
     pub fn transform(&self) -> &Transform {
         &self.transform
+    }
+
+    /// Whether a linear axis is wrapped around a cylinder.
+    pub fn wrapped(&self) -> &Wrapped {
+        &self.wrapped
+    }
+
+    /// Diameters of cylinders as the program gave them.
+    pub fn diameters(&self) -> &Diameters {
+        &self.diameters
     }
 
     /// Words of the canned cycle in effect.
@@ -614,6 +667,11 @@ impl<D: Domain> State<D> {
         if number == 0 { None } else { locals.get(number) }
     }
 
+    /// The bar in the chuck and in the feeder.
+    pub fn bar(&self) -> &Bar {
+        &self.bar
+    }
+
     /// The variables.
     pub fn variables(&self) -> &Variables<D> {
         &self.variables
@@ -622,6 +680,16 @@ impl<D: Domain> State<D> {
     /// Work offsets, reference points, tools.
     pub fn tables(&self) -> &Tables {
         &self.tables
+    }
+
+    /// The last probing move.
+    pub fn touched(&self) -> Touch {
+        self.touched
+    }
+
+    /// The probing move whose touch is kept for a measurement between two.
+    pub fn kept_touch(&self) -> Touch {
+        self.kept_touch
     }
 
     /// The active plane.
@@ -689,10 +757,12 @@ impl<D: Domain> State<D> {
         self.in_effect
     }
 
-    /// From work coordinates to machine coordinates. What a mode turns or maps by the machine's own geometry is unknown.
+    /// From work coordinates to machine coordinates; an axis that is wrapped around a cylinder stands still. What a mode
+    /// turns or maps by the machine's own geometry is unknown.
     pub fn to_machine(&self, work: &Position, model: &Model<'_>) -> Position {
         let offset = self.work_offset();
-        let machine = rotate(*work + self.shift(), offset.rotation) + offset.origin + self.length;
+        let work = self.wrapped.standing(*work);
+        let machine = rotate(work + self.shift(), offset.rotation) + offset.origin + self.length;
         self.without_mapped(machine, &machine, model)
     }
 
@@ -749,10 +819,12 @@ impl<D: Domain> State<D> {
         }
         joined.local = self.local.join(&other.local);
         joined.length = self.length.join(&other.length);
+        joined.tool_shift = self.tool_shift.join(&other.tool_shift);
         joined.h = value(&self.h, &other.h);
         joined.d = value(&self.d, &other.d);
         joined.feed = value(&self.feed, &other.feed);
         joined.feed_word = value(&self.feed_word, &other.feed_word);
+        joined.feed_given_under = self.feed_given_under.join(&other.feed_given_under);
         joined.speed = value(&self.speed, &other.speed);
         joined.speed_limit = number(self.speed_limit, other.speed_limit);
         joined.spindle = if self.spindle == other.spindle { self.spindle } else { None };
@@ -774,17 +846,16 @@ impl<D: Domain> State<D> {
             joined.turning = Some(Rc::new(self.turning().join(&other.turning())));
         }
         joined.transform = self.transform.join(&other.transform);
-        joined.cylinder = match (self.cylinder, other.cylinder) {
-            (None, None) => None,
-            (Some(a), Some(b)) => Some(number(a, b)),
-            _ => Some(f64::NAN),
-        };
+        joined.wrapped = self.wrapped.join(&other.wrapped);
+        joined.diameters = self.diameters.join(&other.diameters);
         if self.blending != other.blending {
             joined.blending = (0.0, None);
         }
         joined.passed = self.passed.join(&other.passed);
         joined.probed = self.probed.join(&other.probed);
         joined.probe_result = truth(self.probe_result, other.probe_result);
+        joined.touched = self.touched.join(other.touched);
+        joined.kept_touch = self.kept_touch.join(other.kept_touch);
         joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
         joined.variables = self.variables.join(&other.variables, widen);
         for (frame, with) in joined.frames.iter_mut().zip(&other.frames) {
@@ -801,6 +872,7 @@ impl<D: Domain> State<D> {
         if self.nurbs != other.nurbs {
             joined.nurbs = None;
         }
+        joined.bar = self.bar.join(&other.bar);
         joined
     }
 
@@ -814,10 +886,12 @@ impl<D: Domain> State<D> {
                     && same(self.actual.raw(axis), inner.actual.raw(axis))
                     && same(self.length.raw(axis), inner.length.raw(axis))
             })
+            && self.tool_shift.contains(&inner.tool_shift)
             && (self.work.is_none() || self.work == inner.work)
             && D::contains(&self.h, &inner.h)
             && D::contains(&self.d, &inner.d)
             && D::contains(&self.feed, &inner.feed)
+            && self.feed_given_under.contains(&inner.feed_given_under)
             && D::contains(&self.speed, &inner.speed)
             && D::contains(&self.tool, &inner.tool)
             && D::contains(&self.selected, &inner.selected)
@@ -825,7 +899,12 @@ impl<D: Domain> State<D> {
             && truth(self.live_tool, inner.live_tool)
             && truth(self.mist, inner.mist)
             && truth(self.flood, inner.flood)
+            && self.touched.contains(inner.touched)
+            && self.kept_touch.contains(inner.kept_touch)
             && (self.turning == inner.turning || self.turning().contains(&inner.turning()))
+            && self.wrapped.contains(&inner.wrapped)
+            && self.diameters.contains(&inner.diameters)
+            && self.bar.contains(&inner.bar)
             && self.variables.contains(&inner.variables)
     }
 }
@@ -847,10 +926,12 @@ impl<D: Domain> PartialEq for State<D> {
             && self.shift_on == other.shift_on
             && self.local == other.local
             && self.length == other.length
+            && self.tool_shift == other.tool_shift
             && self.h == other.h
             && self.d == other.d
             && self.feed == other.feed
             && self.feed_word == other.feed_word
+            && self.feed_given_under == other.feed_given_under
             && self.speed == other.speed
             && self.speed_limit.to_bits() == other.speed_limit.to_bits()
             && self.spindle == other.spindle
@@ -865,16 +946,19 @@ impl<D: Domain> PartialEq for State<D> {
             && self.cycle.bits() == other.cycle.bits()
             && self.turning == other.turning
             && format_bits(&self.transform) == format_bits(&other.transform)
-            && self.cylinder.map(f64::to_bits) == other.cylinder.map(f64::to_bits)
+            && self.wrapped == other.wrapped
+            && self.diameters == other.diameters
             && self.blending == other.blending
             && self.passed == other.passed
             && self.probed == other.probed
             && self.probe_result == other.probe_result
+            && (self.touched, self.kept_touch) == (other.touched, other.kept_touch)
             && self.polar.map(f64::to_bits) == other.polar.map(f64::to_bits)
             && self.macro_modal == other.macro_modal
             && self.compensation == other.compensation
             && self.left_compensation.is_none() == other.left_compensation.is_none()
             && self.nurbs == other.nurbs
+            && self.bar == other.bar
     }
 }
 
@@ -921,6 +1005,11 @@ fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
 }
 
 impl<D: Domain> Frame<D> {
+    /// Is it the cutoff program of a bar feed?
+    pub fn is_cutoff(&self) -> bool {
+        self.bar_feed.is_some()
+    }
+
     /// Is the block the branch that a failed condition chose?
     pub(crate) fn wants(&self, at: At) -> bool {
         self.wanted_branch == Some(at)
@@ -944,6 +1033,11 @@ impl<D: Domain> Frame<D> {
             self.saved = None;
         }
         self.restore_on_return |= other.restore_on_return;
+        if let (Some(feed), Some(with)) = (&self.bar_feed, &other.bar_feed)
+            && feed != with
+        {
+            self.bar_feed = Some(Rc::new(feed.join(with)));
+        }
     }
 }
 

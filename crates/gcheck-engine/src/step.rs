@@ -4,9 +4,11 @@
 //! how paths are explored.
 
 mod arc;
+pub(crate) mod bar;
 pub(crate) mod compensation;
 pub(crate) mod contract;
 mod cycle;
+mod cylinder;
 mod flow_control;
 mod lathe;
 mod message;
@@ -14,11 +16,13 @@ mod modes;
 mod motion;
 mod offsets;
 mod operation;
+pub(crate) mod plain;
 mod probe;
 mod program_end;
 mod reference;
 mod spindle;
 mod system;
+mod tool_shift;
 mod transform;
 
 use std::collections::BTreeSet;
@@ -92,6 +96,8 @@ pub enum Ending {
     Text,
     /// `#3000`.
     Alarm(i64),
+    /// The bar feeder has no bar left, or has made as many parts as it was told to.
+    BarsUsed,
 }
 
 pub(crate) type Step<T = ()> = Result<T, Fault>;
@@ -132,6 +138,10 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     stroke_buffer: Vec<Stroke>,
     /// Assignments that wait for the end of the block.
     pending: Vec<(Assignee, D::Value)>,
+    /// Variables that were written, and whether the control lets programs do that.
+    writable: FxHashMap<u32, bool>,
+    /// Bar feeds so far.
+    pub(crate) bar_feeds: u64,
 }
 
 /// What an assignment writes to.
@@ -204,6 +214,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),
+            writable: FxHashMap::default(),
+            bar_feeds: 0,
         }
     }
 
@@ -321,7 +333,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let words = table.words(block);
         if !words.is_empty() {
             self.read_words(place, table, words, state)?;
-            self.execute(place, words, state)?;
+            let executed = self.execute(place, words, state);
+            self.settle_tool_shift(state);
+            executed?;
         }
         if !self.pending.is_empty() {
             let mut pending = std::mem::take(&mut self.pending);
@@ -506,6 +520,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
         if let Err(fault) = self.check_block(place, words, state) {
             self.refuse(fault)?;
+        }
+        if state.tool_shift.is_on() {
+            self.words_of_tool_shift(state)?;
         }
         let present = self.words.present();
         let codes = self.words.codes();
@@ -997,7 +1014,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// May the program write it? Asked before the block acts.
-    fn check_assignable(&self, target: Assignee) -> Step {
+    fn check_assignable(&mut self, target: Assignee) -> Step {
         match target {
             Assignee::Name(name) => {
                 let text = self.program.name_text(name);
@@ -1009,11 +1026,17 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             Assignee::Number(number) => {
                 self.check_number(number)?;
-                let writable = number != 0 && self.model.control().is_writable(number);
+                let writable = number != 0 && self.is_writable(number);
                 if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(number)) }
             }
             Assignee::Anywhere => Ok(()),
         }
+    }
+
+    /// May a program write the variable, as far as is known? Loops ask for the same few many times.
+    fn is_writable(&mut self, number: u32) -> bool {
+        let control = self.model.control();
+        *self.writable.entry(number).or_insert_with(|| control.is_writable(number))
     }
 
     /// Writes a variable. Some variables end the program.
@@ -1048,7 +1071,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 if let Some((variable, row, column)) = self.model.system_variable(number) {
                     return self.write_system(number, variable, row, column, value, state);
                 }
-                if !self.model.control().is_writable(number) {
+                if !self.is_writable(number) {
                     return Err(Fault::ReadOnlyVariable(number));
                 }
                 self.write_plain(number, value, state);

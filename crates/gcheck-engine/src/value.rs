@@ -64,6 +64,11 @@ pub trait Domain: Clone + Copy + Debug + Default + PartialEq + 'static {
     /// Any number, or nothing.
     fn unknown() -> Self::Value;
 
+    /// A value that rests on something nobody told: a run goes on with it, all paths allow any other.
+    fn assumed(value: Self::Value) -> Self::Value {
+        value
+    }
+
     /// The number, if it is exactly known.
     fn known(value: &Self::Value) -> Option<f64>;
     /// Is it nothing?

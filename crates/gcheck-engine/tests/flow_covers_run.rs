@@ -31,6 +31,8 @@ enum Style {
     Macro,
     /// As [`Style::Macro`], with `M97`.
     Local,
+    /// As [`Style::Local`], with modes that shift the axes by the tool.
+    FiveAxis,
     /// O-words.
     OWords,
 }
@@ -174,6 +176,9 @@ impl<'a> Writer<'a> {
     }
 
     fn mode(&mut self) {
+        if self.style == Style::FiveAxis {
+            return self.five_axis_mode();
+        }
         let line = [
             "G90",
             "G91",
@@ -220,10 +225,58 @@ impl<'a> Writer<'a> {
             "G68 X0. Y0. R30.",
             "G69",
         ][self.choose(44) as usize];
+        if self.style == Style::Local && self.choose(8) == 7 {
+            return self.wrapped();
+        }
         // What LinuxCNC has not, or not without a tool table.
         let is_foreign =
             self.style == Style::OWords && ["G52", "G41", "G68", "G69"].iter().any(|g| line.starts_with(g));
         self.line(if is_foreign { "G92.1" } else { line });
+    }
+
+    fn five_axis_mode(&mut self) {
+        let line = [
+            "G143 H1 X1. Y2. Z3. A10. B5.",
+            "G143 H#100",
+            "G143",
+            "G0 A20. B#101",
+            "X1. Y1. Z1. A0. B0.",
+            "H0",
+            "H#102",
+            "G49",
+            "G43 H1 Z5.",
+            "G1 G141 D1 X1. I0. J.6 K.8 F100.",
+            "X2. Y#102 I1. J0. K0.",
+            "D0",
+            "D#103",
+            "G40",
+            "G10 L10 P1 R10.",
+            "G10 L12 P1 R4.",
+            "G55",
+            "G54",
+            "G52 X1.",
+            "G53 G0 Z-1.",
+            "G90",
+            "G91",
+            "G93",
+            "G94 F200.",
+        ][self.choose(24) as usize];
+        self.line(line);
+    }
+
+    /// Drawings around a cylinder on A.
+    fn wrapped(&mut self) {
+        let line = [
+            "G107 Y0. A0. Q50.",
+            "G107",
+            "G107 A0. R#100",
+            "G107 Y0. A0.",
+            "G0 A90.",
+            "G107 X0. A0. Q#100",
+            "G1 Y#101 F100.",
+            "/G107 Y0. A0. Q20.",
+        ][self.choose(8) as usize];
+        self.line(line);
     }
 
     fn skipped(&mut self) {
@@ -235,14 +288,34 @@ impl<'a> Writer<'a> {
     }
 
     fn unlikely(&mut self) {
-        match self.choose(6) {
+        match self.choose(8) {
             0 => self.line("(NOTE)"),
             1 => self.line("G0 Z5."),
             2 => self.line("#[109+#1]=3."),
             3 => self.line("#2=#[110]"),
             4 => self.line("#111=#5001"),
+            5 | 6 => self.probing(),
             _ => self.line("#3=[1./#104]"),
         }
+    }
+
+    fn probing(&mut self) {
+        let line = [
+            "G31 X[#110] F50. M75",
+            "G31 Y-1. F50.",
+            "#111=#5061",
+            "G31 X2. F50. M78",
+            "G136 X-1. F50.",
+            "G36 Y1. I2. F50.",
+            "G37 H1 Z0. F50.",
+            "M75",
+        ][self.choose(8) as usize];
+        let is_foreign = match self.style {
+            Style::Local | Style::FiveAxis => false,
+            Style::Macro => !line.starts_with("G31") && !line.starts_with('#'),
+            Style::OWords => true,
+        };
+        self.line(if is_foreign { "#110=#5001" } else { line });
     }
 
     fn condition(&mut self) -> String {
@@ -344,7 +417,7 @@ impl<'a> Writer<'a> {
                 }
                 self.line(format!("o{label} endwhile"));
             }
-            Style::Macro | Style::Local => {
+            Style::Macro | Style::Local | Style::FiveAxis => {
                 let number = self.loop_depth;
                 self.line(format!("#{counter}=0"));
                 self.line(format!("WHILE [#{counter} LT {bound}] DO{number}"));
@@ -387,7 +460,7 @@ impl<'a> Writer<'a> {
         let caller = std::mem::take(&mut self.text);
         let (depth, loop_depth) = (self.depth, self.loop_depth);
         (self.inside, self.depth, self.loop_depth) = (true, 1, 0);
-        let is_local = self.style == Style::Local && self.choose(2) == 1;
+        let is_local = matches!(self.style, Style::Local | Style::FiveAxis) && self.choose(2) == 1;
         match self.style {
             Style::OWords => self.line(format!("o{number} sub")),
             _ if is_local => self.line(format!("N{number}")),
@@ -625,6 +698,11 @@ fn the_flow_covers_the_run_with_gotos_and_macros() {
 #[test]
 fn the_flow_covers_the_run_with_local_subprograms() {
     law("haas-mill", Style::Local, 2_000);
+}
+
+#[test]
+fn the_flow_covers_the_run_with_shifts_by_the_tool() {
+    law("haas-mill", Style::FiveAxis, 2_000);
 }
 
 #[test]

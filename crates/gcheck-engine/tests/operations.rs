@@ -124,18 +124,18 @@ fn an_open_outline_is_refused() {
     check(
         &format!("N5 G150 P1001 X0. Y0. Z-4. Q2. R1. J4.\nM30{open}"),
         &expect![[r#"
-        rapid x0 y0 z0
-        rapid x0 y0 z5
-        Cycle(Geometry) in N5
-        at x0 y0 z5"#]],
+            rapid x0 y0 z0
+            rapid x0 y0 z5
+            Cycle(OutlineOpen(10.0)) in N5
+            at x0 y0 z5"#]],
     );
     check(
         &format!("N5 G150 P1001 X50. Y0. Z-4. Q2. R1. J4.\nM30{OUTLINE}"),
         &expect![[r#"
-        rapid x0 y0 z0
-        rapid x0 y0 z5
-        Cycle(Geometry) in N5
-        at x0 y0 z5"#]],
+            rapid x0 y0 z0
+            rapid x0 y0 z5
+            Cycle(StartOutside) in N5
+            at x0 y0 z5"#]],
     );
     check(
         &format!("N5 G150 P1001 Z-4. Q2. R1. J4. I2.\nM30{OUTLINE}"),

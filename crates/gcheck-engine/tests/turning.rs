@@ -415,6 +415,55 @@ fn threads_that_the_interpreter_refuses() {
     }
 }
 
+#[test]
+fn a_thread_of_changing_lead_counts_by_the_mean_of_its_leads() {
+    // 20 mm from 1.5 mm a turn, 0.05 mm more each turn: about 11 turns, the last of 2.06 mm.
+    two_blocks(
+        "G34 Z-15. F1.5 K0.05\nG34 Z-25. F1.5",
+        &expect![[r#"
+        rapid x30 z5
+        sync 1.780776
+        thread x30 z-15
+        sync off
+        sync 1.500000
+        thread x30 z-25
+        sync off
+        at x30 z-25"#]],
+    );
+}
+
+#[test]
+fn an_end_point_alone_behind_an_arc_is_a_straight_line_where_a_setting_lets_it() {
+    let text = "O1\nG21 G97 S800 M3\nT0101\nG0 X60. Z5.\nG1 X40. F.2\nG2 X50. Z0. R5.\nN5 X60.\nM30\n";
+    expect![[r#"
+        rapid x30 z5
+        feed x20 z5
+        cw x25 z0 about 5 25
+        feed x30 z0
+        at x30 z0"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &machine(0.0), text));
+    let mut alarms = machine(0.0);
+    alarms.settings.insert("3403#5".to_owned(), "alarm".to_owned());
+    expect![[r#"
+        rapid x30 z5
+        feed x20 z5
+        cw x25 z0 about 5 25
+        Arc(NoCentre) in N5
+        at x30 z0"#]]
+    .assert_eq(&shown_on("fanuc-lathe", "XZ", &alarms, text));
+    two_blocks(
+        "G71 U20. R1.\nG71 P100 Q130 F0.25\nN100 G0 X40.\nN110 G1 Z-10.\nN120 G2 X50. Z-15. R5.\nN130 X60.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x20 z5
+            feed x20 z-10
+            cw x25 z-15 about -10 25
+            feed x30 z-15
+            rapid x30 z5
+            at x30 z5"#]],
+    );
+}
+
 // ---- profiles between sequence numbers ----
 
 #[test]
@@ -613,6 +662,122 @@ fn profiles_that_are_not_there_are_refused() {
     );
 }
 
+#[test]
+fn a_rapid_away_behind_the_shape_is_not_cut() {
+    two_blocks(
+        "G71 U20. R1.\nG71 P100 Q130 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 X60.\nN130 G0 Z1.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x20 z5
+            feed x20 z-10
+            feed x30 z-10
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+}
+
+#[test]
+fn a_profile_of_another_shape_leaves_the_tool_where_it_was() {
+    // Back in Z in the middle; and a first block that begins beyond the cut.
+    two_blocks(
+        "G71 U5. R1.\nG71 P100 Q140 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 X50. Z-5.\nN140 X60. Z-15.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+    two_blocks(
+        "G72 W2. R0.5\nG72 P100 Q120 F0.25\nN100 G0 X40.\nN110 G1 Z-10.\nN120 X60.\nG0 X100.",
+        &expect![[r#"
+            rapid x30 z5
+            rapid x50 z5
+            at x50 z5"#]],
+    );
+}
+
+#[test]
+fn an_arc_that_does_not_fit_is_a_fault_of_its_block() {
+    two_blocks(
+        "G71 U5. R1.\nG71 P100 Q140 F0.25\nN100 G0 X40.\nN110 G1 Z-10. F0.1\nN120 G2 X50. Z-15. R1.\nN140 G1 X60.",
+        &expect![[r#"
+            rapid x30 z5
+            Arc(RadiusTooSmall { half_chord: 3.5355339059327378, radius: 1.0 }) in N120
+            at x30 z5"#]],
+    );
+}
+
+#[test]
+fn words_without_a_point_count_least_increments_in_every_turning_cycle() {
+    let profile = "\nN100 G0 X40.\nN110 G1 Z-10.\nN120 X60.";
+    let of_two_blocks = [
+        ("G71 U5. R1.\nG71 P100 Q120 U.4 W.1", "G71 U5000 R1000\nG71 P100 Q120 U400 W100"),
+        ("G73 U3. W2. R3\nG73 P100 Q120 U1.", "G73 U3000 W2000 R3\nG73 P100 Q120 U1000"),
+        ("G74 R1.\nG74 Z-15. Q8. F0.1", "G74 R1000\nG74 Z-15000 Q8000 F0.1"),
+        ("G75 R.5\nG75 X52. Z1. P3. Q2.5 F0.1", "G75 R500\nG75 X52000 Z1000 P3000 Q2500 F0.1"),
+        (
+            "G76 P011060 Q.1 R.05\nG76 X50. Z-9. P1. Q.6 F2.",
+            "G76 P011060 Q100 R50\nG76 X50000 Z-9000 P1000 Q600 F2.",
+        ),
+        ("G76 X50. Z-9. K1. D.4 A60. F2.", "G76 X50000 Z-9000 K1000 D400 A60 F2."),
+    ];
+    for (pointed, plain) in of_two_blocks {
+        let shown = |cycle: &str| {
+            let text = format!("O1\nG21 G97 S800 M3\nT0101\nG0 X60. Z5.\nF0.2\n{cycle}{profile}\nM30\n");
+            shown_on("fanuc-lathe", "XZ", &machine(0.0), &text)
+        };
+        assert_eq!(shown(pointed), shown(plain), "{plain}");
+    }
+    let profile = "\nN100 G0 X1.6\nN110 G1 Z-.5\nN120 X2.2";
+    let of_one_block = [
+        ("G71 P100 Q120 D.2 U.02 W.005", "G71 P100 Q120 D2000 U200 W50"),
+        ("G73 P100 Q120 D2 I.1 K.05", "G73 P100 Q120 D2 I1000 K500"),
+        ("G74 Z-.3 K.15", "G74 Z-3000 K1500"),
+        ("G75 X2. Z0. I.06 K.08", "G75 X20000 Z0 I600 K800"),
+        ("G76 X.88 Z-1.1 K.06 D.04 F.1", "G76 X8800 Z-11000 K600 D400 F.1"),
+    ];
+    for (pointed, plain) in of_one_block {
+        let shown = |cycle: &str| {
+            let text = format!("O1\nG20 G18 G97 S800 M3\nT101\nG0 X2.2 Z.1\nF.01\n{cycle}{profile}\nM30\n");
+            shown_on("haas-lathe", "XZ", &machine(0.0), &text)
+        };
+        assert_eq!(shown(pointed), shown(plain), "{plain}");
+    }
+}
+
+#[test]
+fn a_control_that_threads_in_two_blocks_takes_the_older_block_too() {
+    two_blocks(
+        "G0 X34. Z5.\nG76 X30. Z-30. K1. D.6 F2. A60.",
+        &expect![[r#"
+        rapid x30 z5
+        rapid x17 z5
+        rapid x17 z4.6536
+        rapid x15.4 z4.6536
+        sync 2.000000
+        thread x15.4 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.6536
+        rapid x17 z4.5101
+        rapid x15.1515 z4.5101
+        sync 2.000000
+        thread x15.1515 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.5101
+        rapid x17 z4.4226
+        rapid x15 z4.4226
+        sync 2.000000
+        thread x15 z-30
+        sync off
+        rapid x17 z-30
+        rapid x17 z4.4226
+        rapid x17 z5
+        at x17 z5"#]],
+    );
+}
+
 // ---- profiles in subprograms ----
 
 const SUB: &str = "o100 sub\nn901 g0 x10 z1\nn902 g1 z-10\nn903 x15 z-15\nn904 x18\no100 endsub\n";
@@ -705,4 +870,174 @@ fn subprogram_profiles_that_the_interpreter_refuses() {
         let shown = shown_on("linuxcnc", "XZ", &machine(0.0), &text);
         assert!(shown.contains(" in N40\n"), "{block}: {shown}");
     }
+}
+
+// ---- holes of live tools ----
+
+/// Metric, the tool at X60 Z5 with the work at C0.
+fn live(control: &str, text: &str, expected: &Expect) {
+    let modes = if control == "haas-lathe" { "G21 G98" } else { "G21 G98 G97" };
+    let text = format!("O1\n{modes} S800\nT0101\nG0 X60. Z5. C0.\nF100.\n{text}\nM30\n");
+    expected.assert_eq(&shown_on(control, "XZC", &machine(0.0), &text));
+}
+
+#[test]
+fn a_hole_across_the_axis_ends_at_the_level_it_began_at_over_its_z() {
+    live(
+        "haas-lathe",
+        "G0 Z-10.\nG241 X40. R55. F100.\nZ-20.\nC90.\nG80\nG0 Z5.",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x27.5 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            rapid x27.5 z-20 c0
+            feed x20 z-20 c0
+            rapid x30 z-20 c0
+            rapid x30 z-20 c90
+            rapid x27.5 z-20 c90
+            feed x20 z-20 c90
+            rapid x30 z-20 c90
+            rapid x30 z5 c90
+            at x30 z5 c90"#]],
+    );
+}
+
+#[test]
+fn cycles_across_the_axis_peck_tap_and_bore() {
+    live(
+        "haas-lathe",
+        "G0 Z-10.\nG243 X40. R56. Q5. F100.\nG80\nG242 X50. Z-20. P500\nG80\nG195 U-20.\nG249 X48. R58.",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x28 z-10 c0
+            feed x23 z-10 c0
+            rapid x28 z-10 c0
+            rapid x25.54 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            feed x25 z-20 c0
+            dwell 0.5
+            rapid x30 z-20 c0
+            feed x20 z-20 c0
+            feed x30 z-20 c0
+            rapid x29 z-20 c0
+            feed x24 z-20 c0
+            feed x29 z-20 c0
+            rapid x30 z-20 c0
+            at x30 z-20 c0"#]],
+    );
+}
+
+#[test]
+fn cycles_of_the_side_count_r_from_the_start() {
+    live(
+        "fanuc-lathe",
+        "G0 Z-10.\nG87 X40. R-3. Q5000\nZ-20.\nG88 X40. R0\nG89 Z-5. P200\nG83 X20. Z-15. R-2.\nG80",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x30 z-10 c0
+            rapid x27 z-10 c0
+            feed x22 z-10 c0
+            rapid x27 z-10 c0
+            rapid x23 z-10 c0
+            feed x20 z-10 c0
+            rapid x30 z-10 c0
+            rapid x30 z-20 c0
+            rapid x27 z-20 c0
+            feed x22 z-20 c0
+            rapid x27 z-20 c0
+            rapid x23 z-20 c0
+            feed x20 z-20 c0
+            rapid x30 z-20 c0
+            feed x20 z-20 c0
+            feed x30 z-20 c0
+            rapid x30 z-5 c0
+            feed x20 z-5 c0
+            dwell 0.2
+            feed x30 z-5 c0
+            rapid x10 z-5 c0
+            rapid x10 z-7 c0
+            feed x10 z-15 c0
+            rapid x10 z-5 c0
+            at x10 z-5 c0"#]],
+    );
+}
+
+#[test]
+fn in_diameter_mode_the_depth_along_x_is_a_diameter_and_r_a_radius() {
+    oracle(
+        "n40 g7 g19 x40\nn50 g81 x10 r30 y1 z1\nn60 g80",
+        &expect![[r#"
+        rapid x20 z2
+        rapid x20 z2
+        rapid x30 z2
+        rapid x30 z1
+        feed x5 z1
+        rapid x30 z1
+        at x30 z1"#]],
+    );
+}
+
+#[test]
+fn holes_in_the_face_may_leave_r_out() {
+    live(
+        "fanuc-lathe",
+        "G83 X0.0 Z-1.23 Q2000 F.006\nG80",
+        &expect![[r#"
+        rapid x30 z5 c0
+        rapid x0 z5 c0
+        feed x0 z3 c0
+        rapid x0 z5 c0
+        rapid x0 z4 c0
+        feed x0 z1 c0
+        rapid x0 z5 c0
+        rapid x0 z2 c0
+        feed x0 z-1 c0
+        rapid x0 z5 c0
+        rapid x0 z0 c0
+        feed x0 z-1.23 c0
+        rapid x0 z5 c0
+        at x0 z5 c0"#]],
+    );
+    live(
+        "haas-lathe",
+        "G81 X0. Z-5. F100.\nG80",
+        &expect![[r#"
+        rapid x30 z5 c0
+        rapid x0 z5 c0
+        feed x0 z-5 c0
+        rapid x0 z5 c0
+        at x0 z5 c0"#]],
+    );
+}
+
+#[test]
+fn repeats_turn_the_work_on() {
+    live(
+        "fanuc-lathe",
+        "G83 X40. Z-5. R-3. H90. K3.\nW-12.\nG80",
+        &expect![[r#"
+            rapid x30 z5 c0
+            rapid x20 z5 c90
+            rapid x20 z2 c90
+            feed x20 z-5 c90
+            rapid x20 z5 c90
+            rapid x20 z5 c180
+            rapid x20 z2 c180
+            feed x20 z-5 c180
+            rapid x20 z5 c180
+            rapid x20 z5 c270
+            rapid x20 z2 c270
+            feed x20 z-5 c270
+            rapid x20 z5 c270
+            rapid x20 z2 c270
+            feed x20 z-10 c270
+            rapid x20 z5 c270
+            at x20 z5 c270"#]],
+    );
 }

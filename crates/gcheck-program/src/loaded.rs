@@ -8,10 +8,10 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::rc::Rc;
 
-use gcheck_syntax::cut;
+use gcheck_syntax::cuts;
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable};
-use crate::lower::{Dialect, lower};
+use crate::lower::{Dialect, lower, skim};
 use crate::outline::Outline;
 use crate::survey::code_region;
 
@@ -65,7 +65,10 @@ impl Place {
 }
 
 impl<'a> Loaded<'a> {
-    /// Cuts, lowers and outlines a text; `see` looks at each table on the way, with its offset in the file.
+    /// Cuts, lowers and outlines a text; `see` looks at each table on the way, with its offset in the file and the chunk's text.
+    ///
+    /// Of a chunk of a large file whose blocks only say where to (axis words and words of arcs, [without
+    /// flags](BlockFlags)) `see` is shown the blocks without their words.
     pub fn new(
         text: impl Into<Cow<'a, str>>,
         dialect: &Dialect<'_>,
@@ -77,20 +80,22 @@ impl<'a> Loaded<'a> {
         let mut chunks = Vec::new();
         let mut flags = Vec::new();
         let mut tables = Tables { slots: Vec::new(), kept: std::collections::VecDeque::new(), bytes: 0 };
-        for chunk in cut(&text) {
+        for chunk in cuts(&text) {
             if chunk.start as u32 >= region_end && !chunks.is_empty() {
                 break;
             }
             let base = chunk.start as u32;
             let part = text.get(chunk.clone()).unwrap_or_default();
-            let table = lower(part, dialect);
+            // The first chunks are those that execution begins with.
+            let is_kept = tables.bytes + chunk.len() <= KEPT;
+            let skimmed = if is_kept { None } else { skim(part, dialect) };
+            let table = skimmed.unwrap_or_else(|| lower(part, dialect));
             see(base, &table, part);
             builder.add(&table, base, region_end, part, dialect);
             chunks.push(base..chunk.end as u32);
             flags.push(table.flags());
             tables.slots.push(None);
-            // The first chunks are those that execution begins with.
-            if tables.bytes + chunk.len() <= KEPT {
+            if is_kept {
                 tables.keep(chunks.len() as u32 - 1, Rc::new(table), chunk.len());
             }
         }

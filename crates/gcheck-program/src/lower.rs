@@ -27,6 +27,8 @@ pub struct Dialect<'c> {
     letters: [LetterFacts; Letter::COUNT],
     /// Addresses on which a number with a decimal point and not too many digits, once in a block, is nothing to look at.
     quiet: LetterSet,
+    /// Quiet addresses that say where to, and nothing that the file as a whole is asked about.
+    points: LetterSet,
     max_digits: u32,
     line_length: u32,
     lower_case: bool,
@@ -97,10 +99,12 @@ impl<'c> Dialect<'c> {
             letters.get(letter.index()).is_some_and(LetterFacts::is_quiet)
                 && !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
         };
+        let quiet: LetterSet = (0..=u8::MAX).filter_map(Letter::new).filter(is_quiet).collect();
         Self {
             control,
             profile: profile(control),
-            quiet: (0..=u8::MAX).filter_map(Letter::new).filter(is_quiet).collect(),
+            quiet,
+            points: quiet.and(control.axes().or(LetterSet::of("IJKR"))),
             letters,
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
@@ -187,6 +191,66 @@ pub fn lower(text: &str, dialect: &Dialect<'_>) -> BlockTable {
     sink.table
 }
 
+/// The blocks of a chunk without their words, when every one of them only says where to: what a first look at a large file
+/// needs. `None` for any other chunk; [`lower`] reads it.
+pub(crate) fn skim(text: &str, dialect: &Dialect<'_>) -> Option<BlockTable> {
+    let mut blocks = Vec::with_capacity(lines(text));
+    let mut start = 0;
+    while start < text.len() {
+        let mut quiet = Quiet::new(start);
+        start = plain::line(text.as_bytes(), start, |word| quiet.see(&word, dialect))?;
+        if quiet.letters.is_empty() {
+            continue;
+        }
+        if !quiet.is_quiet(dialect) || !quiet.letters.without(dialect.points).is_empty() {
+            return None;
+        }
+        blocks.push(quiet.block(0..0));
+    }
+    Some(BlockTable { blocks, ..BlockTable::default() })
+}
+
+/// At most so many lines has a text.
+fn lines(text: &str) -> usize {
+    memchr::memchr_iter(b'\n', text.as_bytes()).count() + 1
+}
+
+/// A plain line of which nothing has been seen yet that makes a flag.
+struct Quiet {
+    /// Of the line in the chunk, up to the last word seen.
+    range: Range<u32>,
+    letters: LetterSet,
+    /// No address stands twice, each is quiet, each number has a point and not too many digits.
+    words: bool,
+    has_lower: bool,
+}
+
+impl Quiet {
+    fn new(start: usize) -> Self {
+        Self { range: start as u32..start as u32, letters: LetterSet::EMPTY, words: true, has_lower: false }
+    }
+
+    #[inline]
+    fn see(&mut self, word: &PlainWord, dialect: &Dialect<'_>) {
+        self.range.end = word.end;
+        self.has_lower |= word.is_lower;
+        self.words &= self.letters.insert(word.letter)
+            && dialect.quiet.contains(word.letter)
+            && word.shape.point
+            && word.shape.digits() <= dialect.max_digits;
+    }
+
+    /// Has the block no flag?
+    fn is_quiet(&self, dialect: &Dialect<'_>) -> bool {
+        self.words && !self.has_lower && self.range.end - self.range.start <= dialect.line_length
+    }
+
+    fn block(&self, words: Range<u32>) -> Block {
+        let Self { range, letters, .. } = self;
+        Block { range: range.clone(), flags: BlockFlags::empty(), letters: *letters, delete: 0, words }
+    }
+}
+
 /// Lowers a chunk from its tree. Equal to [`lower`] on the same text (law 2).
 pub fn lower_tree(parse: &Parse, dialect: &Dialect<'_>) -> BlockTable {
     let text = parse.syntax().text().to_string();
@@ -240,10 +304,10 @@ struct LowerSink<'t, 'd> {
 
 impl<'t, 'd> LowerSink<'t, 'd> {
     fn new(text: &'t str, dialect: &'d Dialect<'d>) -> Self {
-        let lines = text.len() / 24 + 1;
         let table = BlockTable {
-            blocks: Vec::with_capacity(lines),
-            words: Vec::with_capacity(lines * 3),
+            blocks: Vec::with_capacity(lines(text)),
+            // Seldom is a word shorter than eight characters with the blank behind it.
+            words: Vec::with_capacity(text.len() / 8 + 1),
             ..BlockTable::default()
         };
         Self {
@@ -437,36 +501,27 @@ impl<'t, 'd> LowerSink<'t, 'd> {
     fn plain_line(&mut self, start: usize) -> Option<usize> {
         let first = self.table.words.len();
         let (dialect, words) = (self.dialect, &mut self.table.words);
-        let (mut end, mut has_lower) = (start as u32, false);
-        // Words that make no flag, each address once.
-        let (mut letters, mut is_quiet) = (LetterSet::EMPTY, true);
+        let mut quiet = Quiet::new(start);
         let next = plain::line(self.text.as_bytes(), start, |word| {
-            let PlainWord { letter, value, shape, start, end: behind, is_lower } = word;
+            quiet.see(&word, dialect);
+            let PlainWord { letter, value, shape, start, end, .. } = word;
             let code = dialect.code_of(letter, value, shape);
-            words.push(Word { letter, value: Value::Number(value), shape, code, start, end: behind });
-            end = behind;
-            has_lower |= is_lower;
-            is_quiet &= letters.insert(letter)
-                && dialect.quiet.contains(letter)
-                && shape.point
-                && shape.digits() <= dialect.max_digits;
+            words.push(Word { letter, value: Value::Number(value), shape, code, start, end });
         });
         let Some(next) = next else {
             words.truncate(first);
             return None;
         };
         let words = first as u32..words.len() as u32;
-        is_quiet &= !has_lower && end - (start as u32) <= dialect.line_length;
         if words.is_empty() {
             // A blank line makes no block.
-        } else if is_quiet {
-            let range = start as u32..end;
-            self.table.blocks.push(Block { range, flags: BlockFlags::empty(), letters, delete: 0, words });
+        } else if quiet.is_quiet(dialect) {
+            self.table.blocks.push(quiet.block(words));
         } else {
             self.block_delete = 0;
             let mut flags = BlockFlags::empty();
-            flags.set(BlockFlags::LOWER_CASE, has_lower && !dialect.lower_case);
-            self.push_block(start as u32..end, flags, words);
+            flags.set(BlockFlags::LOWER_CASE, quiet.has_lower && !dialect.lower_case);
+            self.push_block(quiet.range, flags, words);
         }
         Some(next)
     }
@@ -920,6 +975,59 @@ impl LowerSink<'_, '_> {
             open.target = Some(target);
             open.ops = ops;
             open.value_start = end;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{BlockTable, Dialect, lower, skim};
+
+    /// The blocks alone, as [`skim`] gives them.
+    fn without_words(mut table: BlockTable) -> BlockTable {
+        table.words.clear();
+        for block in &mut table.blocks {
+            block.words = 0..0;
+        }
+        table
+    }
+
+    #[test]
+    fn a_chunk_is_skimmed_when_its_blocks_only_say_where_to() {
+        let control = gcheck_controls::load("haas-mill").unwrap();
+        let dialect = Dialect::new(&control);
+        for (text, is_skimmed) in [
+            ("", true),
+            ("X1. Y-2.5\n\n Z.5\tA10.\r\nX1. I2. J0.\n", true),
+            ("X1. Y-2.5\nZ.5", false),
+            ("X1. Y2\n", false),
+            ("X1. X2.\n", false),
+            ("G1 X1.\n", false),
+            ("X1. F100.\n", false),
+            ("X1.\n(A)\n", false),
+            ("x1.\n", false),
+        ] {
+            assert_eq!(skim(text, &dialect).is_some(), is_skimmed, "{text:?}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3_000))]
+
+        #[test]
+        fn a_skimmed_chunk_has_the_blocks_of_a_lowered_one(
+            text in "(([XYZAIJR][-+]?[0-9]{1,3}[.][0-9]{0,12}[ \\t]?|[GFxT]?[-+. 0-9]?){0,4}\r?\n){0,8}",
+        ) {
+            for name in ["fanuc-mill", "linuxcnc"] {
+                let control = gcheck_controls::load(name).unwrap();
+                let dialect = Dialect::new(&control);
+                if let Some(skimmed) = skim(&text, &dialect) {
+                    let lowered = without_words(lower(&text, &dialect));
+                    prop_assert_eq!(skimmed, lowered, "{} on {:?}", name, text);
+                }
+            }
         }
     }
 }

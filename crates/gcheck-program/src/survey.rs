@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use gcheck_controls::{CodeIx, CodeNumber, Ends, Letter, LetterSet, WordKind};
 
-use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Word};
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::lower::Dialect;
 use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 
@@ -172,6 +172,8 @@ pub struct Survey {
     pub pointed: usize,
     /// A block has a mistake in form.
     pub has_mistakes: bool,
+    /// A block has a code whose number is computed (`G#1`).
+    pub has_computed_codes: bool,
     /// Codes that rely on an earlier value which no block before them gives, in text order.
     pub never_given: Vec<NeverGiven>,
     /// Levels of block delete that are used: bit 0 for a plain `/`.
@@ -317,6 +319,7 @@ impl Survey {
         let mut references = None;
         for word in words.iter().filter(|w| matches!(w.letter.ascii(), b'G' | b'M') && !w.letter.is_corner())
         {
+            self.has_computed_codes |= matches!(word.value, Value::Expr(_));
             if let Some(number) = word.number().and_then(|n| CodeNumber::from_value(word.letter.ascii(), n))
                 && self.seen.0.insert(number)
             {

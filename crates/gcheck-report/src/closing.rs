@@ -29,6 +29,9 @@ pub fn summary_line(summary: &Summary) -> String {
         line = format!("{line}; {} of them counted but not shown", number(summary.omitted));
     }
     let mut silent = Vec::new();
+    if summary.fixed > 0 {
+        silent.push(format!("{} mended", number(summary.fixed)));
+    }
     if summary.suppressed > 0 {
         silent.push(format!("{} suppressed", number(summary.suppressed)));
     }

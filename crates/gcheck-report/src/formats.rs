@@ -2,11 +2,20 @@
 //!
 //! Knows: which formats exist. Must not know: what any of them looks like; each is one file here.
 
+mod azure;
+mod checkstyle;
 mod concise;
 mod full;
 mod github;
+mod gitlab;
+mod grouped;
 mod json;
+mod jsonl;
+mod junit;
+mod list;
+mod rdjson;
 mod sarif;
+mod xml;
 
 use std::io::{self, Write};
 
@@ -22,26 +31,60 @@ pub enum Format {
     Full,
     /// One line a finding.
     Concise,
+    /// A table for each file.
+    Grouped,
     /// One object with everything that is known.
     Json,
+    /// One object a finding, a line each.
+    Jsonl,
     /// SARIF 2.1.0, for code hosts and viewers.
     Sarif,
     /// Workflow commands that GitHub shows beside the lines of a change.
     Github,
+    /// A code quality report for GitLab's merge requests.
+    Gitlab,
+    /// The XML of Checkstyle, which many servers read.
+    Checkstyle,
+    /// Test results, a suite a file.
+    Junit,
+    /// Diagnostics for reviewdog.
+    Rdjson,
+    /// Logging commands of Azure Pipelines.
+    Azure,
 }
 
 impl Format {
     /// All formats, in the order in which help lists them.
-    pub const ALL: [Self; 5] = [Self::Full, Self::Concise, Self::Json, Self::Sarif, Self::Github];
+    pub const ALL: [Self; 12] = [
+        Self::Full,
+        Self::Concise,
+        Self::Grouped,
+        Self::Json,
+        Self::Jsonl,
+        Self::Sarif,
+        Self::Github,
+        Self::Gitlab,
+        Self::Checkstyle,
+        Self::Junit,
+        Self::Rdjson,
+        Self::Azure,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Full => "full",
             Self::Concise => "concise",
+            Self::Grouped => "grouped",
             Self::Json => "json",
+            Self::Jsonl => "jsonl",
             Self::Sarif => "sarif",
             Self::Github => "github",
+            Self::Gitlab => "gitlab",
+            Self::Checkstyle => "checkstyle",
+            Self::Junit => "junit",
+            Self::Rdjson => "rdjson",
+            Self::Azure => "azure",
         }
     }
 
@@ -53,13 +96,19 @@ impl Format {
     /// Whether people read it, so that a summary line may follow; otherwise the output is one document and ends itself.
     pub fn is_text(self) -> bool {
         match self {
-            Self::Full | Self::Concise | Self::Github => true,
-            Self::Json | Self::Sarif => false,
+            Self::Full | Self::Concise | Self::Grouped | Self::Github | Self::Azure => true,
+            Self::Json
+            | Self::Jsonl
+            | Self::Sarif
+            | Self::Gitlab
+            | Self::Checkstyle
+            | Self::Junit
+            | Self::Rdjson => false,
         }
     }
 }
 
-/// Writes a report. Colour matters to `full` and `concise` only.
+/// Writes a report. Colour matters to `full`, `concise` and `grouped` only.
 ///
 /// # Errors
 /// What `out` answers.
@@ -69,11 +118,26 @@ pub fn write(report: &Report, format: Format, colour: Colour, out: &mut dyn Writ
     match format {
         Format::Full => full::write(report, colour, &mut out)?,
         Format::Concise => concise::write(report, colour, &mut out)?,
+        Format::Grouped => grouped::write(report, colour, &mut out)?,
         Format::Json => json::write(report, &mut out)?,
+        Format::Jsonl => jsonl::write(report, &mut out)?,
         Format::Sarif => sarif::write(report, &mut out)?,
         Format::Github => github::write(report, &mut out)?,
+        Format::Gitlab => gitlab::write(report, &mut out)?,
+        Format::Checkstyle => checkstyle::write(report, &mut out)?,
+        Format::Junit => junit::write(report, &mut out)?,
+        Format::Rdjson => rdjson::write(report, &mut out)?,
+        Format::Azure => azure::write(report, &mut out)?,
     }
     out.flush()
+}
+
+/// Where the project lives.
+const HOME: &str = env!("CARGO_PKG_REPOSITORY");
+
+/// The page of a rule.
+fn rule_page(id: &str) -> String {
+    format!("{HOME}/blob/main/docs/rules/{id}.md")
 }
 
 /// What is said below the source lines, or after the message in formats without them: `note: …`, `help: …`.

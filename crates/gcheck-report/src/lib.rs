@@ -7,6 +7,7 @@
 //! A caller builds a [`Report`] and calls [`write()`]. For the formats that people read it also prints [`control_lines`]
 //! (to standard error), [`summary_line`] and, when asked, [`statistics`].
 
+mod baseline;
 mod closing;
 mod control;
 mod excerpt;
@@ -20,6 +21,7 @@ mod style;
 #[cfg(test)]
 mod testing;
 
+pub use baseline::{Baseline, Malformed, StaleEntry};
 pub use closing::{assumptions, statistics, summary_line};
 pub use control::{ControlChoice, ControlSource, control_lines};
 pub use fingerprint::{Fingerprint, Fingerprinter};

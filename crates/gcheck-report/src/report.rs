@@ -2,6 +2,7 @@
 //!
 //! Knows: files in order, findings in order, sums. Must not know: how anything looks.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use gcheck_rules::{Described, Finding, RuleMeta, Severity};
@@ -30,6 +31,8 @@ pub struct FileReport {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
+    /// Findings that were mended, and so are none any more.
+    pub fixed: usize,
     /// The analysis ended before the program did.
     pub out_of_fuel: bool,
     /// What the verdict rests on that nobody told us.
@@ -56,6 +59,12 @@ pub struct Report {
     rules: Vec<&'static RuleMeta>,
 }
 
+/// The order of findings in a file.
+pub(crate) fn order(a: &Finding, b: &Finding) -> Ordering {
+    let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
+    key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
+}
+
 /// A file of the report with its lines.
 #[derive(Debug)]
 pub(crate) struct File {
@@ -67,6 +76,7 @@ pub(crate) struct File {
     lines: usize,
     suppressed: usize,
     baseline: usize,
+    fixed: usize,
     pub(crate) out_of_fuel: bool,
     assumptions: Vec<Described>,
 }
@@ -92,6 +102,8 @@ pub struct Summary {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
+    /// Findings that were mended.
+    pub fixed: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
     /// What the verdicts rest on that nobody told us, each once, with how many files rest on it.
@@ -138,6 +150,7 @@ impl Report {
             sum.lines += file.lines;
             sum.suppressed += file.suppressed;
             sum.baseline += file.baseline;
+            sum.fixed += file.fixed;
             for assumption in &file.assumptions {
                 match sum.assumptions.iter_mut().find(|a| a.text == assumption.text) {
                     Some(known) => known.files += 1,
@@ -204,13 +217,11 @@ impl File {
             lines,
             suppressed,
             baseline,
+            fixed,
             out_of_fuel,
             assumptions,
         } = file;
-        findings.sort_by(|a, b| {
-            let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
-            key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
-        });
+        findings.sort_by(order);
         Self {
             path,
             source: Source::new(text),
@@ -220,6 +231,7 @@ impl File {
             lines,
             suppressed,
             baseline,
+            fixed,
             out_of_fuel,
             assumptions,
         }

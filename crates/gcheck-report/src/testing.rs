@@ -51,6 +51,7 @@ pub(crate) fn file(path: &str, text: &str, findings: Vec<Finding>) -> FileReport
         lines,
         suppressed: 0,
         baseline: 0,
+        fixed: 0,
         out_of_fuel: false,
         assumptions: Vec::new(),
     }

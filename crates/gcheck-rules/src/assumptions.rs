@@ -90,8 +90,40 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> Described {
         Assumption::ProbeTouch => Described::new("probing moves touch, at points that nobody knows"),
         Assumption::Axis(axis) => Described::new(format!("the machine has the axis `{}`", axis.name()))
             .pin(format!("[machine] axes = [{}, \"{}\"]", quoted_axes(model), axis.name())),
+        Assumption::HeadKinematics => {
+            Described::new("the head tilts in A, which carries B, and both turn by the right-hand rule")
+                .pin("[machine] rotary_order = [\"A\", \"B\"]")
+        }
+        Assumption::UprightTool => {
+            Described::new("the tool is parallel to Z where the work positions of A and B are zero")
+        }
+        Assumption::CylinderDiameter(axis) => {
+            Described::new(format!("no program before this one gave cylinders on {} a diameter", axis.name()))
+        }
+        Assumption::CylinderStart(axis) => {
+            Described::new(format!("a drawing on {} begins at the angle where the axis stands", axis.name()))
+        }
+        Assumption::PocketEnd => Described::new(
+            "a pocket that the control clears leaves the tool over its start hole, at the rapid level",
+        ),
+        Assumption::BarLength => {
+            Described::new("the bar is long enough for the next part: its length is not known")
+                .pin("[machine] bar_length = …")
+        }
+        Assumption::BarAtLimit => Described::new(
+            "a bar just as long as a part and its clamping is taken for too short: the manual does not say",
+        ),
+        Assumption::NewBar => Described::new(
+            "the program starts with a new bar in the chuck, pushed out as new bars are, and the feeder's counters at zero",
+        ),
+        Assumption::BarLimits => {
+            Described::new("the bar feeder stops when its limit of parts, bars or length is reached")
+        }
         Assumption::Code(code) => {
             Described::new(format!("what {} changes is not known", named(*code, model)))
+        }
+        Assumption::Passes(code) => {
+            Described::new(format!("the passes of {} are not computed", named(*code, model)))
         }
     }
 }
@@ -164,13 +196,23 @@ pub fn work_offset_name(number: u16, model: &Model<'_>) -> String {
 fn weight(assumption: &Assumption) -> u8 {
     match assumption {
         Assumption::MissingProgram(_) | Assumption::MissingSubroutine(_) => 0,
-        Assumption::Code(_) => 1,
+        Assumption::Code(_) | Assumption::Passes(_) => 1,
         Assumption::UnpointedNumbers | Assumption::Setting(_) => 2,
         Assumption::StartPosition | Assumption::ReferencePosition(_) => 3,
         Assumption::WorkOffset(_) => 4,
         Assumption::ToolLength(_) | Assumption::ToolRadius(_) => 5,
         Assumption::Variable(_) => 6,
-        Assumption::Axis(_) | Assumption::ProbeTouch => 7,
+        Assumption::Axis(_)
+        | Assumption::ProbeTouch
+        | Assumption::HeadKinematics
+        | Assumption::UprightTool
+        | Assumption::CylinderDiameter(_)
+        | Assumption::CylinderStart(_)
+        | Assumption::PocketEnd
+        | Assumption::BarLength
+        | Assumption::BarAtLimit
+        | Assumption::NewBar
+        | Assumption::BarLimits => 7,
         Assumption::BlockSkip(_) | Assumption::OptionalStop => 8,
         Assumption::StartMode(..) => 9,
     }

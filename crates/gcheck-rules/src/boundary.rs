@@ -139,6 +139,10 @@ impl PathCx<'_> {
         let survey = self.survey;
         let has_end = |ends: Ends| survey.ends.iter().any(|end| end.ends == ends);
         let is_library = survey.o_words.first().is_some_and(|o| o.keyword == OKeyword::Sub);
+        // A bar job starts again by the code that returns elsewhere.
+        if self.file_uses(|effect| effect == Effect::BarFeed) {
+            return false;
+        }
         !has_end(Ends::Program) && (has_end(Ends::Subprogram) || is_library)
     }
 

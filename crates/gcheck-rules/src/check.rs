@@ -165,7 +165,11 @@ pub fn check(job: &Job<'_>) -> Outcome {
     let mut collector = Collector { control: job.scene.control(), findings: Vec::new(), omitted: Vec::new() };
     let mut survey = Survey::default();
     let mut directives = Vec::new();
+    let (mut lines, mut seen) = (0, 0);
     let loaded = Loaded::new(text, job.scene.dialect, |base, table, chunk| {
+        // Here its text is in the processor's cache.
+        lines += count_lines(chunk.as_bytes());
+        seen += chunk.len();
         let chunk = Chunk { base, table, text: chunk };
         check_chunk(job, &plan, &region, &chunk, &mut survey, &mut directives, &mut collector);
     });
@@ -182,7 +186,8 @@ pub fn check(job: &Job<'_>) -> Outcome {
         let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
         collector.soften(&plan, end + line as u32);
     }
-    let mut outcome = finish(job, &plan, collector, &directives, count_lines(text.as_bytes()));
+    lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());
+    let mut outcome = finish(job, &plan, collector, &directives, lines);
     outcome.ledger = ledger;
     outcome.out_of_fuel = out_of_fuel;
     outcome

@@ -194,6 +194,8 @@ pub struct WordFacts<'a> {
     pub code: Option<Code<'a>>,
     /// How sure these facts are.
     pub confidence: Confidence,
+    /// How sure `min`, `max` and `above` are.
+    pub range_confidence: Confidence,
     /// Where they stand.
     pub source: &'a str,
 }
@@ -304,6 +306,7 @@ impl<'a> BlockCx<'a> {
 }
 
 fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterEntry>) -> WordFacts<'a> {
+    let confidence = entry.confidence.unwrap_or(code.entry().confidence);
     WordFacts {
         is: &entry.is,
         kind: entry.kind,
@@ -312,7 +315,8 @@ fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterE
         above: entry.above,
         negative: general.is_none_or(|g| g.negative),
         code: Some(code),
-        confidence: entry.confidence.unwrap_or(code.entry().confidence),
+        confidence,
+        range_confidence: entry.range_confidence.unwrap_or(confidence),
         source: &code.entry().source,
     }
 }
@@ -327,6 +331,7 @@ fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
         negative: entry.negative,
         code: None,
         confidence: entry.confidence,
+        range_confidence: entry.confidence,
         source: &entry.source,
     }
 }

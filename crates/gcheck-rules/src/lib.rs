@@ -5,16 +5,21 @@
 //! A rule is one file under `rules/<group>/`; `cargo xtask new-rule` scaffolds it and [`all`] lists them.
 
 mod assumptions;
+mod bar_feeder;
 mod boundary;
 mod check;
 mod context;
 mod contract;
 mod evidence;
 mod finding;
+mod five_axis;
+mod fixing;
 mod loops;
 mod meta;
 mod mistakes;
+mod parting;
 mod paths;
+mod probing;
 mod rules;
 mod schemes;
 mod sections;
@@ -31,8 +36,10 @@ pub use context::{
 };
 pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
+pub use fixing::{FixKinds, Fixed, apply_fixes};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};
 pub use sections::{LabelIndex, Section};
 pub use selection::{Selection, UnknownRule, suggest};
+pub use usage::Uses;

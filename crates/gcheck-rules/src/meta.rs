@@ -68,6 +68,8 @@ pub struct DocExample {
     pub reported: bool,
     /// The control named in the fence, e.g. `haas-mill`.
     pub control: String,
+    /// The control counts as guessed: the fence ends in `,guessed`.
+    pub guessed: bool,
     /// The program.
     pub code: String,
     /// Line of the documentation on which the program starts, from one.
@@ -85,7 +87,8 @@ impl RuleMeta {
         docs
     }
 
-    /// The examples: fences that read ```` ```nc,reported,CONTROL ```` or ```` ```nc,quiet,CONTROL ````.
+    /// The examples: fences that read ```` ```nc,reported,CONTROL ```` or ```` ```nc,quiet,CONTROL ````, with `,guessed` behind
+    /// the control where nobody chose it.
     pub fn examples(&self) -> Vec<DocExample> {
         let mut examples = Vec::new();
         let mut open: Option<DocExample> = None;
@@ -94,10 +97,11 @@ impl RuleMeta {
                 None => {
                     if let Some(info) = line.trim().strip_prefix("```nc,") {
                         let (kind, control) = info.split_once(',').unwrap_or((info, ""));
-                        let control = control.to_owned();
+                        let (control, mark) = control.split_once(',').unwrap_or((control, ""));
                         open = Some(DocExample {
                             reported: kind == "reported",
-                            control,
+                            control: control.to_owned(),
+                            guessed: mark == "guessed",
                             code: String::new(),
                             line: number + 2,
                         });

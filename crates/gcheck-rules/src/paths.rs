@@ -14,10 +14,11 @@ use gcheck_engine::{
     Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind,
     Library, Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
 };
-use gcheck_program::{Place, Survey, Word};
+use gcheck_program::{BlockTable, ExprIx, Place, Survey, Word};
 
 use rustc_hash::FxHashMap;
 
+use crate::usage::{Uses, expressions};
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
 bitflags::bitflags! {
@@ -55,6 +56,13 @@ bitflags::bitflags! {
 
 /// A rule of the path tier. One is made for every file, so that it may remember what it saw.
 pub trait PathRule {
+    /// Can the rule have anything to say of a program? Asked once; a rule that says no watches nothing. By what the program
+    /// uses, most programs spare most rules.
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        let _ = program;
+        true
+    }
+
     /// A block is about to be executed.
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let _ = (cx, report);
@@ -130,6 +138,8 @@ struct ReadBlock {
     place: Place,
     codes: Vec<CodeIx>,
     effects: Vec<Effect>,
+    /// Of its words, then of its statements.
+    expressions: Vec<ExprIx>,
     /// Does more than choose a motion: [`Watch::BLOCKS`].
     is_eventful: bool,
 }
@@ -223,6 +233,16 @@ impl<'a> PathCx<'a> {
         Cow::Owned(self.place().map_or_else(Vec::new, codes))
     }
 
+    /// The expressions of the block, and the table that they stand in.
+    pub(crate) fn expressions(&self) -> Option<(Rc<BlockTable>, Cow<'a, [ExprIx]>)> {
+        if let Some(read) = self.read_block() {
+            return Some((Rc::clone(&read.place.table), Cow::Borrowed(&read.expressions)));
+        }
+        let place = self.place()?;
+        let found = expressions(&place);
+        Some((place.table, Cow::Owned(found)))
+    }
+
     /// Does the block have a code with an effect that `is` says yes to?
     pub fn has_effect(&self, is: impl Fn(Effect) -> bool) -> bool {
         if !self.origin().flags.contains(gcheck_program::BlockFlags::CODE) {
@@ -305,7 +325,11 @@ fn sets(model: &Model<'_>, word: &Word, fact: Fact) -> bool {
                 | Effect::SpindleCounterClockwise
                 | Effect::SpindleStop
                 | Effect::SpindleOrient
+                | Effect::BarFeed
         ),
+        Fact::Chuck => {
+            matches!(model.effect(word.code), Effect::ChuckClamp | Effect::ChuckUnclamp | Effect::BarFeed)
+        }
         Fact::Shift => matches!(model.effect(word.code), Effect::SetPosition | Effect::LocalShift),
         Fact::Coolant => matches!(
             model.effect(word.code),
@@ -400,10 +424,14 @@ impl<'a, 'c> Watchers<'a, 'c> {
         rules: &[(&'static RuleEntry, Option<Severity>)],
         add: &'c mut dyn FnMut(Option<Severity>, Finding),
     ) -> Self {
+        let uses = Uses::new(scene, survey);
         let mut active = Vec::new();
         for (entry, severity) in rules {
             let Run::Path { make, .. } = entry.run else { continue };
-            active.push(Active { entry, severity: *severity, rule: make() });
+            let rule = make();
+            if rule.concerns(&uses) {
+                active.push(Active { entry, severity: *severity, rule });
+            }
         }
         let lists = lists(&active);
         Self {
@@ -490,7 +518,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let is_eventful = letters.intersects(LetterSet::of("THD"))
             || !effects.iter().all(is_motion)
             || effects.is_empty() && letters.intersects(LetterSet::of("FS"));
-        let read = Rc::new(ReadBlock { at, place, codes, effects, is_eventful });
+        let expressions = expressions(&place);
+        let read = Rc::new(ReadBlock { at, place, codes, effects, expressions, is_eventful });
         if self.read.len() >= MOST_READ {
             self.read.clear();
         }
@@ -682,6 +711,8 @@ mod tests {
                 CycleFault::InverseTime => By(&["cycle-in-inverse-time"]),
                 CycleFault::Compensated => By(&["cycle-under-compensation"]),
                 CycleFault::Plane | CycleFault::Geometry => By(&["cycle-numbers-contradict"]),
+                CycleFault::OutlineOpen(_) | CycleFault::OutlineEmpty => By(&["pocket-outline-open"]),
+                CycleFault::StartOutside => By(&["pocket-start-outside"]),
             },
             Fault::Compensation(fault) => match fault {
                 CompensationFault::EntryTooShort { .. } => By(&["lead-in-too-short"]),
@@ -797,6 +828,9 @@ mod tests {
                 CycleFault::Compensated,
                 CycleFault::Plane,
                 CycleFault::Geometry,
+                CycleFault::OutlineOpen(1.0),
+                CycleFault::OutlineEmpty,
+                CycleFault::StartOutside,
             ]
             .map(Fault::Cycle),
         );

@@ -48,8 +48,8 @@ mod tests {
                     Run::Suppressions { .. } => Selection::default(),
                     _ => Selection::only(rule),
                 };
-                let found =
-                    findings(&selection, &example.control, &example.code, &World::of_examples(rule.meta));
+                let world = World::of_example(rule.meta, &example);
+                let found = findings(&selection, &example.control, &example.code, &world);
                 let is_reported = found.iter().any(|f| std::ptr::eq(f.rule, rule.meta));
                 if is_reported != example.reported {
                     let is = if is_reported { "is reported" } else { "is not reported" };
@@ -143,9 +143,8 @@ mod tests {
         for_each_rule(|rule, say| {
             for example in rule.meta.examples().iter().filter(|e| e.reported) {
                 let selection = Selection::only(rule);
-                for finding in
-                    findings(&selection, &example.control, &example.code, &World::of_examples(rule.meta))
-                {
+                let world = World::of_example(rule.meta, example);
+                for finding in findings(&selection, &example.control, &example.code, &world) {
                     let message = finding.message.as_str();
                     let lower = message.to_lowercase();
                     if message.ends_with('.') || message.contains('\n') || message.chars().count() > 90 {

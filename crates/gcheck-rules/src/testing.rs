@@ -2,17 +2,20 @@
 //!
 //! Knows: how a test states what it expects. Must not know: any rule.
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::Range;
 
 use expect_test::Expect;
-use gcheck_engine::{Axis, Machine, Position, Tool, WorkOffset};
+use gcheck_controls::LetterSet;
+use gcheck_engine::{Axis, Machine, Position, SourceFile, Tool, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
 use crate::{
-    Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene, Selection, check,
+    DocExample, Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene,
+    Selection, check,
 };
 
 /// What a test says about the world around the program.
@@ -36,7 +39,9 @@ impl Default for World<'_> {
 
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
-    /// 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3.
+    /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
+    /// rotary axes of diameter 0. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
         let mut world = Self::default();
         if rule.group == "machine" {
@@ -48,7 +53,11 @@ impl World<'_> {
                 angles: [0.0; 2],
                 orientation: 0,
             };
+            world.machine.axes = Some(LetterSet::of("XYZA"));
+            let settings = || BTreeMap::from([("34".to_owned(), "0".to_owned())]);
+            world.machine.settings = settings();
             world.machine.engine = Machine {
+                settings: settings(),
                 max_rpm: Some(Rpm(8000.0)),
                 max_feed: Some(MmPerMin(10_000.0)),
                 travel: [Axis::X, Axis::Y, Axis::Z].into_iter().map(|axis| (axis, (-500.0, 500.0))).collect(),
@@ -58,7 +67,34 @@ impl World<'_> {
                 ..Machine::default()
             };
         }
+        if rule.group == "bar_feeder" {
+            world.machine.engine.bar.new_bar = Some(Mm(1000.0));
+            world.programs = &OtherFile;
+        }
         world
+    }
+
+    /// What one example holds in.
+    pub(crate) fn of_example(rule: &RuleMeta, example: &DocExample) -> Self {
+        Self { control_is_guessed: example.guessed, ..Self::of_examples(rule) }
+    }
+}
+
+/// A file with the program 9099.
+struct OtherFile;
+
+impl Programs for OtherFile {
+    fn has_number(&self, number: u32) -> bool {
+        number == 9099
+    }
+
+    fn has_name(&self, _: &str) -> bool {
+        false
+    }
+
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        let text = "O9099\nG1 X0. F0.004\nM30\n".to_owned();
+        (number == 9099).then(|| SourceFile { name: "O9099.nc".into(), text })
     }
 }
 

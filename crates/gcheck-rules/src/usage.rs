@@ -1,4 +1,4 @@
-//! What a file shows of how it is used: started, or called by programs that are not here.
+//! What a file shows of what it does and of how it is used: started, or called by programs that are not here.
 //!
 //! Knows: ends, conditions and variables of the main file's text. Must not know: any rule, values.
 
@@ -9,6 +9,36 @@ use gcheck_engine::{At, Model, Program, ProgramFile};
 use gcheck_program::{BlockFlags, OKeyword, Op, Place, StatementKind, Survey};
 
 use crate::Scene;
+
+/// What the blocks of a program may do, whatever path is taken.
+pub struct Uses<'a> {
+    /// Control, machine, other programs.
+    pub scene: Scene<'a>,
+    /// What the main file holds, without regard to paths.
+    pub survey: &'a Survey,
+    effects: Vec<Effect>,
+    /// Blocks that are not here, or whose codes are computed, may do anything.
+    is_open: bool,
+}
+
+impl<'a> Uses<'a> {
+    pub(crate) fn new(scene: Scene<'a>, survey: &'a Survey) -> Self {
+        let control = scene.control();
+        let codes = survey.codes.iter().map(|(number, _)| control.code_at(control.code_ix(*number)));
+        let is_opaque = codes.clone().any(|code| code.is_none_or(gcheck_controls::Code::is_user));
+        Self {
+            scene,
+            survey,
+            effects: codes.flatten().map(gcheck_controls::Code::effect).collect(),
+            is_open: is_opaque || survey.has_computed_codes || !survey.calls.is_empty(),
+        }
+    }
+
+    /// May a block have a code with an effect that `is` says yes to?
+    pub fn may(&self, is: impl Fn(Effect) -> bool) -> bool {
+        self.is_open || self.effects.iter().any(|effect| is(*effect))
+    }
+}
 
 /// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give it
 /// its variables and modes.

@@ -15,16 +15,21 @@ const MAX_BYTES: usize = 1 << 20;
 /// A line ends a chunk when its hash has these bits clear: one line in 384, so a mean of about 512 with the minimum.
 const CUT_MASK_ODDS: u32 = 384;
 
-/// Ranges of the chunks of a text, in order and without gaps.
-pub fn cut(text: &str) -> Vec<Range<usize>> {
-    let mut cuts = Vec::with_capacity(text.len() / (16 << 10) + 1);
+/// Ranges of the chunks of a text, in order and without gaps. Each is found when it is asked for, so that who looks at the
+/// chunks one by one finds their text in the processor's cache.
+pub fn cuts(text: &str) -> impl Iterator<Item = Range<usize>> {
     let mut start = 0;
-    while start < text.len() {
-        let end = start + next_cut(text.as_bytes().get(start..).unwrap_or_default());
-        cuts.push(start..end);
-        start = end;
-    }
-    cuts
+    std::iter::from_fn(move || {
+        let rest = text.as_bytes().get(start..).filter(|rest| !rest.is_empty())?;
+        let chunk = start..start + next_cut(rest);
+        start = chunk.end;
+        Some(chunk)
+    })
+}
+
+/// All of [`cuts`].
+pub fn cut(text: &str) -> Vec<Range<usize>> {
+    cuts(text).collect()
 }
 
 /// Length of the first chunk of `bytes`, which is not empty.
@@ -45,11 +50,35 @@ fn next_cut(bytes: &[u8]) -> usize {
 
 /// Length of the first line of `bytes` with its end.
 pub fn line_len(bytes: &[u8]) -> usize {
-    match memchr::memchr2(b'\n', b'\r', bytes) {
-        None => bytes.len(),
-        Some(at) if bytes.get(at..at + 2) == Some(b"\r\n") => at + 2,
-        Some(at) => at + 1,
+    let mut at = 0;
+    // Lines are short: eight bytes a step are as many as pay.
+    while let Some(eight) = bytes.get(at..).and_then(<[u8]>::first_chunk) {
+        match first_line_end(*eight) {
+            Some(offset) => {
+                at += offset;
+                break;
+            }
+            None => at += eight.len(),
+        }
     }
+    let rest = bytes.get(at..).unwrap_or_default();
+    match rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')) {
+        None => bytes.len(),
+        Some(offset) => {
+            let end = at + offset;
+            end + if bytes.get(end..end + 2) == Some(b"\r\n") { 2 } else { 1 }
+        }
+    }
+}
+
+/// Where the first byte stands that may end a line: one below fourteen, as `\n` and `\r` are, and tabs.
+#[inline]
+fn first_line_end(bytes: [u8; 8]) -> Option<usize> {
+    const EACH: u64 = 0x0101_0101_0101_0101;
+    let bytes = u64::from_le_bytes(bytes);
+    // Taking fourteen away sets the highest bit of a byte below it. What it borrows falls on bytes behind it only.
+    let low = bytes.wrapping_sub(EACH * 14) & !bytes & (EACH * 0x80);
+    (low != 0).then(|| (low.trailing_zeros() / 8) as usize)
 }
 
 /// Looks at the last bytes of the line only: they differ as well as whole lines do, and hashing stays cheap.
@@ -183,4 +212,29 @@ fn ends_before(chunk: &str, next: &str) -> bool {
     with_more.extend_from_slice(chunk.as_bytes());
     with_more.extend(next.bytes().next());
     next_cut(&with_more) == chunk.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line_len;
+
+    #[test]
+    fn a_line_is_as_long_as_byte_by_byte() {
+        let slowly = |text: &str| match text.find(['\n', '\r']) {
+            None => text.len(),
+            Some(at) if text[at..].starts_with("\r\n") => at + 2,
+            Some(at) => at + 1,
+        };
+        // Bytes on both sides of what a line may end with, at every place of the eight that are looked at together.
+        let pieces = ["\n", "\r", "\r\n", "\t", "\0", "\u{B}", "\u{E}", "\u{8D}", "\u{10A}", "X"];
+        for before in 0..20 {
+            for first in pieces {
+                for second in pieces {
+                    let text = format!("{}{first}{second}{}", "X".repeat(before), "Y".repeat(before / 2));
+                    assert_eq!(line_len(text.as_bytes()), slowly(&text), "{text:?}");
+                }
+            }
+        }
+        assert_eq!(line_len(b""), 0);
+    }
 }

@@ -16,7 +16,7 @@ mod profile;
 mod source;
 mod tree;
 
-pub use chunk::{Changed, Document, MAX_LINES, MIN_LINES, OutOfRange, cut, line_len};
+pub use chunk::{Changed, Document, MAX_LINES, MIN_LINES, OutOfRange, cut, cuts, line_len};
 pub use error::{ForeignForm, SyntaxError, SyntaxErrorKind};
 pub use grammar::{MAX_EXPRESSION_DEPTH, Sink, parse_into};
 pub use kind::SyntaxKind;

@@ -143,6 +143,9 @@ impl<W: Write> Canonical<W> {
             Event::Chuck(clamped) => {
                 self.quoted(n, "COMMENT", if *clamped { "chuck clamped" } else { "chuck unclamped" })
             }
+            Event::BarSetup(_) => self.quoted(n, "COMMENT", "bar feeder set up"),
+            Event::BarUnload(_) => self.quoted(n, "COMMENT", "bar unloaded"),
+            Event::BarLoad => self.quoted(n, "COMMENT", "new bar loaded"),
             Event::BarPush(by) => self.line(n, |out| {
                 out.extend_from_slice(b"COMMENT(\"bar pushed by ");
                 fixed(out, length(*by, units), 4);
@@ -158,7 +161,12 @@ impl<W: Write> Canonical<W> {
                 out.extend_from_slice(b"\")");
             }),
             // The interface has nothing for them and the interpreter says nothing.
-            Event::Modal(_) | Event::WaitInput { .. } => Ok(()),
+            Event::Modal(_)
+            | Event::WaitInput { .. }
+            | Event::CutterVector(_)
+            | Event::Cylinder(_)
+            | Event::Cleared(_)
+            | Event::BarFeed(_) => Ok(()),
             Event::Probe(on) => self.word(n, if *on { "TURN_PROBE_ON()" } else { "TURN_PROBE_OFF()" }),
             Event::FeedRate(_)
             | Event::FeedMode(_)

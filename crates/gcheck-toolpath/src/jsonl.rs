@@ -10,7 +10,7 @@ use gcheck_engine::{Axis, FeedMode, Position, Units};
 use crate::number::{brief, short, whole};
 use crate::record::{Path, Record, Recorder};
 use crate::sink::Sink;
-use crate::step::{Step, View};
+use crate::step::{Beside, Step, View};
 use crate::time::Timing;
 
 /// Prints moves as JSON lines.
@@ -20,6 +20,7 @@ use crate::time::Timing;
 ///  "machine":{"X":null},"feed":200.0,"feed_mode":"per-minute","seconds":0.3}
 /// ```
 ///
+/// Under a length along a tilting tool, where pivot and posted length are told, `tip` holds X, Y and Z of the tip.
 /// Arcs have `"arc":{"centre":{…},"normal":{…},"sweep_deg":…}`. Lines that are no moves have `action`, a number named
 /// after what it is (`tool`, `rpm`, …) and `text`, as far as they apply.
 #[derive(Debug)]
@@ -93,6 +94,11 @@ fn line(out: &mut Vec<u8>, view: View, file: &mut Quoted, n: u64, step: &Step<'_
     });
     if let Some(path) = &record.path {
         self::path(out, view, path, step.units);
+        if let Some(Beside::AlongTool { tip: Some(tip) }) = step.beside {
+            out.extend_from_slice(b",\"tip\":{");
+            xyz(out, view, &path.to.with_xyz(tip), step.units);
+            out.push(b'}');
+        }
     }
     if let Some(action) = record.action {
         out.extend_from_slice(b",\"action\":\"");
@@ -164,6 +170,16 @@ fn coordinates(out: &mut Vec<u8>, view: View, position: &Position, units: Units)
             out.push(b',');
         }
         first = false;
+        key(out, axis);
+        short(out, view.coordinate(axis, position.raw(axis), units), 6, "null");
+    }
+}
+
+fn xyz(out: &mut Vec<u8>, view: View, position: &Position, units: Units) {
+    for axis in [Axis::X, Axis::Y, Axis::Z] {
+        if axis != Axis::X {
+            out.push(b',');
+        }
         key(out, axis);
         short(out, view.coordinate(axis, position.raw(axis), units), 6, "null");
     }

@@ -5,6 +5,7 @@
 //!
 //! Everything here takes [`Step`]s, one per event of a run, in order.
 
+mod bar;
 mod canonical;
 mod csv;
 mod jsonl;
@@ -18,6 +19,7 @@ mod summary;
 mod text;
 mod time;
 
+pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
@@ -25,7 +27,7 @@ pub use record::Kind;
 pub use statistics::{
     Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
 };
-pub use step::{Step, View};
+pub use step::{Beside, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};

@@ -42,11 +42,13 @@ pub(crate) struct Tracker {
     machine: Position,
     /// Rotation of the work coordinates about Z.
     rotation: Degrees,
+    /// An axis that is wrapped around a cylinder: it stands still, and a rotary axis turns for it.
+    still: Option<Axis>,
 }
 
 impl Default for Tracker {
     fn default() -> Self {
-        Self { machine: Position::UNKNOWN, rotation: Degrees(0.0) }
+        Self { machine: Position::UNKNOWN, rotation: Degrees(0.0), still: None }
     }
 }
 
@@ -54,9 +56,18 @@ impl Tracker {
     /// To be called after the event was looked at.
     pub(crate) fn after(&mut self, step: &Step<'_>) {
         self.machine = step.machine;
-        if let Event::WorkOffset { rotation, .. } | Event::Rotation(rotation) = step.event {
-            self.rotation = Degrees(*rotation);
+        match step.event {
+            Event::WorkOffset { rotation, .. } | Event::Rotation(rotation) => {
+                self.rotation = Degrees(*rotation)
+            }
+            Event::Cylinder(cylinder) => self.still = cylinder.map(|cylinder| cylinder.linear),
+            _ => {}
         }
+    }
+
+    /// The axis whose coordinates are those of an unrolled cylinder: it does not move.
+    pub(crate) const fn still(&self) -> Option<Axis> {
+        self.still
     }
 
     /// Calls `each` for every movement of the event, in order.
@@ -184,8 +195,11 @@ impl Tracker {
     }
 
     /// The arc of a movement in machine coordinates; `None` when its ends do not lie where they would have to, which is so
-    /// when the work coordinates are more than shifted and turned about Z.
+    /// when the work coordinates are more than shifted and turned about Z, as on a cylinder.
     pub(crate) fn machine_arc(&self, motion: &Motion, arc: &Arc) -> Option<MachineArc> {
+        if self.still.is_some() {
+            return None;
+        }
         let start = self.moved(&motion.machine, &motion.to, &motion.from);
         let off = |axis: Axis| (start.raw(axis) - motion.machine_from.raw(axis)).abs() > 1e-3;
         if [Axis::X, Axis::Y, Axis::Z].into_iter().any(off) {

@@ -2,7 +2,7 @@
 //!
 //! Knows: which events are lines and what stands in them. Must not know: how a line is written.
 
-use gcheck_engine::{Coolant, Event, FeedMode, Position, Spindle, Stop, Units};
+use gcheck_engine::{Axis, Coolant, Cylinder, Event, FeedMode, Position, Spindle, Stop, Units};
 use gcheck_geometry::{Arc, Plane};
 
 use crate::motion::{Motion, Way};
@@ -28,6 +28,10 @@ pub enum Kind {
     Spindle,
     /// Coolant.
     Coolant,
+    /// An axis wrapped around a cylinder, or no longer.
+    Wrap,
+    /// A pocket that the control clears by a path of its own.
+    Pocket,
     /// Chuck and bar feeder.
     Bar,
     /// Text for the operator or a printer.
@@ -50,6 +54,8 @@ impl Kind {
             Self::Tool => "tool",
             Self::Spindle => "spindle",
             Self::Coolant => "coolant",
+            Self::Wrap => "wrap",
+            Self::Pocket => "pocket",
             Self::Bar => "bar",
             Self::Message => "message",
             Self::Stop => "stop",
@@ -203,7 +209,20 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
             };
             (Kind::Coolant, Some(action), None)
         }
+        Event::Cleared(clearing) => {
+            text = Some("an estimate: the path is the control's own");
+            (Kind::Pocket, Some("cut"), Some(("length", clearing.length.0 / step.units.in_mm())))
+        }
+        Event::Cylinder(None) => (Kind::Wrap, Some("off"), None),
+        Event::Cylinder(Some(cylinder)) => {
+            text = Some(axes_of(cylinder));
+            let diameter = cylinder.diameter / step.units.in_mm();
+            (Kind::Wrap, Some("on"), Some(("diameter", diameter)))
+        }
         Event::Chuck(clamped) => (Kind::Bar, Some(if *clamped { "clamp" } else { "unclamp" }), None),
+        Event::BarSetup(mode) => (Kind::Bar, Some("setup"), Some(("mode", number(*mode)))),
+        Event::BarUnload(rest) => (Kind::Bar, Some("unload"), Some(("remnant", rest.0 / step.units.in_mm()))),
+        Event::BarLoad => (Kind::Bar, Some("load"), None),
         Event::BarPush(by) => (Kind::Bar, Some("push"), Some(("length", by.0 / step.units.in_mm()))),
         Event::Stop(kind) => {
             let action = match kind {
@@ -226,7 +245,23 @@ fn of_event<'a>(clock: &Clock, step: &Step<'a>) -> Option<Record<'a>> {
     };
     let seconds = match step.event {
         Event::Dwell(seconds) if !seconds.is_finite() => f64::NAN,
+        Event::Cleared(clearing) if !clearing.seconds.is_finite() => f64::NAN,
         _ => clock.still(step).0,
     };
     Some(Record { kind, path: None, seconds, action, value, text })
+}
+
+/// Which axis is wrapped, and which turns.
+fn axes_of(cylinder: &Cylinder) -> &'static str {
+    match (cylinder.linear, cylinder.rotary) {
+        (Axis::X, Axis::A) => "X on A",
+        (Axis::X, Axis::B) => "X on B",
+        (Axis::X, _) => "X on C",
+        (Axis::Y, Axis::A) => "Y on A",
+        (Axis::Y, Axis::B) => "Y on B",
+        (Axis::Y, _) => "Y on C",
+        (_, Axis::A) => "Z on A",
+        (_, Axis::B) => "Z on B",
+        _ => "Z on C",
+    }
 }

@@ -3,9 +3,10 @@
 //! Knows: what is counted, and what cannot be. Must not know: how it is shown ([`crate::Names`] and the summary do that),
 //! what the figures are good for.
 
-use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Units};
 use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
 
+use crate::bar::BarFigures;
 use crate::motion::{Cover, Motion, Way, cover};
 use crate::step::{Step, View};
 use crate::time::{Clock, Timing, Untimed, length};
@@ -48,7 +49,7 @@ pub struct Values {
 }
 
 impl Values {
-    fn add(&mut self, value: f64) {
+    pub(crate) fn add(&mut self, value: f64) {
         // The same value comes again and again.
         if !value.is_finite() || self.last.is_some_and(|last| last.to_bits() == value.to_bits()) {
             return;
@@ -134,6 +135,8 @@ pub struct Unaccounted {
     pub arcs_by_ends: u64,
     /// Moves of which the place in machine coordinates is unknown on an axis that is shown.
     pub machine: u64,
+    /// Pockets that the control clears with a tool or a feed that is unknown: not in ways, times and extents.
+    pub pockets: u64,
 }
 
 /// From one tool change to the next, or a whole run.
@@ -177,6 +180,8 @@ pub struct Section {
     pub surface_speeds: Values,
     /// Work coordinate systems in which something moved, with the way of all moves.
     pub offsets: Vec<OffsetUse>,
+    /// The part of the cutting time that is an estimate: pockets that the control clears by a path of its own.
+    pub estimated: Seconds,
     /// What the figures lack.
     pub unaccounted: Unaccounted,
 }
@@ -203,6 +208,7 @@ impl Section {
             speeds: Values::default(),
             surface_speeds: Values::default(),
             offsets: Vec::new(),
+            estimated: Seconds::ZERO,
             unaccounted: Unaccounted::default(),
         }
     }
@@ -215,6 +221,7 @@ impl Section {
         self.rapid += other.rapid;
         self.cutting += other.cutting;
         self.turned += other.turned;
+        self.estimated += other.estimated;
         self.moves += other.moves;
         self.arcs += other.arcs;
         self.probes += other.probes;
@@ -230,7 +237,8 @@ impl Section {
         for used in &other.offsets {
             self.offset(used.number).include_bounds(&used.extents);
         }
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } = other.unaccounted;
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
+            other.unaccounted;
         self.unaccounted.points += points;
         self.unaccounted.feeds += feeds;
         self.unaccounted.speeds += speeds;
@@ -238,6 +246,7 @@ impl Section {
         self.unaccounted.dwells += dwells;
         self.unaccounted.arcs_by_ends += arcs_by_ends;
         self.unaccounted.machine += machine;
+        self.unaccounted.pockets += pockets;
     }
 
     /// Where all moves went, in the work coordinates that were active.
@@ -285,6 +294,8 @@ pub struct Statistics {
     inch_moves: u64,
     mm_moves: u64,
     rotary_rapids: bool,
+    bar: BarFigures,
+    helices: bool,
 }
 
 impl Statistics {
@@ -300,6 +311,8 @@ impl Statistics {
             inch_moves: 0,
             mm_moves: 0,
             rotary_rapids: false,
+            bar: BarFigures::default(),
+            helices: false,
         }
     }
 
@@ -314,14 +327,20 @@ impl Statistics {
                 section.times.dwell += time;
                 section.unaccounted.dwells += u64::from(!seconds.is_finite());
             }
+            Event::Cleared(clearing) => self.cleared(step, clearing),
             Event::WorkOffset { number, .. } => self.work = Some(*number),
             Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => {
                 let tracker = self.clock.tracker;
                 tracker.motions(step, |motion| self.motion(step, motion));
             }
-            _ => {}
+            event => self.bar.add(event),
         }
         self.clock.after(step);
+    }
+
+    /// What the bar feeder did.
+    pub const fn bar(&self) -> &BarFigures {
+        &self.bar
     }
 
     /// The sections in the order in which they began.
@@ -344,6 +363,7 @@ impl Statistics {
                 rpm: 0.0,
                 machine: Position::UNKNOWN,
                 tool: None,
+                beside: None,
                 file: "",
             };
             return Section::new(None, false, &nowhere);
@@ -357,6 +377,17 @@ impl Statistics {
     /// The units in which most moves were written.
     pub const fn units(&self) -> Units {
         if self.inch_moves > self.mm_moves { Units::Inch } else { Units::Mm }
+    }
+
+    /// Position of the feed override switch in percent, where it is another than 100.
+    pub fn feed_override(&self) -> Option<f64> {
+        let percent = self.clock.timing.feed_override() * 100.0;
+        ((percent - 100.0).abs() > 1e-9).then_some(percent)
+    }
+
+    /// Was there an arc that leaves its plane?
+    pub const fn has_helices(&self) -> bool {
+        self.helices
     }
 
     /// The axes shown.
@@ -404,6 +435,13 @@ impl Statistics {
         if self.current.and_then(|at| self.sections.get(at)).is_some_and(same) {
             return;
         }
+        // The tools of the next part are those of the first one.
+        if self.bar.is_used()
+            && let Some(earlier) = self.sections.iter().rposition(same)
+        {
+            self.current = Some(earlier);
+            return;
+        }
         if self.sections.len() >= MAX_SECTIONS {
             let earlier = self.sections.iter().rposition(same);
             self.current = Some(earlier.unwrap_or(MAX_SECTIONS - 1));
@@ -423,6 +461,29 @@ impl Statistics {
         &mut self.sections[at]
     }
 
+    /// A pocket that the control clears: what it comes to is an estimate, and is said to be one.
+    fn cleared(&mut self, step: &Step<'_>, clearing: &Clearing) {
+        let work = self.work;
+        // The way down into a pocket is no hole.
+        self.holes = Holes::default();
+        let section = self.section(step);
+        if clearing.length.is_known() && clearing.seconds.is_finite() {
+            section.times.cutting += clearing.seconds;
+            section.cutting += clearing.length;
+            section.estimated += clearing.seconds;
+        } else {
+            section.unaccounted.pockets += 1;
+        }
+        let mut extents = Bounds::EMPTY;
+        for corner in [clearing.from, clearing.to] {
+            let corner = clearing.at.with_xyz(corner);
+            include(&mut extents, &corner, true);
+            include(&mut section.machine, &(step.machine + (corner - clearing.at)), true);
+        }
+        section.offset(work).include_bounds(&extents);
+        section.cut.include_bounds(&extents);
+    }
+
     fn motion(&mut self, step: &Step<'_>, motion: &Motion) {
         match step.units {
             Units::Inch => self.inch_moves += 1,
@@ -437,6 +498,10 @@ impl Statistics {
         let (view, work) = (self.view, self.work);
         let rapid = motion.way == Way::Rapid;
         self.rotary_rapids |= rapid && turns(motion);
+        if !rapid {
+            self.bar.cut();
+        }
+        self.helices |= motion.arc.is_some_and(|arc| arc.rise().0.abs() > 0.0);
 
         let section = self.section(step);
         section.moves += 1;

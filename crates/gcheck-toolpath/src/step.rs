@@ -3,6 +3,7 @@
 //! Knows: the form in which events come here. Must not know: who sends them.
 
 use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_geometry::Mm;
 
 /// One event with its place and the state in which it happens.
 #[derive(Debug, Clone, Copy)]
@@ -26,8 +27,22 @@ pub struct Step<'a> {
     pub machine: Position,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
+    /// Why the axes stand beside the programmed point, where a reader is told both.
+    pub beside: Option<Beside>,
     /// Name of the file that holds the block.
     pub file: &'a str,
+}
+
+/// Why the axes stand elsewhere than the programmed point says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Beside {
+    /// A length is added along a tilting tool: the programmed point is the one that was posted.
+    AlongTool {
+        /// Where the tip is, in the coordinates of the programmed point; `None` when that cannot be said.
+        tip: Option<[Mm; 3]>,
+    },
+    /// The path is shifted along a vector by the size of the cutter.
+    AlongVector,
 }
 
 /// Which axes are shown, and whether X is shown as a diameter.

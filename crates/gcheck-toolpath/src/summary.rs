@@ -8,6 +8,7 @@ use gcheck_engine::{Axis, Units};
 use gcheck_geometry::{Bounds, Seconds};
 use serde::Serialize;
 
+use crate::bar::BarFigures;
 use crate::number::rounded;
 use crate::statistics::{Section, Statistics, Unaccounted, Values};
 use crate::step::{View, in_units};
@@ -55,6 +56,7 @@ impl Statistics {
             table.tools(&mut out, self.sections());
             table.extents(&mut out, self.sections());
         }
+        table.bar(&mut out, self.bar());
         table.missing(&mut out);
         table.assumed(&mut out, self);
         out
@@ -76,6 +78,7 @@ impl Statistics {
             },
             x_is_diameter: view.has_diameters(),
             total: figures(&total),
+            bar: self.bar().is_used().then(|| json::Bar::of(self.bar(), total.times.total(), units)),
             tools: self
                 .sections()
                 .iter()
@@ -284,8 +287,50 @@ impl Table<'_> {
         })
     }
 
+    /// Parts, bars and what is left of them.
+    fn bar(&self, out: &mut String, bar: &BarFigures) {
+        if !bar.is_used() {
+            return;
+        }
+        let count =
+            |number: u64, what: &str| format!("{number} {what}{}", if number == 1 { "" } else { "s" });
+        let unit = match self.units {
+            Units::Inch => "inch",
+            Units::Mm => "mm",
+        };
+        let length = |mm: f64| plain(mm / self.units.in_mm());
+        let mut lines = Vec::new();
+        let mut made = count(bar.parts(), "part");
+        if bar.used_up() > 0 {
+            let _ = write!(made, " from {}", count(bar.used_up(), "bar"));
+            let (fewest, most) = (bar.by_bar().iter().min(), bar.by_bar().iter().max());
+            if let (Some(fewest), Some(most)) = (fewest, most) {
+                let _ = match fewest == most {
+                    true => write!(made, ", {most} a bar"),
+                    false => write!(made, ", {fewest} to {most} a bar"),
+                };
+            }
+        }
+        lines.push(made);
+        lines.push(if bar.pushed().is_known() {
+            format!("bar pushed {} {unit}", length(bar.pushed().0))
+        } else {
+            "bar pushed by lengths that are not known".to_owned()
+        });
+        if let Some((low, high)) = bar.remnants().range() {
+            let [low, high] = [low, high].map(length);
+            let left = if low == high { low } else { format!("{low} to {high}") };
+            lines.push(format!("{left} {unit} left of a bar, behind the face of the chuck"));
+        }
+        if let Some(time) = per_part(bar, self.total.times.total()) {
+            let unit = if self.has_hours() { "h" } else { "min" };
+            lines.push(format!("{} {unit} a part, without what the feeder takes", self.time(time)));
+        }
+        list(out, "bar feeder", &lines);
+    }
+
     fn missing(&self, out: &mut String) {
-        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine } =
+        let Unaccounted { points, feeds, speeds, partly, dwells, arcs_by_ends, machine, pockets } =
             self.total.unaccounted;
         let moves = |count: u64| if count == 1 { "1 move".to_owned() } else { format!("{count} moves") };
         let mut lines = Vec::new();
@@ -301,6 +346,12 @@ impl Table<'_> {
         if dwells > 0 {
             let plural = if dwells == 1 { "" } else { "s" };
             lines.push(format!("{dwells} dwell{plural} of unknown length: not in time"));
+        }
+        if pockets > 0 {
+            let plural = if pockets == 1 { "" } else { "s" };
+            lines.push(format!(
+                "{pockets} pocket{plural} cleared with an unknown tool or feed: not in distance, time or extents"
+            ));
         }
         if partly > 0 {
             lines.push(format!("{} while an axis is at an unknown place: counted without it", moves(partly)));
@@ -325,11 +376,30 @@ impl Table<'_> {
             .into_iter()
             .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
             .collect();
+        if self.total.estimated > Seconds::ZERO {
+            lines.push(format!(
+                "{} of cutting are an estimate: pockets that the control clears by a path of its own, by their area",
+                clock(self.total.estimated, false)
+            ));
+        }
+        if self.total.moves > 0
+            && let Some(percent) = statistics.feed_override()
+        {
+            lines.push(format!(
+                "the feed override stands at {percent} %: it does not count for rapid moves, threads and taps"
+            ));
+        }
         if self.total.moves > 0 {
             lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }
         list(out, "assumed", &lines);
     }
+}
+
+fn per_part(bar: &BarFigures, time: Seconds) -> Option<Seconds> {
+    #[expect(clippy::cast_precision_loss, reason = "nobody makes so many parts")]
+    let parts = bar.parts() as f64;
+    (parts > 0.0).then(|| Seconds(time.0 / parts))
 }
 
 fn list(out: &mut String, title: &str, lines: &[String]) {
@@ -408,15 +478,44 @@ fn columns<R: AsRef<[String]>>(out: &mut String, rows: &[R], right: &[bool]) {
 mod json {
     use std::collections::BTreeMap;
 
-    use super::{Axis, Bounds, Names, Section, Serialize, Units, Values, View, in_units, rounded};
+    use super::{
+        Axis, BarFigures, Bounds, Names, Seconds, Section, Serialize, Units, Values, View, in_units, rounded,
+    };
 
     #[derive(Serialize)]
     pub(super) struct Whole<'a> {
         pub(super) units: &'static str,
         pub(super) x_is_diameter: bool,
         pub(super) total: Figures,
+        /// Only with a bar feeder.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub(super) bar: Option<Bar>,
         pub(super) tools: Vec<Tool<'a>>,
         pub(super) assumptions: Vec<Assumed>,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Bar {
+        parts: u64,
+        bars_used_up: u64,
+        parts_by_bar: Vec<u64>,
+        pushed: Option<f64>,
+        /// What was left of bars behind the face of the chuck.
+        remnant: Option<Range>,
+        seconds_per_part: Option<f64>,
+    }
+
+    impl Bar {
+        pub(super) fn of(bar: &BarFigures, time: Seconds, units: Units) -> Self {
+            Self {
+                parts: bar.parts(),
+                bars_used_up: bar.used_up(),
+                parts_by_bar: bar.by_bar().to_vec(),
+                pushed: rounded(in_units(Axis::X, bar.pushed().0, units)),
+                remnant: range(bar.remnants(), 1.0 / units.in_mm()),
+                seconds_per_part: super::per_part(bar, time).and_then(|time| rounded(time.0)),
+            }
+        }
     }
 
     #[derive(Serialize)]
@@ -459,6 +558,8 @@ mod json {
         rapid: Option<f64>,
         dwell: Option<f64>,
         tool_change: Option<f64>,
+        /// The part of `cutting` that is an estimate: pockets that the control clears by a path of its own.
+        estimated: Option<f64>,
     }
 
     #[derive(Serialize)]
@@ -515,6 +616,7 @@ mod json {
         partly: u64,
         machine: u64,
         machine_arcs: u64,
+        pockets: u64,
     }
 
     impl Figures {
@@ -540,6 +642,7 @@ mod json {
                     rapid: rounded(section.times.rapid.0),
                     dwell: rounded(section.times.dwell.0),
                     tool_change: rounded(section.times.tool_change.0),
+                    estimated: rounded(section.estimated.0),
                 },
                 distance: Ways {
                     cutting: length(section.cutting.0),
@@ -578,6 +681,7 @@ mod json {
                     partly: missing.partly,
                     machine: missing.machine,
                     machine_arcs: missing.arcs_by_ends,
+                    pockets: missing.pockets,
                 },
             }
         }

@@ -4,12 +4,12 @@
 
 use std::io::{self, Write};
 
-use gcheck_engine::{Axis, FeedMode, Units};
+use gcheck_engine::{Axis, FeedMode, Position, Units};
 
 use crate::number::{brief, fixed, whole};
 use crate::record::{Kind, Path, Record, Recorder};
 use crate::sink::Sink;
-use crate::step::{Step, View};
+use crate::step::{Beside, Step, View};
 use crate::time::Timing;
 
 /// Width of a coordinate.
@@ -135,6 +135,9 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
             out.extend_from_slice(b"  ");
             arc(out, view, path, units);
         }
+        if let Some(why) = step.beside {
+            beside(out, view, path, why, units);
+        }
         return;
     }
     let empty = view.axes().count() * WIDTH + 11;
@@ -151,6 +154,10 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
     if let Some((name, value)) = record.value {
         let before = match record.action {
             Some("push") => "push ",
+            Some("on") => "diameter ",
+            Some("cut") => "cut ",
+            Some("setup") => "setup, mode ",
+            Some("unload") => "unload, left ",
             Some("orient") => "to ",
             Some("change") => "T",
             Some("set") => "now T",
@@ -166,6 +173,9 @@ fn line(out: &mut Vec<u8>, cell: &mut Vec<u8>, view: View, step: &Step<'_>, reco
         });
     }
     if let Some(text) = record.text {
+        if record.value.is_some() {
+            out.extend_from_slice(b", ");
+        }
         out.extend(text.bytes().map(|byte| if byte < b' ' { b' ' } else { byte }));
     }
 }
@@ -189,5 +199,27 @@ fn arc(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
             out.extend_from_slice(&[b' ', axis.name() as u8]);
             brief(out, view.coordinate(axis, value, units), 4, "?");
         }
+    }
+}
+
+/// The point that the program wrote, and where the axes stand for it.
+fn beside(out: &mut Vec<u8>, view: View, path: &Path, why: Beside, units: Units) {
+    out.extend_from_slice(match why {
+        Beside::AlongTool { .. } => b"  posted point".as_slice(),
+        Beside::AlongVector => b"  programmed point",
+    });
+    point(out, view, &path.programmed, units);
+    out.extend_from_slice(b", axes at");
+    point(out, view, &path.to, units);
+    if let Beside::AlongTool { tip: Some(tip) } = why {
+        out.extend_from_slice(b", tip at");
+        point(out, view, &path.to.with_xyz(tip), units);
+    }
+}
+
+fn point(out: &mut Vec<u8>, view: View, position: &Position, units: Units) {
+    for axis in [Axis::X, Axis::Y, Axis::Z] {
+        out.extend_from_slice(&[b' ', axis.name() as u8]);
+        brief(out, view.coordinate(axis, position.raw(axis), units), 4, "?");
     }
 }

@@ -1,11 +1,11 @@
 //! How long movements take.
 //!
-//! Knows: feeds in their modes, rapid rates, leads, surface speed, dwells, tool changes. Must not know: acceleration, which no
+//! Knows: feeds in their modes and their override, rapid rates, leads, surface speed, dwells, tool changes. Must not know: acceleration, which no
 //! program tells: real times are longer.
 
 use std::f64::consts::PI;
 
-use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_engine::{Axis, Event, FeedMode, Override, Position, Units};
 use gcheck_geometry::{Mm, MmPerMin, Seconds};
 
 use crate::motion::{Cover, Motion, Tracker, Way, cover};
@@ -27,6 +27,10 @@ pub struct Timing {
     pub(crate) rapid_assumed: bool,
     pub(crate) rotary_assumed: bool,
     pub(crate) tool_change_assumed: bool,
+    /// The feed of a helix is measured along its circle, not along its path.
+    helix_by_circle: bool,
+    /// Part of the programmed feed that is run.
+    feed_override: f64,
 }
 
 impl Timing {
@@ -42,7 +46,27 @@ impl Timing {
             rapid_assumed: rapid.is_none(),
             rotary_assumed: true,
             tool_change_assumed: tool_change.is_none(),
+            helix_by_circle: false,
+            feed_override: 1.0,
         }
+    }
+
+    /// With the feed of a helix measured along its circle in the plane, so that the tool itself is faster; along the path of
+    /// the tool without this.
+    #[must_use]
+    pub const fn with_helix_by_circle(mut self) -> Self {
+        self.helix_by_circle = true;
+        self
+    }
+
+    /// With the position of the feed override switch, in percent, 100 without this. It does not count where the program
+    /// switches it off, nor for rapid moves, threads and taps.
+    #[must_use]
+    pub fn with_feed_override(mut self, percent: f64) -> Self {
+        if percent.is_finite() && percent > 0.0 {
+            self.feed_override = percent / 100.0;
+        }
+        self
     }
 
     /// With the rapid rate of the rotary axes, degrees a minute.
@@ -68,6 +92,11 @@ impl Timing {
         self
     }
 
+    /// Part of the programmed feed that is run.
+    pub(crate) const fn feed_override(&self) -> f64 {
+        self.feed_override
+    }
+
     /// Time of a tool change.
     pub const fn tool_change(&self) -> Seconds {
         self.tool_change
@@ -79,8 +108,9 @@ impl Timing {
     }
 
     /// Every axis runs at its own rate; the movement is over when the last one has arrived.
-    fn rapid_seconds(&self, from: &Position, to: &Position) -> f64 {
-        let times = Axis::ALL.into_iter().zip(self.rapid).map(|(axis, rate)| {
+    fn rapid_seconds(&self, from: &Position, to: &Position, still: Option<Axis>) -> f64 {
+        let times = Axis::ALL.into_iter().zip(self.rapid).filter(|(axis, _)| Some(*axis) != still);
+        let times = times.map(|(axis, rate)| {
             let way = (to.raw(axis) - from.raw(axis)).abs();
             // An axis that is unknown at both ends does not count; at one end, the movement is not timed at all.
             if way.is_nan() { 0.0 } else { way / rate * 60.0 }
@@ -112,12 +142,22 @@ pub struct Clock {
     /// `S` read as a surface speed: metres a minute.
     speed: f64,
     tool: Option<u32>,
+    /// The program, or a cycle, has the feed override switched off.
+    override_off: bool,
 }
 
 impl Clock {
     /// Starts at the begin of a run.
     pub fn new(timing: Timing) -> Self {
-        Self { timing, tracker: Tracker::default(), lead: None, surface: None, speed: f64::NAN, tool: None }
+        Self {
+            timing,
+            tracker: Tracker::default(),
+            lead: None,
+            surface: None,
+            speed: f64::NAN,
+            tool: None,
+            override_off: false,
+        }
     }
 
     /// The time that an event takes.
@@ -146,6 +186,7 @@ impl Clock {
             Event::SpindleMode(limit) => self.surface = *limit,
             Event::SpindleSpeed(speed) => self.speed = metres(*speed, step.units),
             Event::ToolChange(tool) | Event::SetToolNumber(tool) => self.tool = *tool,
+            Event::Override { kind: Override::Feed, on } => self.override_off = !on,
             _ => {}
         }
     }
@@ -154,6 +195,7 @@ impl Clock {
     pub(crate) fn still(&self, step: &Step<'_>) -> Seconds {
         match step.event {
             Event::Dwell(seconds) if seconds.is_finite() => Seconds(seconds.0.max(0.0)),
+            Event::Cleared(clearing) if clearing.seconds.is_finite() => Seconds(clearing.seconds.0.max(0.0)),
             Event::ToolChange(tool) if tool.is_none() || *tool != self.tool => self.timing.tool_change,
             _ => Seconds::ZERO,
         }
@@ -172,7 +214,7 @@ impl Clock {
             Cover::Length(length) | Cover::Turn(length) => length,
         };
         if motion.way == Way::Rapid {
-            return Ok(Seconds(self.timing.rapid_seconds(&motion.from, &motion.to)));
+            return Ok(Seconds(self.timing.rapid_seconds(&motion.from, &motion.to, self.tracker.still())));
         }
         let by_turn = |lead: f64, scale: f64| {
             let lead = positive(lead.abs(), Untimed::Feed)?;
@@ -185,18 +227,29 @@ impl Clock {
             // Without a lead of its own a thread is cut at the feed, which is then a lead.
             (Way::Thread, None) => by_turn(step.feed, 1.0)?,
             (Way::Tap(scale), None) => by_turn(step.feed, scale)?,
-            _ => match step.feed_mode {
-                FeedMode::InverseTime => motion.share / positive(step.feed, Untimed::Feed)?,
-                FeedMode::PerRevolution => by_turn(step.feed, 1.0)?,
-                FeedMode::PerMinute => {
-                    let feed = positive(step.feed, Untimed::Feed)?;
-                    // Without linear axes the number of the feed counts degrees.
-                    let feed = if matches!(cover, Cover::Turn(_)) { feed / step.units.in_mm() } else { feed };
-                    covered / feed
-                }
-            },
+            _ => {
+                let minutes = match step.feed_mode {
+                    FeedMode::InverseTime => motion.share / positive(step.feed, Untimed::Feed)?,
+                    FeedMode::PerRevolution => by_turn(step.feed, 1.0)? * self.part_of_path(motion),
+                    FeedMode::PerMinute => {
+                        let feed = positive(step.feed, Untimed::Feed)?;
+                        // Without linear axes the number of the feed counts degrees.
+                        let feed =
+                            if matches!(cover, Cover::Turn(_)) { feed / step.units.in_mm() } else { feed };
+                        covered / feed * self.part_of_path(motion)
+                    }
+                };
+                if self.override_off { minutes } else { minutes / self.timing.feed_override }
+            }
         };
         Ok(Seconds::from_minutes(minutes))
+    }
+
+    /// The part of a movement's path that its feed is measured along: less than 1 for a helix fed along its circle.
+    fn part_of_path(&self, motion: &Motion) -> f64 {
+        let Some(arc) = motion.arc.filter(|_| self.timing.helix_by_circle) else { return 1.0 };
+        let (circle, path) = (arc.plane_length().0, arc.length().0);
+        if circle > 0.0 && path > circle { circle / path } else { 1.0 }
     }
 
     /// The feed that drives a movement, with its mode: a lead is a feed a turn. `None` for rapid moves.

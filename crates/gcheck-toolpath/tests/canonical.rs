@@ -446,6 +446,7 @@ fn stops_outputs_and_messages() {
 fn beyond_the_interface() {
     let mut run = Run::new();
     run.event(Event::Coolant { kind: Coolant::Through, on: true });
+    run.event(Event::BarUnload(Mm(48.5))).event(Event::BarLoad);
     run.event(Event::Chuck(true)).event(Event::BarPush(Mm(30.0)));
     run.event(Event::UserCommand { number: 101, p: 1.0, q: f64::NAN });
     run.event(Event::Stop(Stop::Message("check\nthe part".into())));
@@ -457,13 +458,15 @@ fn beyond_the_interface() {
         &run,
         expect![[r#"
             |    7 N..... COMMENT("coolant through the spindle on")
-            |    8 N..... COMMENT("chuck clamped")
-            |    9 N..... COMMENT("bar pushed by 30.0000")
-            |   10 N..... COMMENT("user command 101 1.0000 nan")
-            |   11 N..... MESSAGE("check the part")
-            |   12 N..... PROGRAM_STOP()
-            |   13 N..... SELECT_TOOL(nan)
-            |   14 N..... STRAIGHT_TRAVERSE(0.0000, nan, 0.0000, 0.0000, 0.0000, 0.0000)
+            |    8 N..... COMMENT("bar unloaded")
+            |    9 N..... COMMENT("new bar loaded")
+            |   10 N..... COMMENT("chuck clamped")
+            |   11 N..... COMMENT("bar pushed by 30.0000")
+            |   12 N..... COMMENT("user command 101 1.0000 nan")
+            |   13 N..... MESSAGE("check the part")
+            |   14 N..... PROGRAM_STOP()
+            |   15 N..... SELECT_TOOL(nan)
+            |   16 N..... STRAIGHT_TRAVERSE(0.0000, nan, 0.0000, 0.0000, 0.0000, 0.0000)
         "#]],
     );
 }

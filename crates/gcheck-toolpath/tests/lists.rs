@@ -4,10 +4,10 @@ mod step_maker;
 
 use expect_test::expect;
 use gcheck_engine::{
-    Axis, Coolant, Curve, CurvePiece, Event, FeedMode, Position, Spindle, Stop, TravelKind, Units,
+    Axis, Coolant, Curve, CurvePiece, Event, FeedMode, Position, Spindle, Stop, Travel, TravelKind, Units,
 };
 use gcheck_geometry::{Mm, Plane, Seconds};
-use gcheck_toolpath::{Csv, Step, View};
+use gcheck_toolpath::{Beside, Csv, Step, View};
 use step_maker::{Run, point, timing, xyz};
 
 /// A drilled hole, an arc, and what stands between them.
@@ -190,4 +190,40 @@ fn curves_are_their_pieces() {
         {"n":2,"file":"part.nc","line":0,"kind":"feed","units":"mm","from":{"X":0.0,"Y":0.0},"programmed":{"X":10.0,"Y":0.0},"to":{"X":10.0,"Y":0.0},"machine":{"X":110.0,"Y":0.0},"feed":6.0,"feed_mode":"inverse-time","seconds":3.889845}
         {"n":3,"file":"part.nc","line":0,"kind":"arc","units":"mm","from":{"X":10.0,"Y":0.0},"programmed":{"X":20.0,"Y":10.0},"to":{"X":20.0,"Y":10.0},"machine":{"X":120.0,"Y":10.0},"feed":6.0,"feed_mode":"inverse-time","arc":{"centre":{"X":10.0,"Y":10.0,"Z":0.0},"normal":{"X":0,"Y":0,"Z":1},"sweep_deg":90.0},"seconds":6.110155}
     "#]].assert_eq(&run.jsonl(View::new(&[Axis::X, Axis::Y])));
+}
+
+/// Axes that stand beside the point which the program wrote: a reader is told both, and the tip where it is known.
+#[test]
+fn points_beside_the_programmed_one() {
+    let mut run = Run::new();
+    let mut moves = |beside, programmed, to| {
+        run.beside = beside;
+        let from = std::mem::replace(&mut run.at, to);
+        run.block().event(Event::Travel(Travel {
+            kind: TravelKind::Rapid,
+            from,
+            programmed,
+            to,
+            expanded: false,
+        }));
+    };
+    let tip = Some([Mm(1.0), Mm(2.0), Mm(0.5)]);
+    moves(Some(Beside::AlongTool { tip: None }), point(1.0, 2.0, 3.0), point(1.0, 5.0, 7.0));
+    moves(Some(Beside::AlongTool { tip }), point(1.0, 2.0, 3.0), point(1.0, 2.0, 4.0));
+    moves(Some(Beside::AlongVector), point(1.0, 2.0, 3.0), point(1.0, f64::NAN, 3.0));
+    moves(None, point(0.0, 0.0, 0.0), point(0.0, 0.0, 0.0));
+    expect![[r#"
+        part.nc, mm
+           line  move             X          Y          Z       feed   seconds
+              1  rapid       1.0000     5.0000     7.0000                0.070  posted point X1 Y2 Z3, axes at X1 Y5 Z7
+              2  rapid       1.0000     2.0000     4.0000                0.030  posted point X1 Y2 Z3, axes at X1 Y2 Z4, tip at X1 Y2 Z0.5
+              3  rapid       1.0000          ?     3.0000                    ?  programmed point X1 Y2 Z3, axes at X1 Y? Z3
+              4  rapid       0.0000     0.0000     0.0000                    ?
+    "#]].assert_eq(&run.text(xyz()));
+    expect![[r#"
+        {"n":1,"file":"part.nc","line":1,"kind":"rapid","units":"mm","from":{"X":0.0,"Y":0.0,"Z":0.0},"programmed":{"X":1.0,"Y":2.0,"Z":3.0},"to":{"X":1.0,"Y":5.0,"Z":7.0},"machine":{"X":1.0,"Y":5.0,"Z":7.0},"feed":null,"feed_mode":null,"seconds":0.07}
+        {"n":2,"file":"part.nc","line":2,"kind":"rapid","units":"mm","from":{"X":1.0,"Y":5.0,"Z":7.0},"programmed":{"X":1.0,"Y":2.0,"Z":3.0},"to":{"X":1.0,"Y":2.0,"Z":4.0},"machine":{"X":1.0,"Y":2.0,"Z":4.0},"feed":null,"feed_mode":null,"tip":{"X":1.0,"Y":2.0,"Z":0.5},"seconds":0.03}
+        {"n":3,"file":"part.nc","line":3,"kind":"rapid","units":"mm","from":{"X":1.0,"Y":2.0,"Z":4.0},"programmed":{"X":1.0,"Y":2.0,"Z":3.0},"to":{"X":1.0,"Y":null,"Z":3.0},"machine":{"X":1.0,"Y":null,"Z":3.0},"feed":null,"feed_mode":null,"seconds":null}
+        {"n":4,"file":"part.nc","line":4,"kind":"rapid","units":"mm","from":{"X":1.0,"Y":null,"Z":3.0},"programmed":{"X":0.0,"Y":0.0,"Z":0.0},"to":{"X":0.0,"Y":0.0,"Z":0.0},"machine":{"X":0.0,"Y":0.0,"Z":0.0},"feed":null,"feed_mode":null,"seconds":null}
+    "#]].assert_eq(&run.jsonl(View::new(&[Axis::X, Axis::Y, Axis::Z])));
 }

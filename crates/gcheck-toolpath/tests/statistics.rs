@@ -5,7 +5,7 @@ mod step_maker;
 use std::f64::consts::PI;
 
 use expect_test::expect;
-use gcheck_engine::{Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
+use gcheck_engine::{Axis, BarLengths, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, MmPerMin, Plane, Seconds};
 use gcheck_toolpath::{Clock, Names, Statistics, Timing, Untimed, View};
 use step_maker::{Run, point, timing, xyz};
@@ -271,6 +271,7 @@ fn figures_as_json() {
               "seconds": {
                 "cutting": 18.545455,
                 "dwell": 0.4,
+                "estimated": 0.0,
                 "rapid": 3.82,
                 "tool_change": 4.0,
                 "total": 26.765455
@@ -294,6 +295,7 @@ fn figures_as_json() {
                 "no_feed": 0,
                 "no_speed": 0,
                 "partly": 0,
+                "pockets": 0,
                 "unknown_dwell": 0,
                 "unknown_point": 0
               }
@@ -479,4 +481,60 @@ fn any_numbers() {
         serde_json::from_str::<serde_json::Value>(line).unwrap();
     }
     assert!(!run.csv(xyz()).is_empty() && !run.text(xyz()).is_empty() && !run.canonical(&[]).is_empty());
+}
+
+/// A bar job: two bars, of which the second is used up; the tools of all parts are one row each.
+#[test]
+fn parts_and_bars_of_a_bar_job() {
+    let lengths = BarLengths { part: Mm(25.0), initial: Mm(30.0), clamping: Mm(40.0) };
+    let mut run = Run::new();
+    run.rpm = 1000.0;
+    run.feed = 600.0;
+    let part = |run: &mut Run, end: &[Event]| {
+        run.event(Event::ToolChange(Some(1)));
+        run.feed(0.0, 0.0, -20.0).feed(0.0, 0.0, 0.0);
+        run.event(Event::BarFeed(lengths));
+        for event in end {
+            run.event(event.clone());
+        }
+    };
+    let push = [Event::BarPush(Mm(25.0))];
+    let load = [Event::BarUnload(Mm(48.5)), Event::BarLoad, Event::BarPush(Mm(30.0))];
+    part(&mut run, &push);
+    part(&mut run, &load);
+    part(&mut run, &push);
+    part(&mut run, &push);
+    part(&mut run, &[Event::BarUnload(Mm(48.5))]);
+    let mut statistics = Statistics::new(View::new(&[Axis::X, Axis::Y, Axis::Z]), timing(), Some(1));
+    run.each(|step| statistics.add(step));
+    assert_eq!(statistics.sections().len(), 1);
+    assert_eq!(statistics.bar().by_bar(), [2, 3]);
+    let text = statistics.to_text(&Names::NONE);
+    let section = text.split("\n\n").find(|part| part.starts_with("bar feeder")).unwrap();
+    expect![[r#"
+        bar feeder
+          5 parts from 2 bars, 2 to 3 a bar
+          bar pushed 105 mm
+          48.5 mm left of a bar, behind the face of the chuck
+          0:04.8 min a part, without what the feeder takes"#]]
+    .assert_eq(section);
+}
+
+/// A feed in front of the first part makes none, and a push of unknown length is said to be one.
+#[test]
+fn a_bar_feed_before_anything_was_cut() {
+    let unknown = BarLengths { part: Mm::UNKNOWN, initial: Mm::UNKNOWN, clamping: Mm::UNKNOWN };
+    let mut run = Run::new();
+    run.event(Event::BarFeed(unknown)).event(Event::BarPush(Mm::UNKNOWN));
+    let mut statistics = Statistics::new(View::new(&[Axis::X, Axis::Z]), timing(), Some(1));
+    run.each(|step| statistics.add(step));
+    let text = statistics.to_text(&Names::NONE);
+    expect![[r#"
+        cycle time 0:00.0 min
+
+        bar feeder
+          0 parts
+          bar pushed by lengths that are not known
+    "#]]
+    .assert_eq(&text);
 }

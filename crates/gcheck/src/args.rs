@@ -112,9 +112,25 @@ pub struct CheckOptions {
     /// How findings are printed
     #[arg(long, value_parser = format, default_value = "full", env = "GCHECK_OUTPUT_FORMAT", value_name = "FORMAT")]
     pub output_format: Format,
-    /// Write to this file instead of standard output
-    #[arg(long, short, value_name = "FILE")]
-    pub output_file: Option<PathBuf>,
+    /// Write to this file instead of standard output; with a format before it, besides (may be repeated):
+    /// `-o sarif=gcheck.sarif -o junit=gcheck.xml`
+    #[arg(long, short, value_name = "[FORMAT=]FILE", value_parser = output_file)]
+    pub output_file: Vec<OutputFile>,
+    /// Mend what has a fix that changes no move
+    #[arg(long, group = "mends")]
+    pub fix: bool,
+    /// Print what `--fix` would change instead of findings; exit with 1 if it would change anything
+    #[arg(long, group = "mends", conflicts_with = "fix")]
+    pub diff: bool,
+    /// With `--fix` or `--diff`: take fixes too that may change moves, or whose intent only the programmer knows
+    #[arg(long, requires = "mends")]
+    pub unsafe_fixes: bool,
+    /// Show only findings that this file does not know; `--update-baseline` writes it
+    #[arg(long, value_name = "FILE")]
+    pub baseline: Option<PathBuf>,
+    /// Make all that is found known to the baseline, and forget what is not found any more
+    #[arg(long, requires = "baseline", conflicts_with_all = ["select", "ignore", "extend_select", "stdin_filename"])]
+    pub update_baseline: bool,
     /// Count findings by rule
     #[arg(long)]
     pub statistics: bool,
@@ -139,6 +155,15 @@ pub struct CheckOptions {
     /// Print what is in force for each file
     #[arg(long)]
     pub show_settings: bool,
+}
+
+/// A file for findings.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OutputFile {
+    /// Its own format; without one it is that of `--output-format`, and takes the place of standard output.
+    pub format: Option<Format>,
+    /// Where it is.
+    pub path: PathBuf,
 }
 
 /// From which severity on a check fails.
@@ -294,6 +319,16 @@ fn format(name: &str) -> Result<Format, String> {
     Format::parse(name).ok_or_else(|| {
         let names: Vec<&str> = Format::ALL.iter().map(|f| f.name()).collect();
         format!("there are {}", names.join(", "))
+    })
+}
+
+/// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is no format belongs to the file's name.
+#[expect(clippy::unnecessary_wraps, reason = "the form of a value parser")]
+fn output_file(text: &str) -> Result<OutputFile, String> {
+    let with_format = text.split_once('=').and_then(|(name, path)| Some((Format::parse(name)?, path)));
+    Ok(match with_format {
+        Some((format, path)) => OutputFile { format: Some(format), path: PathBuf::from(path) },
+        None => OutputFile { format: None, path: PathBuf::from(text) },
     })
 }
 

@@ -3,21 +3,25 @@
 //! Knows: the order of the work, what runs in parallel, what ends in which exit code. Must not know: rules or formats.
 
 mod job;
+mod known;
+mod mending;
 mod progress;
 mod settings_page;
 
+use std::collections::BTreeSet;
 use std::io::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use gcheck_report::{FileReport, Format, Report, Summary};
 use gcheck_rules::Selection;
 use rayon::prelude::*;
 
-use crate::args::{CheckOptions, FailOn, Global};
+use crate::args::{CheckOptions, FailOn, Global, OutputFile};
 use crate::config::{Configs, RuleWishes, unknown_rule, validate_control};
 use crate::discovery::{self, Found};
 use crate::{Problem, output, paths, reading};
-use job::{Bench, Target};
+use job::{Bench, Checked, Target};
+use known::KnownFindings;
 use progress::Progress;
 
 /// Standard input among the paths.
@@ -36,6 +40,14 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     for selector in wishes.select.iter().chain(&wishes.ignore).chain(&wishes.extend_select) {
         Selection::none().enable(selector).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     }
+    if options.fix && options.paths.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+        return Err(Problem::new("standard input cannot be mended").help("`--diff` shows what would change"));
+    }
+    let outputs = Outputs::new(options)?;
+    let mut known = match &options.baseline {
+        Some(path) => Some(KnownFindings::read(path, options.update_baseline)?),
+        None => None,
+    };
     let mut configs = Configs::new(&global.config, global.isolated)?;
     let (targets, mut problems) = targets(options, &mut configs);
     if options.show_files {
@@ -48,9 +60,25 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
         output::print(&settings_page::page(&bench, &targets, &mut problems))?;
         return Ok(finish(&problems, 0));
     }
-    let reports = check_all(&bench, &targets, global, options, &mut problems)?;
+    let checked = check_all(&bench, &targets, global, options)?;
+    if options.diff {
+        return show_differences(global, checked, problems);
+    }
+    let mut reports = write_mended(&targets, checked, &mut problems);
+    if let Some(known) = &mut known {
+        let mut remark = None;
+        if options.update_baseline {
+            remark = Some(known.update(&mut reports)?);
+        }
+        let stale = known.apply(&mut reports);
+        // A run of some rules says nothing about the entries of others.
+        let all_rules = options.select.is_empty() && options.ignore.is_empty();
+        if let Some(remark) = remark.or(stale.filter(|_| all_rules)).filter(|_| !global.quiet) {
+            say(&remark);
+        }
+    }
     let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
-    write(global, options, &report, &problems)?;
+    write(global, options, &outputs, &report, &problems)?;
     let summary = report.summary();
     Ok(finish(&problems, u8::from(fails(&summary, options))))
 }
@@ -91,10 +119,9 @@ fn check_all(
     targets: &[Target],
     global: &Global,
     options: &CheckOptions,
-    problems: &mut Vec<Problem>,
-) -> Result<Vec<FileReport>, Problem> {
+) -> Result<Vec<Result<Checked, Problem>>, Problem> {
     let progress = Progress::new(targets.len(), global.quiet);
-    let work = || -> Vec<Result<FileReport, Problem>> {
+    let work = || -> Vec<Result<Checked, Problem>> {
         targets.par_iter().map(|target| progress.counting(|| job::guarded(bench, target))).collect()
     };
     let results = match (options.jobs, targets.len()) {
@@ -108,14 +135,58 @@ fn check_all(
             .install(work),
     };
     progress.end();
-    let mut reports = Vec::with_capacity(results.len());
-    for result in results {
-        match result {
+    Ok(results)
+}
+
+/// Writes the programs that were mended. One that cannot be written is a problem, and no more is said of it: what was found
+/// last was found in a text that is on no disk.
+fn write_mended(
+    targets: &[Target],
+    checked: Vec<Result<Checked, Problem>>,
+    problems: &mut Vec<Problem>,
+) -> Vec<FileReport> {
+    let mut reports = Vec::with_capacity(checked.len());
+    for (target, checked) in targets.iter().zip(checked) {
+        let written = checked.and_then(|Checked { report, mended }| match mended {
+            Some(mended) => mending::write(&target.path, &mended).map(|()| report),
+            None => Ok(report),
+        });
+        match written {
             Ok(report) => reports.push(report),
             Err(problem) => problems.push(problem),
         }
     }
-    Ok(reports)
+    reports
+}
+
+/// Prints what `--fix` would change; the exit code says whether it would change anything.
+fn show_differences(
+    global: &Global,
+    checked: Vec<Result<Checked, Problem>>,
+    mut problems: Vec<Problem>,
+) -> Result<u8, Problem> {
+    let (mut findings, mut files, mut text) = (0, 0, String::new());
+    for checked in checked {
+        match checked {
+            Ok(Checked { report, mended: Some(mended) }) => {
+                findings += report.fixed;
+                files += 1;
+                text.push_str(&mending::difference(&report.path, &mended));
+            }
+            Ok(_) => {}
+            Err(problem) => problems.push(problem),
+        }
+    }
+    output::print(&text)?;
+    if !global.quiet {
+        let words = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+        say(&format!(
+            "{} would be mended in {}",
+            words(findings, "finding", "findings"),
+            words(files, "file", "files")
+        ));
+    }
+    Ok(finish(&problems, u8::from(files > 0)))
 }
 
 fn fails(summary: &Summary, options: &CheckOptions) -> bool {
@@ -128,10 +199,44 @@ fn fails(summary: &Summary, options: &CheckOptions) -> bool {
     at_or_above > 0 || options.max_warnings.is_some_and(|most| summary.warnings > most)
 }
 
-/// Findings to standard output or the file; what is for people to read besides, where it does not disturb.
+/// Where findings go.
+struct Outputs<'o> {
+    /// The file that takes the place of standard output.
+    main: Option<&'o Path>,
+    /// Files with a format of their own.
+    besides: Vec<(Format, &'o Path)>,
+}
+
+impl<'o> Outputs<'o> {
+    /// Sorts the files of the command line.
+    ///
+    /// # Errors
+    /// When two outputs would go to one file.
+    fn new(options: &'o CheckOptions) -> Result<Self, Problem> {
+        let mut outputs = Self { main: None, besides: Vec::new() };
+        let mut taken = BTreeSet::new();
+        for OutputFile { format, path } in &options.output_file {
+            if !taken.insert(paths::absolute(path)) {
+                return Err(Problem::with_file(path, "two outputs cannot go to one file"));
+            }
+            match format {
+                Some(format) => outputs.besides.push((*format, path)),
+                None if outputs.main.is_none() => outputs.main = Some(path),
+                None => {
+                    return Err(Problem::with_file(path, "is a second file for the same output")
+                        .help("give it a format of its own: `-o sarif=FILE`"));
+                }
+            }
+        }
+        Ok(outputs)
+    }
+}
+
+/// Findings to standard output or files; what is for people to read besides, where it does not disturb.
 fn write(
     global: &Global,
     options: &CheckOptions,
+    outputs: &Outputs<'_>,
     report: &Report,
     problems: &[Problem],
 ) -> Result<(), Problem> {
@@ -139,12 +244,12 @@ fn write(
     if format.is_text() && !global.quiet {
         say(&gcheck_report::control_lines(report).join("\n"));
     }
-    match &options.output_file {
-        Some(file) => {
-            output::to_file(file, |out| {
-                gcheck_report::write(report, format, gcheck_report::Colour::Plain, out)
-            })?;
-        }
+    let to_file = |format, path| {
+        output::to_file(path, |out| gcheck_report::write(report, format, gcheck_report::Colour::Plain, out))
+    };
+    outputs.besides.iter().try_for_each(|(format, path)| to_file(*format, path))?;
+    match outputs.main {
+        Some(path) => to_file(format, path)?,
         None => {
             let colour = output::colour(global.color);
             output::to_stdout(|out| gcheck_report::write(report, format, colour, out))?;
@@ -159,7 +264,7 @@ fn write(
         closing.push_str(&closing_line(report));
     }
     // Only the format for people has room for a closing line; a parser reads the others.
-    if format == Format::Full && options.output_file.is_none() {
+    if format == Format::Full && outputs.main.is_none() {
         output::print(&closing)?;
     } else if format.is_text() || options.statistics {
         say(&closing);

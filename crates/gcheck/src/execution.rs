@@ -5,6 +5,7 @@
 mod bridge;
 mod closing;
 mod equipment;
+mod rotary;
 mod tool_names;
 mod tool_table;
 
@@ -70,7 +71,7 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
     let plain = gcheck_controls::load(&choice.name).map_err(|error| Problem::new(error.to_string()))?;
     let control =
         if settings.codes.is_empty() { plain } else { Arc::new(plain.with_user_codes(&settings.codes)) };
-    let mut equipment = Equipment::new(&settings, &control, Start::Fresh)?;
+    let mut equipment = Equipment::new(&settings, &Model::new(&control), Start::Fresh)?;
     equipment.set(&options.set);
     Ok(Prepared {
         shown: paths::shown(&path),
@@ -165,7 +166,7 @@ impl Session<'_> {
 pub(crate) fn exit_code(result: &RunResult) -> u8 {
     use gcheck_engine::Ending;
     match result.stopped {
-        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape) => 0,
+        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => 0,
         Stopped::Ended(Ending::Text | Ending::Alarm(_)) | Stopped::Faulted(_) | Stopped::OutOfFuel => 1,
     }
 }

@@ -238,6 +238,13 @@ fn of_cycle(fault: CycleFault) -> Words {
             .help("end compensation (`G40`) before it"),
         CycleFault::Plane => Words::new("the canned cycle does not run in this plane"),
         CycleFault::Geometry => Words::new("the words of the cycle contradict each other"),
+        CycleFault::OutlineOpen(_) => Words::new("the outline of the pocket is not closed")
+            .why("its last move does not end where its first move leads to")
+            .help("end the outline at the point that its first move reaches"),
+        CycleFault::OutlineEmpty => Words::new("the pocket has no outline")
+            .why("nothing stands behind the move that leads to the outline"),
+        CycleFault::StartOutside => Words::new("the start hole of the pocket lies outside its outline")
+            .help("give the start hole with `X` and `Y`, inside the outline"),
     }
 }
 

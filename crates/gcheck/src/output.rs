@@ -76,6 +76,40 @@ pub(crate) fn to_file(
     })
 }
 
+/// Replaces a file whole or not at all, with the permissions that it had, and only if it still holds what `is_same` wants.
+///
+/// A link stays, and what it leads to is replaced.
+pub(crate) fn replace(
+    path: &Path,
+    permissions: &fs::Permissions,
+    bytes: &[u8],
+    is_same: impl FnOnce(&[u8]) -> bool,
+) -> Result<(), Problem> {
+    let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
+    let target = fs::canonicalize(path).map_err(|error| problem(&error))?;
+    let temporary = beside(&target);
+    let written = File::create(&temporary).and_then(|mut file| {
+        file.write_all(bytes)?;
+        file.set_permissions(permissions.clone())?;
+        file.sync_all()?;
+        // As late as can be: between this look and the new name there is room for hardly anybody.
+        Ok(is_same(&fs::read(&target)?))
+    });
+    let done = match written {
+        Ok(true) => fs::rename(&temporary, &target).map_err(|error| problem(&error)),
+        Ok(false) => {
+            Err(Problem::with_file(path, "was changed by somebody else meanwhile, and is left alone")
+                .help("run gcheck again"))
+        }
+        Err(error) => Err(problem(&error)),
+    };
+    if done.is_err() {
+        // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
+        let _ = fs::remove_file(&temporary);
+    }
+    done
+}
+
 /// A name in the same folder, so that the rename stays on one file system.
 fn beside(path: &Path) -> PathBuf {
     let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();

@@ -127,15 +127,6 @@ pub fn hole(
             }
         }
         Effect::CycleFineBore => hole.fine_bore()?,
-        Effect::CycleRadial => {
-            if hole.hole.peck.is_some() || hole.hole.ijk.iter().any(Option::is_some) {
-                hole.pecks(false)?;
-            } else {
-                hole.feed_to(hole.bottom())?;
-                hole.dwell()?;
-                hole.rapid_to(hole.clear())?;
-            }
-        }
         _ => return Err(CycleError::NotThisKind),
     }
     Ok(hole.sink.at)
@@ -189,7 +180,7 @@ impl Tool<'_, '_> {
         if let Some(peck) = self.hole.peck {
             known(&[peck])?;
         }
-        let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak | Effect::CycleRadial);
+        let pecks = matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak);
         if pecks && self.hole.peck.is_some_and(|peck| peck <= Mm::ZERO) {
             return Err(CycleFault::NotPositive(Letter::of('Q')).into());
         }
@@ -337,12 +328,17 @@ impl Tool<'_, '_> {
             self.sink.at = self.point(self.clear());
             return Ok(());
         }
+        // The pitch ties the feed to the spindle: the override switches have no say.
+        self.sink.put(Stroke::FeedOverride(false))?;
         self.sink.put(Stroke::SpindleTurn { clockwise })?;
         self.feed_to(self.bottom())?;
         self.dwell()?;
         self.sink.put(Stroke::SpindleTurn { clockwise: !clockwise })?;
         self.feed_to(self.r())?;
         self.sink.put(Stroke::SpindleRestart)?;
+        if feed {
+            self.sink.put(Stroke::FeedOverride(true))?;
+        }
         self.rapid_if_elsewhere(self.clear())
     }
 
@@ -498,6 +494,9 @@ mod tests {
             incremental_r: true,
             rise_to_r: true,
             tap_needs_spindle: true,
+            across: Vec::new(),
+            r_is_distance: false,
+            pocket_moves: None,
         }
     }
 
@@ -871,16 +870,18 @@ mod tests {
             &words,
             [1.0, 5.0, 5.0],
             &expect![[r#"
-            rapid 1 1 5
-            rapid 1 1 2
-            spindle counter-clockwise
-            feed 1 1 -1
-            dwell 1
-            spindle clockwise
-            feed 1 1 2
-            spindle as before
-            rapid 1 1 5
-        "#]],
+                rapid 1 1 5
+                rapid 1 1 2
+                feed override false
+                spindle counter-clockwise
+                feed 1 1 -1
+                dwell 1
+                spindle clockwise
+                feed 1 1 2
+                spindle as before
+                feed override true
+                rapid 1 1 5
+            "#]],
         );
     }
 

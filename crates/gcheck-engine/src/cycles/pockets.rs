@@ -142,22 +142,35 @@ pub struct PocketPlan {
 /// Ends of the outline may miss each other by this much, millimetres.
 const GAP: f64 = 0.01;
 
+/// The corners of an outline that is closed around its start hole. The first piece leads from the hole to the outline.
+fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Vec<(f64, f64)>, CycleError> {
+    let cuts = cuts(start, outline)?;
+    let wall = cuts.get(1..).unwrap_or_default();
+    let (Some(first), Some(last)) = (wall.first(), wall.last()) else {
+        return Err(CycleFault::OutlineEmpty.into());
+    };
+    let gap = distance(first.from(), last.to());
+    if gap > GAP {
+        return Err(CycleFault::OutlineOpen(gap).into());
+    }
+    let corners = flattened(wall);
+    if contains(&corners, (start.0.0, start.1.0)) {
+        Ok(corners)
+    } else {
+        Err(CycleFault::StartOutside.into())
+    }
+}
+
 /// Checks and estimates a pocket whose outline is given as pieces in (X, Y). The first piece leads from the start hole to
-/// the outline and is no part of it.
+/// the outline and is no part of it. With a tool of unknown size its levels are known, its extents and its time are not.
 ///
 /// # Errors
 ///
 /// Exactly one of `I` and `J`; `I`, `J`, `Q` positive; a closed outline with the start hole inside; a floor below `R`.
 pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Result<PocketPlan, CycleError> {
-    known(&[
-        words.r,
-        words.bottom,
-        words.layer,
-        words.finish,
-        words.tool_radius,
-        words.start.0,
-        words.start.1,
-    ])?;
+    known(&[words.start.0, words.start.1])?;
+    let corners = closed(words.start, outline)?;
+    known(&[words.r, words.bottom, words.layer, words.finish])?;
     let (step, letter) = match (words.step_x, words.step_y) {
         (Some(_), Some(_)) => return Err(CycleFault::Geometry.into()),
         (Some(step), None) => (step, 'I'),
@@ -176,18 +189,6 @@ pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Resu
     if words.bottom > words.r {
         return Err(CycleFault::RBelowBottom.into());
     }
-    let cuts = cuts(words.start, outline)?;
-    let wall = cuts.get(1..).unwrap_or_default();
-    let (Some(first), Some(last)) = (wall.first(), wall.last()) else {
-        return Err(CycleFault::Geometry.into());
-    };
-    if distance(first.from(), last.to()) > GAP {
-        return Err(CycleFault::Geometry.into());
-    }
-    let corners = flattened(wall);
-    if !contains(&corners, (words.start.0.0, words.start.1.0)) {
-        return Err(CycleFault::Geometry.into());
-    }
 
     let count = ((words.r - words.bottom) / words.layer).ceil().max(1.0);
     if count > f64::from(super::MAX_STROKES) {
@@ -203,8 +204,10 @@ pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Resu
     let perimeter: f64 = edges(&corners).map(|(a, b)| distance(a, b)).sum();
     // The tool's centre keeps its radius from the wall: what is left of the area to clear, and of the wall to follow.
     let radius = words.tool_radius.0;
-    let inner = (area - perimeter * radius + std::f64::consts::PI * radius * radius).max(0.0);
-    let wall_way = (perimeter - std::f64::consts::TAU * radius).max(0.0);
+    // `max` would make a number of what is not known.
+    let at_least_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
+    let inner = at_least_zero(area - perimeter * radius + std::f64::consts::PI * radius * radius);
+    let wall_way = at_least_zero(perimeter - std::f64::consts::TAU * radius);
     let rounds = if words.finish > Mm::ZERO { 2.0 } else { 1.0 };
     let depth = (words.r - words.bottom).0;
     let cut_length = Mm(count * (inner / step.0 + wall_way * rounds) + depth);
@@ -218,6 +221,9 @@ pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Resu
     let inside = |axis: fn(&(f64, f64)) -> f64, start: Mm| {
         // Where the tool does not fit, it stays in its start hole.
         let (low, high) = (bound(axis, true) + radius, bound(axis, false) - radius);
+        if radius.is_nan() {
+            return (Mm::UNKNOWN, Mm::UNKNOWN);
+        }
         (start.min(Mm(low.min(high))), start.max(Mm(high.max(low))))
     };
     let (low_x, high_x) = inside(|corner| corner.0, start[0]);
@@ -438,16 +444,27 @@ mod tests {
     }
 
     #[test]
+    fn a_tool_of_unknown_size_leaves_extents_and_time_unknown() {
+        let unknown = GeneralPocket { tool_radius: Mm::UNKNOWN, ..general() };
+        let plan = general_pocket(&rectangle(), &unknown).unwrap();
+        assert_eq!(plan.levels, [Mm(-1.0), Mm(-3.0), Mm(-4.0)]);
+        assert!(!plan.low[0].is_known() && !plan.estimated.is_finite(), "{plan:?}");
+    }
+
+    #[test]
     fn outlines_that_cannot_be_cleared_are_refused() {
         let refused =
             |outline: &[ProfileSegment], words: GeneralPocket| general_pocket(outline, &words).unwrap_err();
         let geometry = CycleError::Fault(CycleFault::Geometry);
-        assert_eq!(refused(&rectangle()[..4], general()), geometry, "open");
-        assert_eq!(refused(&rectangle()[..1], general()), geometry, "no outline");
+        assert_eq!(
+            refused(&rectangle()[..4], general()),
+            CycleFault::OutlineOpen(40.0_f64.hypot(10.0)).into()
+        );
+        assert_eq!(refused(&rectangle()[..1], general()), CycleFault::OutlineEmpty.into());
         assert_eq!(refused(&[], general()), CycleError::Profile(super::super::ProfileFault::Empty));
         assert_eq!(
             refused(&rectangle(), GeneralPocket { start: (Mm(50.0), Mm(0.0)), ..general() }),
-            geometry
+            CycleFault::StartOutside.into()
         );
         assert_eq!(refused(&rectangle(), GeneralPocket { step_x: Some(Mm(1.0)), ..general() }), geometry);
         assert_eq!(

@@ -64,7 +64,16 @@ pub fn roughing(
     if words.depth <= Mm::ZERO {
         return Err(CycleFault::NotPositive(Letter::of(letter)).into());
     }
-    let cuts = cuts((z0, x0), profile)?;
+    let mut cuts = cuts((z0, x0), profile)?;
+    // A rapid at the end that goes back over what was cut takes the tool away; it is no part of the shape.
+    while let [.., before, Cut::Line { from, to, rapid: true }] = cuts.as_slice() {
+        let way = |(z, x): Point| if along_x { x } else { z };
+        let forth = way(before.to()) - way((z0.0, x0.0));
+        if (way(*to) - way(*from)) * forth >= 0.0 {
+            break;
+        }
+        cuts.pop();
+    }
     let view = View::of(&cuts, along_x)?;
     let cuts: Vec<Cut> = cuts.iter().map(|cut| view.inward(cut)).collect();
     let (u0, v0) = view.point((z0.0, x0.0));

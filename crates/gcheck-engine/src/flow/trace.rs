@@ -27,10 +27,12 @@ pub enum Fact {
     Shift,
     /// Coolant.
     Coolant,
+    /// The chuck open or closed.
+    Chuck,
 }
 
 impl Fact {
-    const COUNT: usize = Role::COUNT + 8;
+    const COUNT: usize = Role::COUNT + 9;
 
     const fn index(self) -> usize {
         match self {
@@ -43,6 +45,7 @@ impl Fact {
             Self::Length => Role::COUNT + 5,
             Self::Shift => Role::COUNT + 6,
             Self::Coolant => Role::COUNT + 7,
+            Self::Chuck => Role::COUNT + 8,
         }
     }
 }
@@ -104,6 +107,7 @@ impl Trace {
             Event::LengthOffset(_) => Fact::Length,
             Event::Shift(_) => Fact::Shift,
             Event::Coolant { .. } => Fact::Coolant,
+            Event::Chuck(_) => Fact::Chuck,
             _ => return,
         };
         if let Some(slot) = self.set.get_mut(fact.index()) {

@@ -7,7 +7,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_geometry::{Arc, ArcDirection, ArcError, ArcTolerance, Mm, Plane};
 
 use super::{Count, Executor, Step};
-use crate::event::{ArcMove, Event, Units};
+use crate::event::{ArcMove, Event, TravelKind, Units};
 use crate::fault::{ArcFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
@@ -50,7 +50,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.unknown_arc(counter_clockwise, target, state);
         };
         let ([first, second, _], [i, j, k]) = plane_axes(plane);
-        let rules = self.model.semantics().arcs;
+        let rules = &self.model.semantics().arcs;
         if self.words.has(k) && self.refuses_incomplete() {
             return Err(Fault::Arc(ArcFault::WrongPlane(k)));
         }
@@ -78,7 +78,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let centre = self.centre(state, [first, second], [i, j])?;
                 Arc::by_centre(plane, start, end, centre, direction, turns, &tolerance)
             }
-            (false, None) => return Err(Fault::Arc(ArcFault::NoCentre)),
+            (false, None) => return self.arc_without_centre(target, state),
         };
         let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
         if !arc.is_known() {
@@ -93,7 +93,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.left_compensation.is_some() {
             self.leave_compensation(true, state)?;
         }
-        if self.compensates(state) {
+        if self.compensates(state) || state.tool_shift.is_on() {
             return self.unknown_arc(counter_clockwise, target, state);
         }
         let to = self.axes_of(target, state);
@@ -113,6 +113,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.position = *target;
         self.emit(state, Event::Arc(event));
         Ok(())
+    }
+
+    /// A straight move where a setting lets it be one; an analysis of all paths is told of it unless the setting was told.
+    fn arc_without_centre(&mut self, target: &Position, state: &mut State<D>) -> Step {
+        let fault = Err(Fault::Arc(ArcFault::NoCentre));
+        if !self.is_straight_without_centre() {
+            return fault;
+        }
+        self.travel(TravelKind::Feed, *target, false, state)?;
+        let setting = self.model.semantics().arcs.straight_setting.as_deref();
+        let is_told = setting.is_some_and(|number| self.machine.settings.contains_key(number));
+        if self.lenient && !is_told { fault } else { Ok(()) }
+    }
+
+    /// What the control makes of an arc without centre and radius.
+    pub(super) fn is_straight_without_centre(&mut self) -> bool {
+        let setting = self.model.semantics().arcs.straight_setting.as_deref();
+        setting.is_some_and(|number| self.setting(number) != Some("alarm"))
     }
 
     /// The end of an arc whose shape is not known.
@@ -168,7 +186,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The control's tolerance. Its figures are whole numbers of the program's units, so inches have their own.
     pub(super) fn arc_tolerance(&self, state: &State<D>) -> ArcTolerance {
-        let rules = self.model.semantics().arcs;
+        let rules = &self.model.semantics().arcs;
         let scale = if state.units(self.model) == Some(Units::Inch) { rules.inch_factor } else { 1.0 };
         ArcTolerance {
             absolute: Mm(rules.radius_difference * scale),
@@ -181,7 +199,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 }
 
-fn arc_fault(error: &ArcError) -> ArcFault {
+pub(super) fn arc_fault(error: &ArcError) -> ArcFault {
     match error {
         ArcError::ZeroRadius => ArcFault::ZeroRadius,
         ArcError::RadiusTooSmall { half_chord, radius } => {

@@ -66,7 +66,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let left = matches!(effect, Effect::CompensationLeft | Effect::CompensationLeftByDiameter);
         if effect == Effect::CompensationVector {
             self.remember_offset_number(state)?;
-            return Ok(());
+            return self.cutter_along_vectors(state);
+        }
+        self.end_cutter_along_vectors(state);
+        if state.tool_shift.is_on() {
+            // Refused along a tilting tool: the path beside the programmed one is not known.
+            return self.remember_offset_number(state);
         }
         let secondary = state.effect(Role::Plane, self.model) == Some(Effect::PlaneSecondary);
         if secondary && self.refuses_incomplete() {
@@ -118,7 +123,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
+    pub(crate) fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
         if let Some(value) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
             state.d = value;
@@ -129,7 +134,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Radius of the cutter that `D` names, NaN unknown, with the orientation of a lathe tool.
-    fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
+    pub(crate) fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
         let Some(number) = D::known(&state.d) else { return Ok((f64::NAN, 0)) };
         if state.tables.complete && D::known(&state.tool) == Some(number) && !self.words.has(Letter::of('D'))
         {
@@ -162,13 +167,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G40`.
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
+        self.end_cutter_along_vectors(state);
         let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
         let mut out = Vec::new();
         let result = compensation.compensator.stop(|offset| out.push(offset));
         self.give_out(&mut compensation, out, state);
         match result {
             Ok(exit) => {
-                state.actual = above(&state.actual, exit.position, compensation.plane);
+                let actual = above(&state.actual, exit.position, compensation.plane);
+                state.actual = state.wrapped.turned(actual);
                 state.position = above(&state.position, exit.programmed, compensation.plane);
                 state.left_compensation = Some(compensation);
                 Ok(())
@@ -250,7 +257,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state.position = target;
         match result {
             Ok(()) => {
-                state.actual = above(&target, compensation.compensator.position(), compensation.plane);
+                let actual = above(&target, compensation.compensator.position(), compensation.plane);
+                state.actual = state.wrapped.turned(actual);
                 state.compensation = Some(compensation);
                 Ok(())
             }
@@ -292,7 +300,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &State<D>,
     ) {
         let from = compensation.at;
-        let to = above(&others, segment.end, compensation.plane);
+        let to = state.wrapped.turned(above(&others, segment.end, compensation.plane));
         compensation.at = to;
         let event = match segment.course {
             OffsetCourse::Line(kind) => {

@@ -387,6 +387,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// Addresses of which one in a block without codes and flags makes [`Self::check_block`] look at it.
+    pub(super) fn watched_letters(&self) -> LetterSet {
+        let rules = &self.model.contract;
+        if self.lenient || rules.idle { LetterSet::EMPTY } else { rules.watched }
+    }
+
     /// Does the code stand once, and in front of all else but the number?
     fn opens_block(&self, place: &Place, words: &[Word], ix: CodeIx) -> bool {
         let Some(at) = words.iter().position(|word| word.code == ix) else { return true };

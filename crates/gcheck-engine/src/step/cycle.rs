@@ -2,7 +2,7 @@
 //!
 //! Knows: words that stay from block to block, repeats, incremental levels. Must not know: the strokes of one hole ([`crate::cycles`]).
 
-use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet};
+use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet, Need};
 use gcheck_geometry::{Mm, Plane, Seconds};
 
 use super::arc::plane_axes;
@@ -25,18 +25,25 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = &self.model.semantics().cycles;
         let names_code = self.words.codes().contains(&code);
         self.check_primary_plane(code, state)?;
-        let plane = if rules.all_planes { state.plane(self.model) } else { Some(Plane::Xy) };
+        let plane = if self.model.drills_across(code) {
+            Some(Plane::Yz)
+        } else if rules.all_planes {
+            state.plane(self.model)
+        } else {
+            Some(Plane::Xy)
+        };
         let Some(plane) = plane else { return self.lose_cycle(state) };
         let ([first, second, depth], _) = plane_axes(plane);
         let has_point = self.words.has(first.letter()) || self.words.has(second.letter());
-        let has_words =
-            has_point || self.words.has(depth.letter()) || self.words.present().intersects(super::POLAR);
-        if effect == Effect::CycleAlongTool || effect == Effect::CycleRadial {
+        // A turn of the work brings another hole, and so do increments that have their own addresses.
+        let has_point = has_point || !self.refuses_incomplete() && self.names_other_axis(depth);
+        let has_words = has_point || self.names_axis(depth) || self.words.present().intersects(super::POLAR);
+        if effect == Effect::CycleAlongTool {
             return self.lose_cycle(state);
         }
         let words = self.cycle_words(effect, depth, state);
         if let Err(fault) = words {
-            self.skip_to_hole(state)?;
+            self.skip_to_hole([first, second], state)?;
             return Err(fault);
         }
         // The letter may be one of a length elsewhere; here it counts as it is written.
@@ -161,8 +168,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(incremental) => incremental && rules.incremental_r,
             None => return self.unknown_levels(words, state),
         };
-        let level = |letter: Letter| self.words.number(letter).map(|value| value * unit);
-        let (retract, bottom) = (level(Letter::of('R')), level(depth.letter()));
+        // Levels along X are diameters where X is; `R` is a radius as a distance, and where cycles drill in any plane.
+        let half = match state.is_diameter(self.model) {
+            _ if depth != Axis::X => 1.0,
+            Some(true) => 0.5,
+            Some(false) => 1.0,
+            None => f64::NAN,
+        };
+        let level = |letter: Letter| self.length(letter, state).map(|value| value * half);
+        let r = Letter::of('R');
+        let retract = if rules.r_is_distance || rules.all_planes { self.length(r, state) } else { level(r) };
+        let bottom = level(depth.letter());
         let [given_r, given_z] = &mut words.given;
         *given_r = retract.unwrap_or(*given_r);
         *given_z = bottom.unwrap_or(*given_z);
@@ -170,19 +186,40 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // increment counts in the block that gives it, and the level stays where it led.
         let counted = if rules.rise_to_r { (Some(*given_r), Some(*given_z)) } else { (retract, bottom) };
         if let Some(level) = counted.0 {
-            words.r = if relative { words.initial + level } else { level };
+            words.r = if relative || rules.r_is_distance { words.initial + level } else { level };
+        } else if words.word('R', words.r).is_none() && self.starts_without_r(state) {
+            words.r = words.initial;
         }
         if let Some(level) = counted.1 {
             words.z = if relative { words.r + level } else { level };
         }
+        let increment =
+            self.words.present().iter().find(|letter| self.model.axis_of(*letter) == Some((depth, true)));
+        if let Some(way) = increment.and_then(level) {
+            words.z = way + if rules.r_is_distance { words.r } else { words.initial };
+            words.give(depth.letter());
+        }
         state.cycle = words;
-        if words.word('R', words.r).is_none() {
+        if words.word('R', words.r).is_none() && !self.starts_without_r(state) {
             return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
         }
         if words.word(depth.name(), words.z).is_none() && effect != Effect::CycleCancel {
             return Err(Fault::Cycle(CycleFault::Missing(depth.letter())));
         }
         Ok(())
+    }
+
+    /// Without `R` the cycle in effect begins at the level of the tool.
+    fn starts_without_r(&self, state: &State<D>) -> bool {
+        let cycle = state.active_cycle(self.model).and_then(|ix| self.model.control().code_at(ix));
+        let word = cycle.and_then(|code| code.entry().words.iter().find(|word| word.letter == "R"));
+        word.is_some_and(|word| word.need == Need::Optional)
+    }
+
+    /// Does the block name an axis beside the one of depth, in whatever way?
+    fn names_other_axis(&self, depth: Axis) -> bool {
+        let axes = self.words.present().iter().filter_map(|letter| self.model.axis_of(letter));
+        axes.into_iter().any(|(axis, _)| axis != depth)
     }
 
     /// Absolute or incremental is not known, and so are the levels.
@@ -193,10 +230,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The tool goes to the hole's place though the cycle is refused, so that what follows is judged from there.
-    fn skip_to_hole(&mut self, state: &mut State<D>) -> Step {
+    fn skip_to_hole(&mut self, plane: [Axis; 2], state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        state.position.set(Axis::X, target.raw(Axis::X));
-        state.position.set(Axis::Y, target.raw(Axis::Y));
+        for axis in plane {
+            state.position.set(axis, target.raw(axis));
+        }
         state.actual = self.axes_of(&state.position, state);
         Ok(())
     }
@@ -219,25 +257,51 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let ([first, second, _], _) = plane_axes(plane);
         let incremental = state.is_incremental(self.model);
         let target = self.target(state)?;
-        let here = (state.position.raw(first), state.position.raw(second));
-        let step = |axis: Axis| {
-            if self.words.has(axis.letter()) { target.raw(axis) - state.position.raw(axis) } else { 0.0 }
+        let present = self.words.present();
+        // Where the repeats of an axis count from, and how far each goes on.
+        let way = |axis: Axis| {
+            let here = state.position.raw(axis);
+            let has_own = present.iter().any(|letter| self.model.axis_of(letter) == Some((axis, true)));
+            match incremental {
+                Some(false) if !has_own => (target.raw(axis), 0.0),
+                _ if has_own || self.words.has(axis.letter()) => (here, target.raw(axis) - here),
+                _ => (here, 0.0),
+            }
         };
-        let (along, across) =
-            if incremental == Some(false) { (0.0, 0.0) } else { (step(first), step(second)) };
-        let start = if incremental == Some(false) { (target.raw(first), target.raw(second)) } else { here };
+        let ((first_start, along), (second_start, across)) = (way(first), way(second));
+        let start = (first_start, second_start);
         let most = repeats.min(crate::cycles::MAX_STROKES);
         if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) && incremental != Some(false) {
+            let here = (state.position.raw(first), state.position.raw(second));
             let to = (target.raw(first), target.raw(second));
             return self.holes_around(effect, plane, here, to, most, state);
         }
+        let turned = [Axis::A, Axis::B, Axis::C].map(|axis| (axis, way(axis)));
+        let turned = turned.into_iter().filter(|(axis, (from, step))| {
+            *step != 0.0 || from.to_bits() != state.position.raw(*axis).to_bits()
+        });
+        let turned: Vec<_> = turned.collect();
         // Step by step: a product would differ in the last bit.
         let mut at = start;
         let points = (0..most).map(move |_| {
             at = (at.0 + along, at.1 + across);
             at
         });
-        self.drill(effect, plane, points, state)
+        if turned.is_empty() {
+            return self.drill(effect, plane, points, state);
+        }
+        for (index, at) in points.enumerate() {
+            let mut to = state.position;
+            to.set(first, at.0);
+            to.set(second, at.1);
+            for (axis, (from, step)) in &turned {
+                let turn = if index == 0 { *from } else { to.raw(*axis) };
+                to.set(*axis, turn + step);
+            }
+            self.travel(TravelKind::Rapid, to, true, state)?;
+            self.drill(effect, plane, std::iter::once(at), state)?;
+        }
+        Ok(())
     }
 
     /// Holes at increments of a polar angle: each is turned about the origin as the first one is from where the tool stands.
@@ -366,15 +430,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Gives out the strokes of an operation.
     pub(super) fn strokes(&mut self, strokes: &[Stroke], plane: Plane, state: &mut State<D>) -> Step {
         let spindle = state.spindle;
+        let is_direct = self.goes_direct(state);
         for stroke in strokes {
             match *stroke {
-                Stroke::Rapid(to) => {
+                Stroke::Rapid(to) | Stroke::Feed(to) => {
+                    let rapid = matches!(stroke, Stroke::Rapid(_));
+                    let kind = if rapid { TravelKind::Rapid } else { TravelKind::Feed };
                     let to = state.position.with_xyz(to);
-                    self.travel(TravelKind::Rapid, to, true, state)?;
-                }
-                Stroke::Feed(to) => {
-                    let to = state.position.with_xyz(to);
-                    self.travel(TravelKind::Feed, to, true, state)?;
+                    if is_direct {
+                        self.travel_direct(kind, &to, true, state);
+                    } else {
+                        self.travel(kind, to, true, state)?;
+                    }
                 }
                 Stroke::Thread { to, lead } => {
                     let to = state.position.with_xyz(to);

@@ -8,8 +8,10 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
 use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
 
+use super::bar::BarCommand;
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
 use crate::assumption::Assumption;
+use crate::cylinder::Wrapped;
 use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::state::{At, Frame, FrameKind, ModalCall, State};
@@ -23,6 +25,7 @@ pub(super) struct Callee<D: Domain> {
     target: At,
     repeats: Option<u32>,
     arguments: Option<Vec<(u32, D::Value)>>,
+    bar_feed: Option<Rc<BarCommand>>,
 }
 
 /// Labels that a computed jump is followed to: one more than an analysis keeps waiting, so that it gives up rather than
@@ -193,7 +196,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(target) = target else {
             return self.missing_program(number, effect == Effect::CallLocal, state);
         };
-        self.flow = Some(Flow::Call(Callee { kind, target, repeats: Some(repeats - 1), arguments: None }));
+        self.flow = Some(Flow::Call(Callee {
+            kind,
+            target,
+            repeats: Some(repeats - 1),
+            arguments: None,
+            bar_feed: None,
+        }));
         Ok(())
     }
 
@@ -211,7 +220,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A program that is not here may be in the control's memory: after it, hardly anything is known.
-    fn missing_program(&mut self, number: u32, local: bool, state: &mut State<D>) -> Step {
+    pub(super) fn missing_program(&mut self, number: u32, local: bool, state: &mut State<D>) -> Step {
         if local {
             return Err(Fault::NoSuchLabel(number));
         }
@@ -227,8 +236,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn lose_everything(&mut self, state: &mut State<D>) {
         state.compensation = None;
         let frames = state.frames.clone();
+        let shift = state.tool_shift;
         let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
+        // What was not wrapped still is not.
+        let wrapped = if state.wrapped == Wrapped::No { Wrapped::No } else { Wrapped::Unknown };
         *state = unknown;
+        // What was on may still be; of what was off we take it that it is left off.
+        state.tool_shift = shift.or_none();
+        state.wrapped = wrapped;
         state.frames = frames;
         if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
             locals.forget();
@@ -277,6 +292,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             target,
             repeats: Some(repeats - 1),
             arguments: Some(arguments),
+            bar_feed: None,
         }));
         Ok(())
     }
@@ -331,6 +347,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 target: call.target,
                 repeats: Some(call.repeats.saturating_sub(1)),
                 arguments: Some(call.arguments.clone()),
+                bar_feed: None,
             }));
         }
     }
@@ -367,8 +384,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: callee.bar_feed,
         });
         Ok(Outcome::Jump(callee.target))
+    }
+
+    /// The cutoff program of a bar feed, which goes on when it comes back.
+    pub(super) fn cut_off_then_feed(&mut self, target: At, feed: BarCommand) {
+        self.flow = Some(Flow::Call(Callee {
+            kind: FrameKind::Subprogram,
+            target,
+            repeats: Some(0),
+            arguments: None,
+            bar_feed: Some(Rc::new(feed)),
+        }));
     }
 
     /// `M99`, `ENDSUB`, `RETURN`.
@@ -430,6 +459,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let (name, flag) = (self.program.name("_value"), self.program.name("_value_returned"));
             state.variables.set_named(name, value);
             state.variables.set_named(flag, D::number(f64::from(u8::from(self.returned))));
+        }
+        if let Some(feed) = &frame.bar_feed
+            && let Some(ending) = self.feed_behind_cutoff(frame.caller, feed, state)?
+        {
+            return Ok(Outcome::End(ending));
         }
         if let Some(label) = label
             && self.model.semantics().return_to == ReturnTo::Caller
@@ -536,7 +570,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     return Err(Fault::NoSuchProgram);
                 };
                 self.enter(
-                    Callee { kind: FrameKind::OWord, target, repeats: Some(0), arguments: Some(values) },
+                    Callee {
+                        kind: FrameKind::OWord,
+                        target,
+                        repeats: Some(0),
+                        arguments: Some(values),
+                        bar_feed: None,
+                    },
                     state,
                 )
             }

@@ -33,6 +33,9 @@ use crate::value::Domain;
 /// Addresses that name the end point of a turning cycle.
 const END_POINT: LetterSet = LetterSet::of("XZUW");
 
+/// No threading insert is wider than this, degrees.
+const WIDEST_NOSE: f64 = 120.0;
+
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     // ---- one pass ----
 
@@ -184,11 +187,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             least: Mm(self.number_setting("99") * unit),
             finish: Mm(self.number_setting("86") * unit),
             finish_passes: 1,
-            angle: Degrees(self.words.number(Letter::of('A')).unwrap_or(0.0)),
+            angle: Degrees(self.nose_angle(state).unwrap_or(0.0)),
             pull_out: self.pull_out(lead),
             lead,
             in_feed,
         })
+    }
+
+    /// `A60` is sixty degrees also where angles count least increments.
+    fn nose_angle(&mut self, state: &State<D>) -> Option<f64> {
+        let written = self.raw('A', state).filter(|angle| *angle <= WIDEST_NOSE);
+        written.or_else(|| self.words.number(Letter::of('A')))
     }
 
     fn thread_of_two_blocks(
@@ -338,7 +347,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Does the block name the axis, by its own address or as an increment?
-    fn names_axis(&self, axis: Axis) -> bool {
+    pub(super) fn names_axis(&self, axis: Axis) -> bool {
         self.words
             .present()
             .iter()
@@ -346,7 +355,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Millimetres a turn from the block's words.
-    fn lead(&self, state: &State<D>) -> Option<f64> {
+    pub(super) fn lead(&self, state: &State<D>) -> Option<f64> {
         self.length(Letter::of('E'), state).or_else(|| self.length(Letter::of('F'), state))
     }
 

@@ -36,7 +36,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let followed = code.role != Some(Role::Length) || self.tool_is_upright(state);
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
-            self.switch(role, ix, code.modal || matches!(role, Role::Mirror | Role::Cylinder), state);
+            // Whether a cylinder's code switches anything depends on its words.
+            if role != Role::Cylinder {
+                self.switch(role, ix, code.modal || role == Role::Mirror, state);
+            }
         }
         self.effect(code.effect, ix, place, words, state)?;
         if code.role == Some(Role::Length) && !(followed && self.tool_is_upright(state)) {
@@ -122,6 +125,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 match state.active_cycle(self.model) {
                     None => state.cycle = state.cycle.unknown(),
                     Some(CodeIx::NONE) => state.cycle = state.cycle.series(false),
+                    // Levels of one axis mean nothing along another.
+                    Some(cycle) if self.model.drills_across(cycle) != self.model.drills_across(ix) => {
+                        state.cycle = state.cycle.series(false);
+                    }
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
                         state.cycle = state.cycle.series(true);
@@ -219,7 +226,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | E::DynamicOffsetOn
             | E::DynamicOffsetOff
             | E::TiltedPlaneOn
-            | E::TiltedPlaneOff => self.unknown_frame(ix, state),
+            | E::TiltedPlaneOff => {
+                let on = matches!(effect, E::PolarInterpolationOn | E::DynamicOffsetOn | E::TiltedPlaneOn);
+                self.unknown_frame(ix, on, state);
+            }
 
             E::Dwell => self.dwell(state)?,
             E::WriteOffsets => self.write_offsets(state)?,
@@ -227,7 +237,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::SetPosition => self.set_position(state)?,
             E::SpeedLimitOrSetPosition => {
                 if self.words.has(Letter::of('S')) {
-                    state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+                    self.limit_speed(state);
                 } else {
                     self.set_position(state)?;
                 }
@@ -245,6 +255,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.measure(effect, state)?;
             }
 
+            E::KeepTouch => state.kept_touch = state.touched,
+
             E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
                 self.profile_cycle(effect, ix, state)?;
             }
@@ -255,7 +267,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::GeneralPocket => self.general_pocket(state)?,
             E::BoltCircle | E::BoltArc | E::BoltLine => self.bolt_pattern(effect, state)?,
-            E::Engrave | E::BarFeed => self.opaque_operation(ix, state),
+            E::Engrave => self.opaque_operation(ix, state),
+            E::BarFeed => self.bar_feed(ix, words, state)?,
             E::NurbsClose => self.nurbs_close(state)?,
 
             E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
@@ -338,8 +351,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
-            E::ChuckClamp => self.emit(state, Event::Chuck(true)),
-            E::ChuckUnclamp => self.emit(state, Event::Chuck(false)),
+            E::ChuckClamp => self.chuck(true, state),
+            E::ChuckUnclamp => self.chuck(false, state),
             // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
             _ => {}
         }
@@ -422,10 +435,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A frame whose geometry depends on the machine: positions are not known until they are given in it.
-    fn unknown_frame(&mut self, ix: CodeIx, state: &mut State<D>) {
+    pub(super) fn unknown_frame(&mut self, ix: CodeIx, on: bool, state: &mut State<D>) {
         let effect = self.model.effect(ix);
-        let on =
-            matches!(effect, Effect::PolarInterpolationOn | Effect::DynamicOffsetOn | Effect::TiltedPlaneOn);
         if on {
             self.assumptions.insert(Assumption::Code(ix));
         }
@@ -448,7 +459,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             |code: &CodeIx| self.model.effect(*code) == Effect::TiltedPlaneOn && group(*code) == group(ix);
         if state.mode(Role::TiltedPlane).alternatives().iter().any(tilts) {
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
-            self.unknown_frame(ix, state);
+            self.unknown_frame(ix, false, state);
         }
     }
 
@@ -464,25 +475,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let p = self.words.number(Letter::of('P')).unwrap_or(0.0);
         let q = self.words.number(Letter::of('Q')).unwrap_or(0.0);
         self.emit(state, Event::UserCommand { number, p, q });
-    }
-
-    /// `G107`: mapping on, off, or a new default diameter.
-    fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
-        let diameter = self
-            .length(Letter::of('Q'), state)
-            .or_else(|| self.length(Letter::of('R'), state).map(|r| 2.0 * r));
-        let rotary = self.words.has(Letter::of('A'))
-            || self.words.has(Letter::of('B'))
-            || self.words.has(Letter::of('C'));
-        let linear = ['X', 'Y', 'Z'].into_iter().any(|l| self.words.has(Letter::of(l)));
-        if linear || diameter.is_some() || rotary {
-            state.cylinder = Some(diameter.map_or(f64::NAN, |d| d / 2.0));
-        } else {
-            state.cylinder = None;
-            state.set_mode(Role::Cylinder, CodeIx::NONE);
-        }
-        self.unknown_frame(ix, state);
-        Ok(())
     }
 
     /// Both shifts together, as one on controls where they are one.

@@ -22,6 +22,7 @@ use crate::value::Domain;
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Moves as the active mode says.
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
+        self.turn_drawing(state);
         self.active_motion(state)?;
         if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
@@ -145,6 +146,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The programmed point of the block: axes that it does not name stay.
     pub(super) fn target(&mut self, state: &State<D>) -> Step<Position> {
         let mut target = state.position;
+        if let Some(cylinder) = state.wrapped.cylinder() {
+            // It turns though no word of the program names it.
+            target.set(cylinder.rotary, state.actual.raw(cylinder.rotary));
+        }
         let incremental = state.is_incremental(self.model);
         let unit = self.unit(state);
         let named = self.words.present().and(self.model.axis_letters);
@@ -239,6 +244,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.machine_move(kind, state);
         }
         let target = self.target(state)?;
+        self.announce_vector(state);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         self.travel(kind, target, false, state)?;
         checked
@@ -319,7 +325,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 to.set(axis, target.raw(axis));
             }
         }
-        self.travel_to(kind, to, to, false, state);
+        self.moved_off_drawing(named, &mut to, state);
+        self.travel_to(kind, &to, &to, false, state);
         state.position = self.programmed_of(&to, state);
         checked
     }
@@ -343,39 +350,63 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.leave_compensation(false, state)?;
         }
         let mut to = self.axes_of(&target, state);
+        if !expanded {
+            self.keep_unnamed(&mut to, state);
+        }
         if self.may_compensate(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }
-        self.travel_to(kind, target, to, expanded, state);
+        self.travel_to(kind, &target, &to, expanded, state);
         state.position = target;
         Ok(())
+    }
+
+    /// Do the axes go where the program says, without compensation or mapping in between?
+    pub(super) fn goes_direct(&self, state: &State<D>) -> bool {
+        state.compensation.is_none()
+            && state.left_compensation.is_none()
+            && !self.may_compensate(state)
+            && state.transform.is_off()
+    }
+
+    /// [`Self::travel`] where [`Self::goes_direct`] holds.
+    pub(super) fn travel_direct(
+        &mut self,
+        kind: TravelKind,
+        target: &Position,
+        expanded: bool,
+        state: &mut State<D>,
+    ) {
+        self.travel_to(kind, target, target, expanded, state);
+        state.position = *target;
     }
 
     fn travel_to(
         &mut self,
         kind: TravelKind,
-        programmed: Position,
-        to: Position,
+        programmed: &Position,
+        to: &Position,
         expanded: bool,
         state: &mut State<D>,
     ) {
         if kind == TravelKind::Feed {
             let unit = self.unit(state);
-            self.announce_inverse_time(|state| straight_length(&state.actual, &to, unit), state);
+            self.announce_inverse_time(|state| straight_length(&state.actual, to, unit), state);
         }
-        let travel = Travel { kind, from: state.actual, programmed, to, expanded };
-        state.actual = to;
+        let travel = Travel { kind, from: state.actual, programmed: *programmed, to: *to, expanded };
+        state.actual = *to;
         self.emit(state, Event::Travel(travel));
     }
 
     /// `G33`, `G33.1`, lathe `G32`.
     fn thread_move(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        let lead = self.length(Letter::of('K'), state).or_else(|| {
-            let per_turn = self.words.number(Letter::of('F')).map(|f| f * self.unit(state));
-            per_turn.or_else(|| D::known(&state.feed).filter(|f| *f > 0.0))
-        });
+        let k = self.length(Letter::of('K'), state);
+        let by_feed = self.motion_reads(Letter::of('F'), state);
+        let lead = k
+            .filter(|_| !by_feed)
+            .or_else(|| self.lead(state).or_else(|| D::known(&state.feed).filter(|f| *f > 0.0)));
         let Some(lead) = lead else {
             let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
             let missing = self.held(Err(Fault::MissingWord(Letter::of(missing))))?;
@@ -399,10 +430,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.emit(state, Event::SpindleSync { lead: None, velocity: false });
             return Ok(());
         }
+        let change = k.filter(|_| by_feed).unwrap_or(0.0);
+        let lead = mean_lead(lead, change, &state.position, &target);
         self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
         self.travel(TravelKind::Thread, target, false, state)?;
         self.emit(state, Event::SpindleSync { lead: None, velocity: false });
         Ok(())
+    }
+
+    /// Is a word one of the motion code's own?
+    fn motion_reads(&self, letter: Letter, state: &State<D>) -> bool {
+        let code = state.mode(Role::Motion).only().and_then(|ix| self.model.control().code_at(ix));
+        code.is_some_and(|code| {
+            code.entry().words.iter().any(|word| Letter::parse(&word.letter) == Some(letter))
+        })
     }
 
     /// `G5`, `G5.1`: Bézier curves in XY.
@@ -551,6 +592,14 @@ fn straight_length(from: &Position, to: &Position, unit: f64) -> f64 {
     }
     let secondary = norm([Axis::U, Axis::V, Axis::W]);
     if secondary == 0.0 { norm([Axis::A, Axis::B, Axis::C]) * unit } else { secondary }
+}
+
+/// A thread whose lead grows by `change` each turn takes as many turns as one of this lead. Leads count along the axis that
+/// goes farther; a thread whose lead would come to nothing keeps the one that it begins with.
+fn mean_lead(lead: f64, change: f64, from: &Position, to: &Position) -> f64 {
+    let way = [Axis::X, Axis::Z].map(|axis| (to.raw(axis) - from.raw(axis)).abs());
+    let last = (lead * lead + 2.0 * change * way[0].max(way[1])).sqrt();
+    if last.is_finite() { f64::midpoint(lead, last) } else { lead }
 }
 
 /// A Bézier curve as chords within a hundredth of a millimetre.

@@ -35,6 +35,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         } else {
             after.work_of_machine(&before.to_machine(&old))
         };
+        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+            // The axis that is wrapped stands still as all the others do.
+            let linear = cylinder.linear;
+            let mut standing = old;
+            standing.set(linear, cylinder.stands);
+            let moved = if before.rotation == 0.0 && after.rotation == 0.0 {
+                standing + before.less(&after)
+            } else {
+                after.work_of_machine(&before.to_machine(&standing))
+            };
+            cylinder.stands = moved.raw(linear);
+            cylinder.anchor(&state.actual);
+        }
         state.position = self.programmed_of(&state.actual, state);
     }
 
@@ -113,6 +126,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             state.shift_on = true;
         }
+        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+            // The drawing has a new zero; what that says of the axis that stands still is in no page.
+            cylinder.stands = f64::NAN;
+            cylinder.anchor(&state.actual);
+        }
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
         Ok(())
@@ -186,6 +204,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Ok(())
             }
             Effect::LengthAdd => self.add_length(state),
+            Effect::LengthFiveAxis => self.length_along_tool(state),
             Effect::LengthMinus => self.length_number(-1.0, state),
             _ => self.length_number(1.0, state),
         }
@@ -319,6 +338,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn set_length(&mut self, length: Position, state: &mut State<D>) {
+        self.end_length_along_tool(state);
         let old = state.length;
         self.reframe(state, |state| state.length = length);
         for axis in Axis::ALL {
@@ -400,7 +420,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if loaded { Err(Fault::NotNow(self.model.code_with(Effect::WriteOffsets), None)) } else { Ok(()) }
     }
 
-    fn forget_offsets(&mut self, state: &mut State<D>) {
+    pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
         self.reframe(state, |state| {
             Rc::make_mut(&mut state.tables).unsure = true;
             state.in_effect = WorkOffset::UNKNOWN;

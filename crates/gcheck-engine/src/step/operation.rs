@@ -14,12 +14,12 @@ use crate::cycles::{
     CircularPocket, CycleError, GeneralPocket, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
     general_pocket,
 };
-use crate::event::TravelKind;
+use crate::event::{Clearing, Event, TravelKind};
 use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{At, State};
+use crate::state::{At, Frame, FrameKind, State};
 use crate::value::Domain;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -106,18 +106,36 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let outline = self.outline(program, &start, state)?;
         let plan = outline.map_or(Err(CycleError::Unknown), |outline| general_pocket(&outline, &words));
         let mut strokes = Vec::new();
+        let mut cleared = None;
         if let Ok(plan) = &plan {
             let (x, y) = words.start;
+            let depth = words.r - words.bottom;
+            let length = plan.cut_length - depth;
+            cleared = Some(Clearing {
+                from: plan.low,
+                to: plan.high,
+                levels: plan.levels.len() as u32,
+                length,
+                seconds: length / words.feed,
+                at: Position::UNKNOWN,
+            });
             strokes.push(Stroke::Rapid(start.xyz()));
             strokes.push(Stroke::Rapid([x, y, words.r]));
             strokes.extend(plan.levels.iter().map(|level| Stroke::Feed([x, y, *level])));
-            strokes.push(Stroke::Rapid(plan.end));
         }
         let mut end = start;
         end.set(Axis::Z, r);
         // Compensation belongs to the walls, and is ended by a move afterwards.
         let held = self.hold_compensation(state)?;
-        let outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        let over_hole = plan.as_ref().ok().map(|plan| plan.end);
+        let mut outcome = self.carry_out(&strokes, plan.map(|plan| plan.end), Plane::Xy, end, state);
+        if outcome.is_ok()
+            && let Some((cleared, over_hole)) = cleared.zip(over_hole)
+        {
+            self.emit(state, Event::Cleared(Clearing { at: state.actual, ..cleared }));
+            self.assumptions.insert(Assumption::PocketEnd);
+            outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
+        }
         Self::release_compensation(held.without_path(), state);
         outcome?;
         checked
@@ -164,6 +182,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut drawn = state.clone();
         drawn.position = *start;
         drawn.actual = *start;
+        // It is read as a called program is.
+        drawn.frames.push(Frame {
+            kind: if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram },
+            entry: first,
+            caller: at,
+            repeats: Some(0),
+            locals: None,
+            counters: Vec::new(),
+            saved: None,
+            restore_on_return: false,
+            wanted_branch: None,
+            bar_feed: None,
+        });
         let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
         Ok(Some(profile.segments).filter(|_| profile.complete))
     }

@@ -2,7 +2,10 @@
 //!
 //! Knows: targets, and that where the probe touches is known to nobody beforehand. Must not know: calibration.
 
-use gcheck_controls::Effect;
+use std::rc::Rc;
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_geometry::Mm;
 
 use super::{Executor, Step};
 use crate::assumption::Assumption;
@@ -11,6 +14,7 @@ use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
 use crate::state::State;
+use crate::touch::{Touch, Way, Ways};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -54,31 +58,61 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The probe moves. With a start that is known throughout, a run goes on as if nothing was touched, which is what a
     /// simulation without a workpiece does; else the axes that moved end nobody knows where.
     fn probing(&mut self, kind: TravelKind, target: Position, state: &mut State<D>) -> Step {
+        state.touched = Touch::Made(self.ways_to(&target, state));
         self.emit(state, Event::Probe(true));
-        let moved: Vec<Axis> = Axis::ALL
+        let mut moved: Vec<Axis> = Axis::ALL
             .into_iter()
             .filter(|axis| target.raw(*axis).to_bits() != state.position.raw(*axis).to_bits())
             .collect();
-        let from = state.position;
+        let (from, stood) = (state.position, state.actual);
         self.travel(kind, target, false, state)?;
         self.emit(state, Event::Probe(false));
+        state.probed = state.actual;
+        if self.has_code(Effect::AlarmIfTouched) {
+            // Who goes on behind this block has not touched anything: the move came to its end.
+            state.probe_result = Truth::False;
+            return Ok(());
+        }
         self.assumptions.insert(Assumption::ProbeTouch);
         if self.machine.fresh {
             // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
             // before it: what a simulation of the reference interpreter does.
-            state.probed = state.actual;
             self.stop_short(from, 0.254, state);
             state.probe_result = Truth::False;
             return Ok(());
         }
-        state.probed = state.actual;
+        // Under a rotation an axis moves that the block does not name.
+        moved.extend(
+            Axis::ALL
+                .into_iter()
+                .filter(|axis| stood.raw(*axis).to_bits() != state.actual.raw(*axis).to_bits()),
+        );
         for axis in moved {
             state.actual.set(axis, f64::NAN);
             state.position.set(axis, f64::NAN);
             state.probed.set(axis, f64::NAN);
         }
-        state.probe_result = Truth::Unknown;
+        let touches = self.has_code(Effect::AlarmIfNotTouched);
+        state.probe_result = if touches { Truth::True } else { Truth::Unknown };
         Ok(())
+    }
+
+    fn has_code(&self, effect: Effect) -> bool {
+        self.words.codes().iter().any(|code| self.model.effect(*code) == effect)
+    }
+
+    /// Which way the block drives each axis. The sign of an increment tells it even where nobody knows the start.
+    fn ways_to(&self, target: &Position, state: &State<D>) -> Ways {
+        let mut ways = Ways::STILL;
+        for letter in self.words.present().and(self.model.axis_letters).iter() {
+            let Some((axis, is_increment)) = self.model.axis_of(letter) else { continue };
+            let increment = self.words.number(letter).filter(|_| match state.is_incremental(self.model) {
+                Some(incremental) => incremental || is_increment,
+                None => is_increment,
+            });
+            ways.set(axis, Way::of(increment.unwrap_or(target.raw(axis) - state.position.raw(axis))));
+        }
+        ways
     }
 
     fn stop_short(&mut self, from: Position, distance: f64, state: &mut State<D>) {
@@ -99,40 +133,80 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G35`, `G36`, `G37`, `G136`: a touch whose result goes into a table.
     pub(super) fn measure(&mut self, effect: Effect, state: &mut State<D>) -> Step {
-        let target = self.target(state)?;
-        self.probing(TravelKind::Probe { toward: true, required: true, skip: false }, target, state)?;
-        let tables = std::rc::Rc::make_mut(&mut state.tables);
-        match effect {
-            Effect::ProbeOffset | Effect::ProbeCentre => {
-                if let Some(number) = state.work {
-                    let mut offset = tables.offset(number);
-                    for letter in self.words.present().and(self.model.axis_letters).iter() {
-                        if let Some((axis, _)) = self.model.axis_of(letter) {
-                            offset.origin.set(axis, f64::NAN);
-                        }
-                    }
-                    tables.set_offset(number, offset);
-                } else {
-                    tables.unsure = true;
-                }
-                for letter in self.words.present().and(self.model.axis_letters).iter() {
-                    if let Some((axis, _)) = self.model.axis_of(letter) {
-                        state.actual.set(axis, f64::NAN);
-                        state.position.set(axis, f64::NAN);
-                    }
-                }
-            }
-            _ => {
-                // The number in H or D is written; which value it gets is known after the touch.
-                for (_, tool) in &mut tables.tools {
-                    if effect == Effect::ProbeLength {
-                        tool.offset.set(Axis::Z, f64::NAN);
-                    } else {
-                        tool.diameter = gcheck_geometry::Mm::UNKNOWN;
-                    }
-                }
+        let mut target = self.target(state)?;
+        let named = self.words.present().and(self.model.axis_letters);
+        let axes: Vec<Axis> =
+            named.iter().filter_map(|letter| self.model.axis_of(letter).map(|(axis, _)| axis)).collect();
+        if effect == Effect::ProbeLength {
+            // The word says what the touched point shall read; the move ends at the touch alone.
+            for axis in &axes {
+                target.set(*axis, f64::NAN);
             }
         }
+        self.probing(TravelKind::Probe { toward: true, required: true, skip: false }, target, state)?;
+        match effect {
+            Effect::ProbeOffset | Effect::ProbeCentre => self.measure_offset(axes, state),
+            _ => self.measure_tool(effect, &axes, state),
+        }
         Ok(())
+    }
+
+    /// The active work offset is set on the axes of the block, and shifted by I, J and K: it is set, but to what the touch
+    /// says.
+    fn measure_offset(&mut self, mut axes: Vec<Axis>, state: &mut State<D>) {
+        for (shift, axis) in [('I', Axis::X), ('J', Axis::Y), ('K', Axis::Z)] {
+            // The page does not say whether an axis that is not probed is shifted too.
+            let is_shifted = self.words.number(Letter::of(shift)).is_some_and(|by| by != 0.0);
+            if is_shifted && !axes.contains(&axis) {
+                axes.push(axis);
+            }
+        }
+        let Some(number) = state.work else { return self.forget_offsets(state) };
+        let mut offset = state.tables.offset(number);
+        for axis in axes {
+            offset.origin.set(axis, f64::NAN);
+            state.in_effect.origin.set(axis, f64::NAN);
+            state.actual.set(axis, f64::NAN);
+            state.position.set(axis, f64::NAN);
+        }
+        Rc::make_mut(&mut state.tables).set_offset(number, offset);
+        self.announce_offset(state);
+    }
+
+    /// The length or the size of a tool is set: of the number in H or D, else of the one in effect.
+    fn measure_tool(&mut self, effect: Effect, axes: &[Axis], state: &mut State<D>) {
+        let is_length = effect == Effect::ProbeLength;
+        let (letter, in_effect) = if is_length { ('H', &state.h) } else { ('D', &state.d) };
+        let in_effect = D::known(in_effect);
+        let written = self.words.number(Letter::of(letter)).or(in_effect).filter(|n| *n >= 1.0);
+        let may_be = |number: Option<f64>| match (number, written) {
+            (Some(number), Some(written)) => (number - written).abs() < 0.5,
+            _ => true,
+        };
+        let mut lengths = axes.to_vec();
+        if !self.model.semantics().tools.offset_in_t {
+            lengths.push(Axis::Z);
+        }
+        for (number, tool) in &mut Rc::make_mut(&mut state.tables).tools {
+            if !may_be(Some(f64::from(*number))) {
+                continue;
+            }
+            if is_length {
+                for axis in &lengths {
+                    tool.offset.set(*axis, f64::NAN);
+                }
+            } else {
+                tool.diameter = Mm::UNKNOWN;
+            }
+        }
+        if is_length && may_be(in_effect) {
+            for axis in lengths {
+                state.length.set(axis, f64::NAN);
+                state.actual.set(axis, f64::NAN);
+                state.position.set(axis, f64::NAN);
+            }
+            let length = state.length;
+            self.emit(state, Event::LengthOffset(length));
+        }
     }
 }

@@ -22,6 +22,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M2`, `M30`: resets what the control resets, then ends.
     pub(super) fn end_program(&mut self, pallet: bool, state: &mut State<D>) -> Step {
         self.flush_compensation(state)?;
+        self.unwrap_at_end(state);
         let codes: Vec<CodeIx> = self.model.at_end.clone();
         for ix in codes {
             self.reset_to(ix, state);
@@ -178,6 +179,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // A change of the feed mode leaves no feed; else the saved one is in effect again.
         let feed = if feed_mode { 0.0 } else { saved.feed };
         state.feed = known::<D>(feed);
+        state.feed_given_under = *state.mode(Role::FeedMode);
         state.speed = known::<D>(saved.speed);
         if (feed_mode || was.feed.to_bits() != saved.feed.to_bits())
             && state.feed_mode(self.model) != Some(FeedMode::InverseTime)

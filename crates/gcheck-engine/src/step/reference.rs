@@ -43,6 +43,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         for axis in &axes {
             to.set(*axis, target.raw(*axis));
         }
+        let returned: LetterSet = axes.iter().map(|axis| axis.letter()).collect();
+        self.moved_off_drawing(returned, &mut to, state);
         let programmed = self.programmed_of(&to, state);
         self.travel(TravelKind::Rapid, programmed, true, state)?;
         // Beyond the turning of unknown coordinates, this is where the axes stand.

@@ -23,6 +23,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('F')));
         }
         state.feed_word = value.clone();
+        state.feed_given_under = *state.mode(Role::FeedMode);
         let mode = state.feed_mode(self.model);
         state.feed = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
@@ -72,6 +73,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// `G50 S` of lathes: the limit holds at once where constant surface speed is on.
+    pub(super) fn limit_speed(&mut self, state: &mut State<D>) {
+        state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+        if state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed) {
+            self.emit(state, Event::SpindleMode(Some(state.speed_limit)));
+        }
+    }
+
     /// `M3`, `M4`, `M5`.
     pub(super) fn spindle(&mut self, spindle: Spindle, state: &mut State<D>) -> Step {
         state.spindle = Some(spindle);
@@ -118,11 +127,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     if is_seconds { number } else { number / 1000.0 }
                 }
             };
-            found = Some(seconds);
+            found = Some((letter, seconds));
         }
         match found {
-            Some(seconds) if seconds < 0.0 => Err(Fault::WordRange(Letter::of('P'))),
-            Some(seconds) => {
+            Some((letter, seconds)) if seconds < 0.0 => Err(Fault::WordRange(letter)),
+            Some((_, seconds)) => {
                 self.emit(state, Event::Dwell(Seconds(seconds)));
                 Ok(())
             }

@@ -48,6 +48,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         Ok(match variable.holds {
+            // No page says which point they show while the axes stand beside it.
+            V::WorkPosition | V::EndPosition | V::LengthOffset if state.tool_shift.is_on() => D::unknown(),
             V::WorkPosition | V::EndPosition => coordinate(&state.actual),
             V::MachinePosition => coordinate(&state.machine(self.model)),
             V::ProbePosition => coordinate(&state.probed),
@@ -288,7 +290,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(None)
     }
 
-    fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
+    pub(super) fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {
         if axis.is_rotary() {
             return value;
         }

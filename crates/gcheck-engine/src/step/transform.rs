@@ -6,6 +6,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_geometry::{Degrees, Frame, Mm, Plane};
 
 use super::arc::plane_axes;
+use super::tool_shift::shifted;
 use super::{Executor, Step};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
@@ -81,6 +82,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Where the axes go for a programmed point.
     pub(super) fn axes_of(&self, programmed: &Position, state: &State<D>) -> Position {
+        let to = state.wrapped.turned(self.transformed(programmed, state));
+        if state.tool_shift.is_on() { shifted(to, self.tool_shift(programmed, state)) } else { to }
+    }
+
+    /// The programmed point scaled, turned and mirrored, as a tool without length and size goes to it.
+    pub(super) fn transformed(&self, programmed: &Position, state: &State<D>) -> Position {
         match frame(&state.transform) {
             None => *programmed,
             Some(Some(frame)) => programmed.with_xyz(frame.apply(programmed.xyz())),
@@ -90,6 +97,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The programmed point for where the axes stand.
     pub(super) fn programmed_of(&self, actual: &Position, state: &State<D>) -> Position {
+        let back = state.tool_shift.beside.map(|by| -by);
+        let actual = &if state.tool_shift.is_on() { shifted(*actual, back) } else { *actual };
         match frame(&state.transform) {
             None => *actual,
             Some(frame) => match frame.and_then(|f| f.inverse()) {
@@ -126,7 +135,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 )]
 #[expect(clippy::float_cmp, reason = "off is exactly zero and exactly one")]
 fn frame(transform: &Transform) -> Option<Option<Frame>> {
-    if transform.angle == 0.0 && transform.mirror == [false; 3] && transform.scale == [1.0; 3] {
+    if transform.is_off() {
         return None;
     }
     let numbers = transform.scale.iter().chain([&transform.angle]);

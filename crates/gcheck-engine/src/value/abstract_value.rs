@@ -251,6 +251,10 @@ impl Domain for Abstract {
         AbstractValue::Vacant
     }
 
+    fn assumed(_: AbstractValue) -> AbstractValue {
+        Self::unknown()
+    }
+
     fn unknown() -> AbstractValue {
         AbstractValue::Unknown
     }
@@ -308,6 +312,9 @@ impl Domain for Abstract {
         arguments: &[AbstractValue],
         semantics: &Semantics,
     ) -> Result<AbstractValue, ValueFault> {
+        if let [AbstractValue::Number(x)] = arguments {
+            return scalar::call(function, &[Some(*x)], semantics).map(AbstractValue::Number);
+        }
         scalar::check_arity(function, arguments.len(), semantics)?;
         match arguments {
             [x] => match x.points() {

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use gcheck_rules::{Finding, Fix, Label, RuleMeta, Severity};
 use serde::Serialize;
 
-use super::remarks;
+use super::{HOME, remarks, rule_page};
 use crate::closing::number;
 use crate::report::File;
 use crate::source::Source;
@@ -24,7 +24,6 @@ const MOST_LOCATIONS: usize = 1_000;
 
 const SCHEMA: &str =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
-const HOME: &str = env!("CARGO_PKG_REPOSITORY");
 const SOURCE_ROOT: &str = "%SRCROOT%";
 
 #[derive(Serialize)]
@@ -334,7 +333,7 @@ fn rule(meta: &'static RuleMeta) -> Rule {
     let summary = sentence(meta.summary);
     let docs = meta.docs();
     let about = first_paragraph(&docs).unwrap_or_else(|| summary.clone());
-    let help_uri = format!("{HOME}/blob/main/docs/rules/{}.md", meta.id);
+    let help_uri = rule_page(meta.id);
     let markdown = if docs.trim().is_empty() { about.clone() } else { docs.trim().to_owned() };
     Rule {
         id: meta.id,

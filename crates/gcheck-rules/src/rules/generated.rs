@@ -11,6 +11,24 @@ pub(crate) mod arcs {
     pub(crate) mod zero_radius_arc;
 }
 
+pub(crate) mod bar_feeder {
+    pub(crate) mod bar_feed_in_cutoff_program;
+    pub(crate) mod bar_initial_push_zero;
+    pub(crate) mod bar_job_without_end;
+    pub(crate) mod bar_just_long_enough;
+    pub(crate) mod bar_length_missing;
+    pub(crate) mod bar_length_not_usable;
+    pub(crate) mod bar_override_does_not_last;
+    pub(crate) mod bar_push_shorter_than_part;
+    pub(crate) mod bar_setup_mode_in_program;
+    pub(crate) mod bar_too_short_for_part;
+    pub(crate) mod chuck_moved_at_bar_feed;
+    pub(crate) mod cutoff_program_without_return;
+    pub(crate) mod mode_on_at_bar_feed;
+    pub(crate) mod part_cut_off_twice;
+    pub(crate) mod turret_in_the_way_of_bar;
+}
+
 pub(crate) mod compensation {
     pub(crate) mod compensation_gouge;
     pub(crate) mod compensation_left_on;
@@ -35,7 +53,27 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pocket_outline_open;
+    pub(crate) mod pocket_outline_too_long;
+    pub(crate) mod pocket_outline_unfit;
+    pub(crate) mod pocket_start_outside;
+    pub(crate) mod pocket_without_compensation;
     pub(crate) mod turning_profile_not_usable;
+}
+
+pub(crate) mod five_axis {
+    pub(crate) mod cutter_vector_incomplete;
+    pub(crate) mod cutter_vector_not_unit;
+    pub(crate) mod cutter_vector_without_size;
+    pub(crate) mod five_axis_axis_left_out;
+    pub(crate) mod five_axis_feed_per_minute;
+    pub(crate) mod five_axis_length_in_incremental;
+    pub(crate) mod five_axis_length_left_on;
+    pub(crate) mod five_axis_length_without_offset;
+    pub(crate) mod five_axis_zero_not_upright;
+    pub(crate) mod maybe_five_axis_length_in_incremental;
+    pub(crate) mod maybe_refused_in_five_axis_mode;
+    pub(crate) mod refused_in_five_axis_mode;
 }
 
 pub(crate) mod flow {
@@ -52,8 +90,12 @@ pub(crate) mod flow {
 }
 
 pub(crate) mod machine {
+    pub(crate) mod cylinder_axis_not_on_machine;
+    pub(crate) mod cylinder_without_diameter;
     pub(crate) mod feed_above_machine_limit;
+    pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
+    pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
 }
@@ -81,6 +123,15 @@ pub(crate) mod macros {
     pub(crate) mod variable_unlisted;
 }
 
+pub(crate) mod mapping {
+    pub(crate) mod cylinder_diameter_from_setting;
+    pub(crate) mod cylinder_feed_mode;
+    pub(crate) mod cylinder_left_on;
+    pub(crate) mod cylinder_without_rotary_axis;
+    pub(crate) mod cylinder_word_value_ignored;
+    pub(crate) mod maybe_cylinder_left_on;
+}
+
 pub(crate) mod modal {
     pub(crate) mod code_given_twice;
     pub(crate) mod code_must_stand_alone;
@@ -100,12 +151,15 @@ pub(crate) mod modal {
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
+    pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
     pub(crate) mod feed_missing;
+    pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod inverse_time_feed_missing;
     pub(crate) mod maybe_feed_missing;
+    pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
@@ -122,6 +176,22 @@ pub(crate) mod offsets {
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
     pub(crate) mod work_offset_not_chosen;
+}
+
+pub(crate) mod probing {
+    pub(crate) mod first_touch_missing;
+    pub(crate) mod kept_touch_never_used;
+    pub(crate) mod length_written_for_another_tool;
+    pub(crate) mod maybe_first_touch_missing;
+    pub(crate) mod maybe_probing_in_wrong_mode;
+    pub(crate) mod measures_in_positions;
+    pub(crate) mod probe_feed_too_high;
+    pub(crate) mod probe_goes_nowhere;
+    pub(crate) mod probing_in_wrong_mode;
+    pub(crate) mod shift_of_axis_not_probed;
+    pub(crate) mod spindle_turns_while_probing;
+    pub(crate) mod touch_code_without_probing;
+    pub(crate) mod touches_do_not_meet;
 }
 
 pub(crate) mod program {
@@ -195,6 +265,7 @@ pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
+    pub(crate) mod dwell_time_in_other_word;
     pub(crate) mod lasting_word_never_given;
     pub(crate) mod missing_decimal_point;
     pub(crate) mod number_out_of_range;
@@ -221,6 +292,21 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &arcs::arc_wrong_plane_word::RULE,
     &arcs::full_circle_by_radius::RULE,
     &arcs::zero_radius_arc::RULE,
+    &bar_feeder::bar_feed_in_cutoff_program::RULE,
+    &bar_feeder::bar_initial_push_zero::RULE,
+    &bar_feeder::bar_job_without_end::RULE,
+    &bar_feeder::bar_just_long_enough::RULE,
+    &bar_feeder::bar_length_missing::RULE,
+    &bar_feeder::bar_length_not_usable::RULE,
+    &bar_feeder::bar_override_does_not_last::RULE,
+    &bar_feeder::bar_push_shorter_than_part::RULE,
+    &bar_feeder::bar_setup_mode_in_program::RULE,
+    &bar_feeder::bar_too_short_for_part::RULE,
+    &bar_feeder::chuck_moved_at_bar_feed::RULE,
+    &bar_feeder::cutoff_program_without_return::RULE,
+    &bar_feeder::mode_on_at_bar_feed::RULE,
+    &bar_feeder::part_cut_off_twice::RULE,
+    &bar_feeder::turret_in_the_way_of_bar::RULE,
     &compensation::compensation_gouge::RULE,
     &compensation::compensation_left_on::RULE,
     &compensation::compensation_off_in_arc::RULE,
@@ -241,7 +327,24 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pocket_outline_open::RULE,
+    &cycles::pocket_outline_too_long::RULE,
+    &cycles::pocket_outline_unfit::RULE,
+    &cycles::pocket_start_outside::RULE,
+    &cycles::pocket_without_compensation::RULE,
     &cycles::turning_profile_not_usable::RULE,
+    &five_axis::cutter_vector_incomplete::RULE,
+    &five_axis::cutter_vector_not_unit::RULE,
+    &five_axis::cutter_vector_without_size::RULE,
+    &five_axis::five_axis_axis_left_out::RULE,
+    &five_axis::five_axis_feed_per_minute::RULE,
+    &five_axis::five_axis_length_in_incremental::RULE,
+    &five_axis::five_axis_length_left_on::RULE,
+    &five_axis::five_axis_length_without_offset::RULE,
+    &five_axis::five_axis_zero_not_upright::RULE,
+    &five_axis::maybe_five_axis_length_in_incremental::RULE,
+    &five_axis::maybe_refused_in_five_axis_mode::RULE,
+    &five_axis::refused_in_five_axis_mode::RULE,
     &flow::alarm_reached::RULE,
     &flow::calls_nested_too_deep::RULE,
     &flow::endless_loop::RULE,
@@ -252,8 +355,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
+    &machine::cylinder_axis_not_on_machine::RULE,
+    &machine::cylinder_without_diameter::RULE,
     &machine::feed_above_machine_limit::RULE,
+    &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,
+    &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
     &macros::assignment_to_read_only_variable::RULE,
@@ -276,6 +383,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
     &macros::variable_unlisted::RULE,
+    &mapping::cylinder_diameter_from_setting::RULE,
+    &mapping::cylinder_feed_mode::RULE,
+    &mapping::cylinder_left_on::RULE,
+    &mapping::cylinder_without_rotary_axis::RULE,
+    &mapping::cylinder_word_value_ignored::RULE,
+    &mapping::maybe_cylinder_left_on::RULE,
     &modal::code_given_twice::RULE,
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
@@ -291,12 +404,15 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::two_codes_of_one_group::RULE,
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
+    &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
     &motion::feed_missing::RULE,
+    &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::inverse_time_feed_missing::RULE,
     &motion::maybe_feed_missing::RULE,
+    &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
@@ -310,6 +426,19 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_not_chosen::RULE,
+    &probing::first_touch_missing::RULE,
+    &probing::kept_touch_never_used::RULE,
+    &probing::length_written_for_another_tool::RULE,
+    &probing::maybe_first_touch_missing::RULE,
+    &probing::maybe_probing_in_wrong_mode::RULE,
+    &probing::measures_in_positions::RULE,
+    &probing::probe_feed_too_high::RULE,
+    &probing::probe_goes_nowhere::RULE,
+    &probing::probing_in_wrong_mode::RULE,
+    &probing::shift_of_axis_not_probed::RULE,
+    &probing::spindle_turns_while_probing::RULE,
+    &probing::touch_code_without_probing::RULE,
+    &probing::touches_do_not_meet::RULE,
     &program::ambiguous_jump_target::RULE,
     &program::duplicate_sequence_number::RULE,
     &program::jump_target_missing::RULE,
@@ -365,6 +494,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &words::arc_without_centre::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
+    &words::dwell_time_in_other_word::RULE,
     &words::lasting_word_never_given::RULE,
     &words::missing_decimal_point::RULE,
     &words::number_out_of_range::RULE,

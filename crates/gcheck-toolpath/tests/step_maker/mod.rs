@@ -5,7 +5,9 @@
 
 use gcheck_engine::{ArcMove, Axis, Event, FeedMode, Position, Travel, TravelKind, Units};
 use gcheck_geometry::{Mm, Plane, Seconds};
-use gcheck_toolpath::{Canonical, Csv, Ending, JsonLines, Start, Statistics, Step, Text, Timing, View};
+use gcheck_toolpath::{
+    Beside, Canonical, Csv, Ending, JsonLines, Start, Statistics, Step, Text, Timing, View,
+};
 
 /// A recorded step.
 #[derive(Debug, Clone)]
@@ -19,6 +21,7 @@ pub(crate) struct Happened {
     rpm: f64,
     pub(crate) machine: Position,
     tool: Option<u32>,
+    beside: Option<Beside>,
 }
 
 #[derive(Debug, Clone)]
@@ -35,6 +38,7 @@ pub(crate) struct Run {
     /// Machine coordinates of the work's zero.
     pub(crate) zero: Position,
     pub(crate) expanded: bool,
+    pub(crate) beside: Option<Beside>,
 }
 
 /// Lines behind bars, which keep their columns in an expectation.
@@ -60,6 +64,7 @@ impl Run {
             at: Position::ZERO,
             zero: Position::ZERO,
             expanded: false,
+            beside: None,
         }
     }
 
@@ -88,6 +93,7 @@ impl Run {
             rpm: self.rpm,
             machine: self.at + self.zero,
             tool: self.tool,
+            beside: self.beside,
         });
         self
     }
@@ -145,6 +151,7 @@ impl Run {
                 rpm: step.rpm,
                 machine: step.machine,
                 tool: step.tool,
+                beside: step.beside,
                 file: "part.nc",
             });
         }

@@ -11,7 +11,7 @@ use gcheck_controls::{Control, UserCode};
 use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_rules::{Execution, Job, Scene, Selection, check, describe_all};
+use gcheck_rules::{Execution, FixKinds, Fixed, Job, Scene, Selection, apply_fixes, check, describe_all};
 use gcheck_syntax::SourceText;
 
 use super::read;
@@ -41,6 +41,7 @@ pub(super) struct Bench<'o> {
     pub(super) wishes: RuleWishes,
     suppressions: bool,
     execution: Execution,
+    fixes: Option<FixKinds>,
     set: &'o [Assignment],
     folders: ProgramFolders,
     /// Controls with the codes that configurations add to them.
@@ -57,6 +58,11 @@ impl<'o> Bench<'o> {
                 fuel: options.fuel,
                 block_skip: options.block_skip.map(|skip| skip == Switch::On),
             },
+            fixes: (options.fix || options.diff).then_some(if options.unsafe_fixes {
+                FixKinds::All
+            } else {
+                FixKinds::Safe
+            }),
             set: &options.set,
             folders: ProgramFolders::default(),
             controls: Mutex::default(),
@@ -94,18 +100,35 @@ pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Pr
     Ok(Prepared { source, settings, choice, selection })
 }
 
+/// A file that was checked.
+pub(super) struct Checked {
+    pub(super) report: FileReport,
+    /// The program before and after its fixes, if there were any.
+    pub(super) mended: Option<Mended>,
+}
+
+/// A program before and after its fixes.
+pub(super) struct Mended {
+    pub(super) before: Vec<u8>,
+    pub(super) after: Vec<u8>,
+}
+
+/// Rounds of fixing. A fix that makes another possible needs one more each; fixes that undo each other never end.
+const MOST_ROUNDS: usize = 10;
+
 /// Checks a file; a panic is contained, so that the other files are still checked.
-pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
+pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     panic::catch_unwind(AssertUnwindSafe(|| check_file(bench, target)))
         .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref()).in_file(&target.path)))
 }
 
-fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem> {
-    let Prepared { source, mut settings, choice, selection } = prepare(bench, target)?;
+fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
+    let Prepared { mut source, mut settings, choice, selection } = prepare(bench, target)?;
     let control = bench.control_of(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
-    let mut equipment = Equipment::new(&settings, &control, Start::Any)?;
+    let model = Model::new(&control);
+    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
     equipment.set(bench.set);
     settings.machine.units_are_told = !equipment.units_assumed;
     settings.machine.engine = equipment.machine;
@@ -115,16 +138,34 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         programs: &programs,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
-    let outcome = check(&Job {
-        source: &source,
-        scene,
-        selection: &selection,
-        suppressions: bench.suppressions,
-        execution: bench.execution,
-    });
+    let run = |source: &SourceText| {
+        check(&Job {
+            source,
+            scene,
+            selection: &selection,
+            suppressions: bench.suppressions,
+            execution: bench.execution,
+        })
+    };
+    let mut outcome = run(&source);
+    let mut mended = None;
+    let mut fixed = 0;
+    if let Some(kinds) = bench.fixes {
+        let before = source.to_bytes();
+        for _ in 0..MOST_ROUNDS {
+            let Some(Fixed { bytes, count }) = apply_fixes(&source, &outcome.findings, kinds) else { break };
+            // Fixes that make a program longer than any file may be are not made.
+            let Ok(longer) = SourceText::from_bytes(bytes) else { break };
+            source = longer;
+            fixed += count;
+            outcome = run(&source);
+        }
+        let after = source.to_bytes();
+        mended = (after != before).then_some(Mended { before, after });
+    }
     // A program without findings is never shown: let go of its text before the last file is read.
     let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
-    Ok(FileReport {
+    let report = FileReport {
         path: target.shown.clone(),
         text: Arc::new(text),
         control: choice,
@@ -133,7 +174,9 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<FileReport, Problem>
         lines: outcome.lines,
         suppressed: outcome.suppressed,
         baseline: 0,
+        fixed,
         out_of_fuel: outcome.out_of_fuel,
-        assumptions: describe_all(&outcome.ledger, &Model::new(&control)),
-    })
+        assumptions: describe_all(&outcome.ledger, &model),
+    };
+    Ok(Checked { report, mended })
 }

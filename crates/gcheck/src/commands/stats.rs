@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use gcheck_engine::{Ending, RunResult, Stopped};
+use gcheck_engine::{Assumption, Ending, RunResult, Stopped};
 use gcheck_report::{ControlChoice, LineIndex};
 use gcheck_rules::Described;
 use gcheck_toolpath::{Names, Statistics, Step};
@@ -52,12 +52,19 @@ fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R
 
 fn text(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> String {
     let mut text = with_names(session, |names| statistics.to_text(names));
-    let rests = Rests::new(session, ran).text();
+    let rests = Rests::new(session, ran).after(of_helices(session, statistics)).text();
     if !rests.is_empty() {
         text.push('\n');
         text.push_str(&rests);
     }
     text
+}
+
+/// How helices are fed, where a setting that nobody told decides it and there are any.
+fn of_helices(session: &Session<'_>, statistics: &Statistics) -> Vec<Described> {
+    let setting = session.prepared.equipment.helix_setting.as_ref().filter(|_| statistics.has_helices());
+    let setting = setting.map(|number| Assumption::Setting(number.as_str().into()));
+    setting.map(|setting| gcheck_rules::describe(&setting, session.model)).into_iter().collect()
 }
 
 /// What stands in the JSON beside the figures.
@@ -105,7 +112,7 @@ fn json(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Valu
         let pin = format!("[machine] {} = …", assumption.key);
         Described { text: assumption.text, pin: Some(pin) }
     });
-    let rests = Rests::new(session, ran).after(timing.collect());
+    let rests = Rests::new(session, ran).after(of_helices(session, statistics)).after(timing.collect());
     let rests: Vec<Value> = rests
         .described()
         .iter()
@@ -127,6 +134,7 @@ fn ended(stopped: &Stopped) -> &'static str {
     match stopped {
         Stopped::Ended(Ending::Program) => "program-end",
         Stopped::Ended(Ending::Restart) => "restart",
+        Stopped::Ended(Ending::BarsUsed) => "bars-used",
         Stopped::Ended(Ending::Tape) => "tape-end",
         Stopped::Ended(Ending::Text) => "text-end",
         Stopped::Ended(Ending::Alarm(_)) => "alarm",

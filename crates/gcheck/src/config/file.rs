@@ -98,6 +98,8 @@ pub struct MachineTable {
     pub rapid: Option<Placed<f64>>,
     /// Rapid traverse of the rotary axes, in degrees a minute.
     pub rotary_rapid: Option<Placed<f64>>,
+    /// Position of the feed override switch that times are computed for, in percent; 100 without it.
+    pub feed_override: Option<Placed<f64>>,
     /// Duration of a tool change, in seconds.
     pub tool_change_seconds: Option<Placed<f64>>,
     /// Where the rotary axes sit.
@@ -110,7 +112,7 @@ pub struct MachineTable {
     pub pivot_length: Option<Placed<f64>>,
     /// Length of a new bar, for a lathe with a bar feeder.
     pub bar_length: Option<Placed<f64>>,
-    /// Bars in the feeder.
+    /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.
     pub bars: Option<u32>,
 }
 
@@ -267,6 +269,8 @@ pub struct ToolTable {
     pub length: Option<f64>,
     /// Offsets by axis, in place of `length`: the geometry of a turning tool, `{ X = -3.0, Z = 120.0 }`.
     pub offset: BTreeMap<Placed<String>, f64>,
+    /// Length of the tool that programs were posted for, where `length` corrects for another one along a tilting head.
+    pub posted_length: Option<f64>,
     /// Diameter.
     pub diameter: Option<f64>,
     /// Radius at the corner of the tip.

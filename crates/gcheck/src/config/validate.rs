@@ -17,6 +17,9 @@ use crate::nearest::did_you_mean;
 /// Axis addresses of RS-274, which bound what a machine can have when its control is not known.
 const AXES: &str = "XYZABCUVW";
 
+/// Those that turn.
+const ROTARY_AXES: [&str; 3] = ["A", "B", "C"];
+
 /// Values that stand for a kind of value in the list of a setting's values.
 const KINDS_OF_VALUES: [&str; 3] = ["length", "number", "on/off"];
 
@@ -47,13 +50,32 @@ impl<'t> Checked<'t> {
                 return Err(self.text.problem(travel, message));
             }
         }
+        if let Some(order) = &table.rotary_order {
+            let turns =
+                |name: &&Placed<String>| ROTARY_AXES.contains(&name.value.to_ascii_uppercase().as_str());
+            if let Some(name) = order.iter().find(|name| !turns(name)) {
+                return Err(self.text.problem(name, format!("`{}` is no rotary axis", name.value)));
+            }
+            let names: Vec<String> = order.iter().map(|name| name.value.to_ascii_uppercase()).collect();
+            if !matches!(names.as_slice(), [first, second] if first != second)
+                && let Some(name) = order.last()
+            {
+                return Err(self.text.problem(name, "rotary_order names two different axes"));
+            }
+        }
         for sign in table.rotary_sign.values() {
             if !matches!(sign.value, 1 | -1) {
                 return Err(self.text.problem(sign, "a sense of rotation is 1 or -1"));
             }
         }
-        let positive =
-            [&table.max_rpm, &table.max_feed, &table.rapid, &table.rotary_rapid, &table.bar_length];
+        let positive = [
+            &table.max_rpm,
+            &table.max_feed,
+            &table.rapid,
+            &table.rotary_rapid,
+            &table.feed_override,
+            &table.bar_length,
+        ];
         if let Some(number) = positive.into_iter().flatten().find(|n| n.value.is_nan() || n.value <= 0.0) {
             return Err(self.text.problem(number, "must be greater than zero"));
         }
@@ -201,7 +223,7 @@ impl<'t> Checked<'t> {
                 let message = format!("`{}` is no tool number, nor `table`", number.value);
                 return Err(self.text.problem(number, message));
             };
-            let sizes = [tool.length, tool.diameter, tool.corner_radius];
+            let sizes = [tool.length, tool.posted_length, tool.diameter, tool.corner_radius];
             for size in sizes.into_iter().flatten() {
                 self.finite(number, size)?;
             }

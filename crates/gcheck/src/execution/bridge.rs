@@ -10,8 +10,9 @@ use gcheck_engine::{
     At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Model, Observer, Origin, Position, RunResult,
     Spindle, State, Stop, Truth,
 };
+use gcheck_geometry::Mm;
 use gcheck_report::LineIndex;
-use gcheck_toolpath::Step;
+use gcheck_toolpath::{Beside, Step};
 
 use super::Session;
 
@@ -107,6 +108,27 @@ impl<'s, S: Steps> Bridge<'s, S> {
     }
 }
 
+impl<S> Bridge<'_, S> {
+    /// Why a straight move ends beside its programmed point.
+    fn beside(&self, state: &State<Concrete>, event: &Event) -> Option<Beside> {
+        let Event::Travel(travel) = event else { return None };
+        let shift = state.tool_shift();
+        if shift.along_tool().is_some() {
+            return Some(Beside::AlongTool { tip: self.tip(state, &travel.programmed) });
+        }
+        shift.along_vectors().map(|_| Beside::AlongVector)
+    }
+
+    /// Where the tip of the posted tool is for a posted point: at zero angles the two are one, and tilting turns the tool about
+    /// the head's pivot.
+    fn tip(&self, state: &State<Concrete>, posted: &Position) -> Option<[Mm; 3]> {
+        let machine = &self.session.prepared.equipment.machine;
+        let length = *machine.posted_lengths.get(&tool(state.h())?)?;
+        let [x, y, z] = machine.kinematics?.tip_for_axes(posted.xyz(), length, posted.abc())?;
+        Some([x, y, z + length]).filter(|tip| tip.iter().all(|part| part.is_known()))
+    }
+}
+
 impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     fn before(&mut self, origin: Origin, _: &State<Concrete>) {
         self.executing = origin.n;
@@ -136,6 +158,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
             rpm: turns(state),
             machine: machine(state, model, event),
             tool: tool(state.tool()),
+            beside: self.beside(state, event),
             file: &file,
         };
         if let Err(error) = self.steps.step(&step) {

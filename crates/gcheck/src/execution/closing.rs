@@ -40,6 +40,7 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
         lines: 0,
         suppressed: 0,
         baseline: 0,
+        fixed: 0,
         out_of_fuel: false,
         assumptions: Vec::new(),
     }]);

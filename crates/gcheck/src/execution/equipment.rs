@@ -5,12 +5,13 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, Letter, LetterSet, Unset};
-use gcheck_engine::{Axis, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
+use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, HelixFeed, Letter, LetterSet, Unset};
+use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
 use gcheck_toolpath::{Step, Timing};
 
+use super::rotary::RotaryAxes;
 use super::{Steps, tool_table};
 use crate::Problem;
 use crate::args::{Assignment, VariableName};
@@ -25,11 +26,16 @@ pub(crate) struct Equipment {
     /// Nobody said them.
     pub(crate) units_assumed: bool,
     pub(crate) timing: Timing,
+    /// The setting that decides how helices are fed, when nobody told its value.
+    pub(crate) helix_setting: Option<String>,
     /// Tools of the table on disk, in its order.
     pub(crate) table: Vec<u32>,
     /// Remarks of the table on disk.
     pub(crate) remarks: BTreeMap<u32, String>,
 }
+
+/// Value of the setting of helices that measures their feed along the path of the tool.
+const HELIX_BY_PATH: &str = "path";
 
 /// From where programs are executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,10 +48,11 @@ pub(crate) enum Start {
 
 impl Equipment {
     /// Puts the layers of a configuration together.
-    pub(crate) fn new(settings: &FileSettings, control: &Control, start: Start) -> Result<Self, Problem> {
+    pub(crate) fn new(settings: &FileSettings, model: &Model<'_>, start: Start) -> Result<Self, Problem> {
+        let control = model.control();
         let layers = &settings.execution;
         let configured = layers.iter().rev().find_map(|layer| layer.units).map(units);
-        let default = units_at_power_on(control, &settings.machine.settings);
+        let default = model.units_at_power_on(&settings.machine.settings);
         let in_force = configured.or(default).unwrap_or(Units::Mm);
         // Where variables that nobody set are zero, so is everything else after a fresh start.
         let fresh = start == Start::Fresh && control.semantics().unset == Unset::Zero;
@@ -57,24 +64,50 @@ impl Equipment {
                 start: fresh.then_some(Position::ZERO),
                 table_units,
                 fresh,
+                bar: BarFeeder { starts_new: start == Start::Fresh, ..BarFeeder::default() },
                 ..Machine::default()
             },
             units: in_force,
             units_assumed: configured.is_none(),
             timing: Timing::new(None, None),
+            helix_setting: None,
             table: Vec::new(),
             remarks: BTreeMap::new(),
         };
-        let mut rotary_rapid = None;
+        let (mut rotary_rapid, mut feed_override) = (None, None);
+        let mut rotary = RotaryAxes::default();
         for layer in layers {
-            equipment.put(layer, layer.units.map_or(in_force, units), control)?;
+            let in_layer = layer.units.map_or(in_force, units);
+            equipment.put(layer, in_layer, control)?;
+            rotary.put(&layer.machine, in_layer);
             rotary_rapid = layer.machine.rotary_rapid.as_ref().map(|rate| rate.value).or(rotary_rapid);
+            feed_override = layer.machine.feed_override.as_ref().map(|part| part.value).or(feed_override);
         }
+        equipment.machine.kinematics = rotary.kinematics();
         equipment.timing = Timing::new(equipment.machine.rapid, equipment.machine.tool_change);
         if let Some(rate) = rotary_rapid {
             equipment.timing = equipment.timing.with_rotary_rapid(rate);
         }
+        if let Some(percent) = feed_override {
+            equipment.timing = equipment.timing.with_feed_override(percent);
+        }
+        equipment.put_helix_feed(control);
         Ok(equipment)
+    }
+
+    /// What the feed of a helix is measured along: as a setting says, else as the control usually does.
+    fn put_helix_feed(&mut self, control: &Control) {
+        let helix = &control.semantics().helix;
+        let setting = helix.setting.as_deref();
+        let told = setting.and_then(|number| self.machine.settings.get(number));
+        let by_circle = match told {
+            Some(value) => value != HELIX_BY_PATH,
+            None => helix.feed == HelixFeed::Circle,
+        };
+        if by_circle {
+            self.timing = self.timing.with_helix_by_circle();
+        }
+        self.helix_setting = setting.filter(|_| told.is_none()).map(str::to_owned);
     }
 
     fn put(&mut self, layer: &ExecutionFacts, units: Units, control: &Control) -> Result<(), Problem> {
@@ -94,6 +127,8 @@ impl Equipment {
         machine.max_rpm = value(&table.max_rpm).map(Rpm).or(machine.max_rpm);
         machine.max_feed = value(&table.max_feed).map(|feed| MmPerMin(feed * mm)).or(machine.max_feed);
         machine.rapid = value(&table.rapid).map(|rate| MmPerMin(rate * mm)).or(machine.rapid);
+        machine.bar.new_bar = value(&table.bar_length).map(|bar| Mm(bar * mm)).or(machine.bar.new_bar);
+        machine.bar.bars = table.bars.or(machine.bar.bars);
         machine.tool_change = value(&table.tool_change_seconds).map(Seconds).or(machine.tool_change);
         for (name, value) in &layer.variables {
             if let Some(variable) = VariableName::parse(name) {
@@ -149,6 +184,9 @@ impl Equipment {
                 tool.offset.set(axis, in_mm(axis, *value, mm));
             }
         }
+        if let Some(length) = told.posted_length {
+            self.machine.posted_lengths.insert(number, Mm(length * mm));
+        }
         tool.diameter = told.diameter.map_or(tool.diameter, |diameter| Mm(diameter * mm));
         tool.corner_radius = told.corner_radius.map_or(tool.corner_radius, |radius| Mm(radius * mm));
         tool.orientation =
@@ -188,26 +226,6 @@ fn axis_of(name: &str) -> Option<Axis> {
 
 fn in_mm(axis: Axis, value: f64, mm: f64) -> f64 {
     if axis.is_rotary() { value } else { value * mm }
-}
-
-/// The unit that a control counts in when nobody says otherwise: by its data, else by the setting that decides, whose page
-/// names the usual value first.
-fn units_at_power_on(control: &Control, settings: &BTreeMap<String, String>) -> Option<Units> {
-    let model = Model::new(control);
-    match start_code(&model, Role::Units).map(|code| model.effect(code)) {
-        Some(Effect::Inch) => return Some(Units::Inch),
-        Some(Effect::Millimetre) => return Some(Units::Mm),
-        _ => {}
-    }
-    let decides =
-        |values: &[String]| ["inch", "mm"].iter().all(|unit| values.iter().any(|value| value == unit));
-    let setting = control.settings().iter().find(|setting| decides(&setting.values))?;
-    let value = settings.get(&setting.number).or(setting.default.as_ref()).or(setting.values.first())?;
-    match value.as_str() {
-        "inch" => Some(Units::Inch),
-        "mm" => Some(Units::Mm),
-        _ => None,
-    }
 }
 
 /// The code of a role that is in effect at power-on.

@@ -515,11 +515,11 @@ fn wrong_arguments() {
     check_arguments(
         "check --output-format xml",
         &expect![[r#"
-        ! error: invalid value 'xml' for '--output-format <FORMAT>': there are full, concise, json, sarif, github
-        ! 
-        ! For more information, try '--help'.
-        exit 2
-    "#]],
+            ! error: invalid value 'xml' for '--output-format <FORMAT>': there are full, concise, grouped, json, jsonl, sarif, github, gitlab, checkstyle, junit, rdjson, azure
+            ! 
+            ! For more information, try '--help'.
+            exit 2
+        "#]],
     );
     check_arguments(
         "check --fail-on always",
@@ -589,4 +589,63 @@ fn nothing_hangs_or_breaks_a_run() {
             }
         }
     }
+}
+
+#[test]
+fn rotary_axes_that_cannot_be() {
+    check_configuration(
+        "[machine]\nrotary_order = [\"A\"]\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:17: rotary_order names two different axes
+        !   |
+        ! 2 | rotary_order = ["A"]
+        !   |                 ^^^
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[machine]\nrotary_order = [\"A\", \"A\"]\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:22: rotary_order names two different axes
+        !   |
+        ! 2 | rotary_order = ["A", "A"]
+        !   |                      ^^^
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[machine]\nrotary_order = [\"A\", \"B\", \"C\"]\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:27: rotary_order names two different axes
+        !   |
+        ! 2 | rotary_order = ["A", "B", "C"]
+        !   |                           ^^^
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[machine]\nrotary_order = [\"X\", \"B\"]\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:17: `X` is no rotary axis
+        !   |
+        ! 2 | rotary_order = ["X", "B"]
+        !   |                 ^^^
+        exit 2
+    "#]],
+    );
+    check_configuration(
+        "[machine]\nrotary_sign = { A = 2 }\n",
+        &expect![[r#"
+        sound/a.nc:3:1: error[unknown-code] unknown code `G999`
+        ! error: shop/gcheck.toml:2:21: a sense of rotation is 1 or -1
+        !   |
+        ! 2 | rotary_sign = { A = 2 }
+        !   |                     ^
+        exit 2
+    "#]],
+    );
 }

@@ -11,10 +11,12 @@
 #![expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 mod bad_input;
+mod baseline;
 mod configuration;
 mod control;
 mod determinism;
 mod exit_codes;
+mod fixes;
 mod formats;
 mod lists;
 mod output;

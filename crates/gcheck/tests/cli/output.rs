@@ -224,3 +224,38 @@ fn a_reader_that_goes_away_is_no_error() {
         assert!(matches!(output.status.code(), Some(0 | 1)), "{arguments}: {:?}", output.status);
     }
 }
+
+#[test]
+fn several_outputs_of_one_run() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    let run = shop.gcheck(
+        "check --control haas-mill --quiet --output-format concise -o sarif=out.sarif -o junit=out.xml -o gitlab=q.json",
+    );
+    assert_eq!((run.code, run.rules().as_slice()), (1, ["unknown-code".to_owned()].as_slice()), "{run}");
+    assert_eq!(shop.names(), ["out.sarif", "out.xml", "part.nc", "q.json"]);
+    for (file, format) in [("out.sarif", "sarif"), ("out.xml", "junit"), ("q.json", "gitlab")] {
+        let alone = shop.gcheck(&format!("check --control haas-mill --quiet --output-format {format}"));
+        assert_eq!(shop.read(file), alone.stdout, "{format}");
+    }
+    // What stands before `=` and is no format belongs to the name.
+    let run = shop.gcheck("check --control haas-mill --quiet -o a=b.txt");
+    assert_eq!(run.code, 1, "{run}");
+    assert!(shop.read("a=b.txt").contains("unknown-code"));
+}
+
+#[test]
+fn two_outputs_do_not_share_a_file() {
+    let shop = Shop::with(&[("part.nc", BAD)]);
+    expect![[r#"
+        ! error: out: two outputs cannot go to one file
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check --quiet -o sarif=out -o junit=./out").to_string());
+    expect![[r#"
+        ! error: two: is a second file for the same output
+        !   help: give it a format of its own: `-o sarif=FILE`
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check --quiet -o one -o two").to_string());
+    assert_eq!(shop.names(), ["part.nc"]);
+}

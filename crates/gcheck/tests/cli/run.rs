@@ -535,3 +535,22 @@ fn only_axes_that_move_are_shown_to_people() {
     // Arguments of a call are no axes, and what a called program moves counts.
     assert!(heading("o1 sub\nG0 B#1\no1 endsub\no1 call [2]\nM2\n").contains('B'));
 }
+
+#[test]
+fn a_speed_under_constant_surface_speed_is_one_and_its_limit_holds_at_once() {
+    let program = "O1\nT101\nG20 G18 G99\nG96 S200 M3\nG50 S500\nG0 X.5 Z.1\nG1 Z-.9 F.01\nG97 S300\nM99\n";
+    let shop = Shop::with(&[("part.nc", program)]);
+    let run = shop.gcheck("run part.nc --isolated --control haas-lathe --quiet");
+    expect![[r#"
+        part.nc, inch, X is a diameter
+           line  move             X          Z       feed   seconds
+              2  tool                                         5.000  T1
+              4  spindle                                             60.96 m/min
+              4  spindle                                             clockwise
+              6  rapid       0.5000     0.1000                    ?
+              7  feed        0.5000    -0.9000       0.01    12.000  per turn
+              8  spindle                                             300 rpm
+        exit 0
+    "#]]
+    .assert_eq(&run.to_string());
+}

@@ -60,7 +60,11 @@ fn with_plainsides(docs: &str) -> String {
             apart(&mut lines);
         }
         if let Some((_, control)) = line.strip_prefix("```nc,").and_then(|info| info.split_once(',')) {
-            lines.extend([format!("On `{control}`:"), String::new(), "```nc".to_owned()]);
+            let heading = match control.strip_suffix(",guessed") {
+                Some(control) => format!("On `{control}`, when nobody chose it:"),
+                None => format!("On `{control}`:"),
+            };
+            lines.extend([heading, String::new(), "```nc".to_owned()]);
         } else if !(line.is_empty() && lines.last().is_some_and(String::is_empty)) || inside {
             lines.push(line.to_owned());
         }

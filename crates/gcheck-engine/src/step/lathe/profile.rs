@@ -13,13 +13,13 @@ use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_geometry::{Arc, ArcDirection, Mm, Plane};
 use gcheck_program::{BlockFlags, OLabel, Word};
 
-use super::super::arc::plane_axes;
+use super::super::arc::{arc_fault, plane_axes};
 use super::super::{Count, Executor, Flow, Outcome, Statements, Step};
 use super::keep;
 use crate::assumption::Assumption;
 use crate::cycles::{
-    CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileSegment, Roughing,
-    RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
+    CycleError, LayeredFinish, LayeredRoughing, PatternRepeat, Pockets, ProfileFault, ProfileSegment,
+    Roughing, RoughingDirection, layered_finish, layered_roughing, pattern_repeat, roughing,
 };
 use crate::event::{TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let here = self.origin.at;
         let Some(blocks) = self.labelled_blocks(first, last)? else {
             // Nobody knows which blocks they are; the tool ends where it began.
-            self.assumptions.insert(Assumption::Code(ix));
+            self.assumptions.insert(Assumption::Passes(ix));
             return Ok(());
         };
         if (blocks.first..=blocks.last).contains(&here.block) {
@@ -182,10 +182,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     .and_then(|_| pattern_repeat(from, &profile.segments, &once, &mut out))
             }
         };
+        // What a control makes of a profile of another shape (alarm, another type of cycle, an option) is not known.
+        let result = match result {
+            Err(CycleError::Profile(fault)) if fault != ProfileFault::Empty => Err(CycleError::Unknown),
+            result => result,
+        };
         if matches!(result, Err(CycleError::Unknown)) {
+            strokes.clear();
             let codes = self.words.codes().iter().copied();
             let unknown: Vec<CodeIx> = codes.filter(|ix| self.model.effect(*ix) == effect).collect();
-            self.assumptions.extend(unknown.into_iter().map(Assumption::Code));
+            self.assumptions.extend(unknown.into_iter().map(Assumption::Passes));
         }
         let start = state.position;
         let held = self.hold_compensation(state)?;
@@ -308,6 +314,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             saved: None,
             restore_on_return: false,
             wanted_branch: None,
+            bar_feed: None,
         });
         // The way to the first point was a rapid, and so is what the subprogram gives no code.
         scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
@@ -514,6 +521,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let effect = self.model.effect(mode);
         match effect {
             E::Rapid | E::Linear if has_axes => self.draw_line(mode, effect == E::Rapid, state, drawing)?,
+            E::ArcClockwise | E::ArcCounterClockwise
+                if has_axes && !arc_words && self.is_straight_without_centre() =>
+            {
+                self.draw_line(mode, false, state, drawing)?;
+            }
             E::ArcClockwise | E::ArcCounterClockwise if has_axes || arc_words => {
                 self.draw_arc(effect == E::ArcCounterClockwise, state, drawing)?;
             }
@@ -595,7 +607,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Arc::by_centre(plane, start, end, centre, direction, 1, &tolerance)
             }
         };
-        let arc = arc.map_err(|_| Fault::Profile)?;
+        let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
         drawing.segments.push(ProfileSegment::Arc { to, centre: arc.centre(), ccw });
         state.position = target;

@@ -6,7 +6,7 @@ use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
 use super::compensation_left_on::is_on;
 use super::compensation_on_in_arc::stands_in_plane;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// The first move after cutter compensation is switched off (`G40`) is an arc.
@@ -48,6 +48,10 @@ struct CompensationOffInArc {
 }
 
 impl PathRule for CompensationOffInArc {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(super::compensation_left_on::is_on)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         let was_on = cx.state().effect(Role::Compensation, cx.model).is_some_and(is_on);
         if was_on && cx.has_effect(|effect| effect == Effect::CompensationOff) {

@@ -5,7 +5,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use super::compensation_on_in_arc::begins;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// Cutter compensation is switched on (`G41`, `G42`) with offset number zero (`D0`).
@@ -45,6 +45,10 @@ struct CompensationOffsetMissing {
 }
 
 impl PathRule for CompensationOffsetMissing {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(super::compensation_left_on::is_on)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         self.has_begun |= begins(cx);
     }

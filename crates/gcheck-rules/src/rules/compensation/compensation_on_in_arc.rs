@@ -5,7 +5,7 @@ use gcheck_engine::{At, Axis, CompensationFault, Event, Fault, Role};
 
 use super::compensation_left_on::is_on;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// The first move under cutter compensation (`G41`, `G42`) is an arc, on a control that begins it on a straight move only.
@@ -44,6 +44,10 @@ struct CompensationOnInArc {
 }
 
 impl PathRule for CompensationOnInArc {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(super::compensation_left_on::is_on)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if begins(cx) {
             self.begun = Some(cx.origin().at);

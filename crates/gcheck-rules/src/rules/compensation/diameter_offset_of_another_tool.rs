@@ -5,7 +5,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 use super::compensation_left_on::is_on;
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Watch};
+use crate::{FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A tool cuts with the cutter compensation offset that, by the scheme of the program's other tools, belongs to another tool:
@@ -51,6 +51,10 @@ struct DiameterOffsetOfAnotherTool {
 }
 
 impl PathRule for DiameterOffsetOfAnotherTool {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(super::compensation_left_on::is_on)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
         if !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {

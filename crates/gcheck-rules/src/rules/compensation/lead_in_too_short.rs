@@ -6,7 +6,7 @@ use gcheck_geometry::Plane;
 use super::compensation_left_on::is_on;
 use super::compensation_on_in_arc::{begins, stands_in_plane};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// The first move under cutter compensation is not longer than the tool's radius.
@@ -50,6 +50,10 @@ struct LeadInTooShort {
 }
 
 impl PathRule for LeadInTooShort {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(super::compensation_left_on::is_on)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if begins(cx) {
             self.begun = Some(cx.origin().at);

@@ -6,9 +6,9 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 
 use super::super::arcs::arc_end_off_circle::length;
-use super::cycle_words_lost::cycle_range;
+use super::cycle_words_lost::{cycle_range, is_cycle};
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
 declare_rule! {
     /// The retract plane (`R`) of a canned cycle lies below the bottom of its hole (`Z`).
@@ -55,6 +55,10 @@ struct CycleRBelowBottom {
 }
 
 impl PathRule for CycleRBelowBottom {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_cycle)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::Cycle(CycleFault::RBelowBottom)
             || !self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle)))
@@ -67,8 +71,9 @@ impl PathRule for CycleRBelowBottom {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         let Some(code) = cx.state().active_cycle(cx.model).filter(|ix: &CodeIx| ix.is_some()) else { return };
-        // A back bore enters the hole and cuts on the way back up.
-        if !travel.expanded || matches!(cx.model.effect(code), Effect::CycleBackBore | Effect::CycleRadial) {
+        // A back bore enters the hole and cuts on the way back up; a tool across the spindle may cut from the bore outward.
+        if !travel.expanded || cx.model.effect(code) == Effect::CycleBackBore || cx.model.drills_across(code)
+        {
             return;
         }
         let words = cx.state().cycle();

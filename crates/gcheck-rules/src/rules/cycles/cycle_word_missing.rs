@@ -3,9 +3,9 @@
 use gcheck_controls::{Letter, Need};
 use gcheck_engine::{CycleFault, Event, Fault};
 
-use super::cycle_words_lost::{Series, cycle_code, is_cycle};
+use super::cycle_words_lost::{Series, cycle_code, is_cycle, is_operation};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
     /// A canned cycle runs without a word that it needs, and no block of the cycle gave it.
@@ -44,6 +44,10 @@ struct CycleWordMissing {
 }
 
 impl PathRule for CycleWordMissing {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| is_cycle(effect) || is_operation(effect))
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         self.series.block(cx);
     }

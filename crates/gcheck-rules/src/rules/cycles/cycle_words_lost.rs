@@ -6,7 +6,7 @@ use gcheck_controls::{Code, CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{At, CycleFault, Event, Fault, Role};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
     /// A canned cycle is begun anew without a word that it needs, and an earlier cycle had the word: the end of that cycle
@@ -60,6 +60,10 @@ struct CycleWordsLost {
 }
 
 impl PathRule for CycleWordsLost {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_cycle)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let begins = self.series.block(cx);
         let Some(code) = begins.and_then(|ix| cx.scene.control().code_at(ix)) else { return };
@@ -129,7 +133,7 @@ pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
 }
 
 /// Does it make several moves from the words of one block?
-fn is_operation(effect: Effect) -> bool {
+pub(super) fn is_operation(effect: Effect) -> bool {
     use Effect as E;
     matches!(
         effect,

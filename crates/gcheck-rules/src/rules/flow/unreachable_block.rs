@@ -41,6 +41,9 @@ declare_rule! {
     /// N100 G1 X2. F10.
     /// M99
     /// ```
+    /// A section behind an end of the program that begins with a sequence number and has an end of its own is information at
+    /// most: the operator may start there.
+    ///
     /// What a condition leaves out with the values that the program itself sets is a hint at most: such a program has its
     /// settings at its top. Where a variable decides that the program does not set, both ways are taken.
     /// ```nc,quiet,fanuc-mill
@@ -120,6 +123,8 @@ struct Group {
 enum Cause {
     /// The block in front always leads elsewhere.
     LedAway(Range<u32>),
+    /// The block in front ends the program, and what follows looks like a program of its own that begins with this number.
+    Section(Range<u32>, u32),
     /// The block in front decides, and the values that the program sets decide one way.
     Decided(Range<u32>),
 }
@@ -140,7 +145,16 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
         }
         let mut open: Option<Group> = None;
         let mut last_reached = None;
-        for block in part.blocks.clone() {
+        let mut blocks = part.blocks.clone();
+        while let Some(block) = blocks.next() {
+            // Nearly all blocks of nearly all programs are reached: not looked at one by one.
+            let missing = cx.result.first_unreached(At { file: 0, block }).block.min(part.blocks.end);
+            if missing > block {
+                groups.extend(open.take());
+                last_reached = Some(missing - 1);
+                blocks.start = missing;
+                continue;
+            }
             if is_reached(block) || profiles.iter().any(|profile| profile.contains(&block)) {
                 groups.extend(open.take());
                 last_reached = Some(block);
@@ -180,7 +194,10 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
     let above = above?;
     // A branch or a target in between says that a condition decides elsewhere.
     if leads_away(above, cx.model) && !(last + 1..=block).any(|between| is_led_to(cx, between)) {
-        return Some(Cause::LedAway(above.range()));
+        return Some(match section(cx, above, last, block) {
+            Some(number) => Cause::Section(above.range(), number),
+            None => Cause::LedAway(above.range()),
+        });
     }
     // What a subprogram does with other arguments is its own matter.
     let outline = cx.program.file(0)?;
@@ -192,6 +209,30 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
             .statements(above.ix)
             .any(|statement| matches!(statement.kind, StatementKind::OWord { keyword: OKeyword::Call, .. }));
     (decides && !is_called).then(|| Cause::Decided(above.range()))
+}
+
+/// The sequence number at which an operator may start what stands behind an end of the program and has an end of its own.
+fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u32> {
+    let file = cx.program.file(0)?;
+    let is_end = |place: &Place| {
+        let mut words = place.table.words(place.block()).iter();
+        words.any(|word| {
+            matches!(cx.model.effect(word.code), Effect::ProgramEnd | Effect::ProgramEndWithPallet)
+        })
+    };
+    let number = |place: &Place| {
+        let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N')?;
+        label.integer()
+    };
+    let part_end = file.loaded.outline().part_of(block).end;
+    let place = |block: u32| file.loaded.place(block, cx.scene.dialect);
+    // Where every block has a number, none of them marks a section.
+    let all_have_numbers = place(block + 1).is_some_and(|place| number(&place).is_some());
+    if !is_end(above) || all_have_numbers || !(block..part_end).filter_map(place).any(|place| is_end(&place))
+    {
+        return None;
+    }
+    (last + 1..=block).filter_map(place).find_map(|place| number(&place))
 }
 
 /// Does a statement or jump of the text lead to the block?
@@ -288,6 +329,10 @@ fn finding(group: Group) -> Finding {
     let finding = Finding::new(&META, group.range, message).label("never executed").help(help);
     match group.cause {
         Cause::LedAway(range) => finding.also(range, "execution goes elsewhere here"),
+        Cause::Section(range, number) => finding
+            .also(range, "the program ends here")
+            .note(format!("an operator may start the program at `N{number}`"))
+            .at_most(Severity::Info),
         // A program with settings at its top leaves out what they do not ask for.
         Cause::Decided(range) => finding
             .also(range, "the values that the program sets always decide this one way")
@@ -312,6 +357,28 @@ mod tests {
                 4 | G0 X2.
                   | ^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_section_with_a_number_and_an_end_of_its_own_may_be_started_by_the_operator() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nN2 G0 X1.\nM2\n\nN6 (T06)\nG0 X2.\nX3.\nM2\n",
+            &expect![[r#"
+            6 | G0 X2.
+              | ^^^^^^ info[unreachable-block] no path reaches these 2 blocks
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nN2 G0 X1.\nN3 M2\nN6 G0 X2.\nN7 X3.\nN8 M2\n",
+            &expect![[r#"
+            4 | N6 G0 X2.
+              | ^^^^^^^^^ warning[unreachable-block] no path reaches these 2 blocks
+        "#]],
         );
     }
 

@@ -3,7 +3,7 @@
 use gcheck_engine::{Abstract, Domain, Event, FeedMode};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A feed per minute (`F`) above the configured highest feed of the machine.
@@ -37,6 +37,10 @@ declare_rule! {
 struct FeedAboveMachineLimit;
 
 impl PathRule for FeedAboveMachineLimit {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.scene.machine.engine.max_feed.is_some()
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let (Event::FeedRate(rate), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else {
             return;

@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// A move ends outside the configured travel of an axis.
@@ -48,12 +48,12 @@ struct MoveOutsideTravel {
 }
 
 impl PathRule for MoveOutsideTravel {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        !program.scene.machine.engine.travel.is_empty()
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let travel = &cx.scene.machine.engine.travel;
-        if travel.is_empty() {
-            cx.enough();
-            return;
-        }
         let Some(to) = end_of(event) else { return };
         let machine = machine_words(cx).unwrap_or_else(|| cx.state().to_machine(&to, cx.model));
         for (axis, (lowest, highest)) in travel {

@@ -4,7 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Role};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A spindle speed (`S`) above the configured highest speed of the machine.
@@ -41,6 +41,10 @@ declare_rule! {
 struct SpeedAboveMachineLimit;
 
 impl PathRule for SpeedAboveMachineLimit {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.scene.machine.engine.max_rpm.is_some()
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.scene.machine.engine.max_rpm) else {
             return;

@@ -2,12 +2,13 @@
 
 use std::collections::HashSet;
 
+use gcheck_controls::Unset;
 use gcheck_engine::{Abstract, AbstractValue, Domain, FrameKind, Truth};
 use gcheck_program::{BlockFlags, Op};
 
 use crate::meta::declare_rule;
 use crate::usage::{blocks_with, expressions, is_called_from_elsewhere};
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A local variable is read that some paths to this block set and some do not.
@@ -49,6 +50,10 @@ struct MaybeVariableUnset {
 }
 
 impl PathRule for MaybeVariableUnset {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.scene.control().semantics().unset == Unset::Vacant
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             return;
@@ -63,10 +68,10 @@ impl PathRule for MaybeVariableUnset {
         {
             return;
         }
-        let Some(place) = cx.place() else { return };
-        for expr in expressions(&place) {
-            let expr = place.table.expr(expr);
-            let ops = place.table.ops(expr);
+        let Some((table, expressions)) = cx.expressions() else { return };
+        for expr in expressions.iter() {
+            let expr = table.expr(*expr);
+            let ops = table.ops(expr);
             // Compared with nothing.
             if ops.contains(&Op::Variable(0)) {
                 continue;
@@ -82,7 +87,8 @@ impl PathRule for MaybeVariableUnset {
                 if self.tested.get_or_insert_with(|| tested(cx)).contains(variable) {
                     continue;
                 }
-                let range = place.base + expr.range.start..place.base + expr.range.end;
+                let Some(base) = cx.place().map(|place| place.base) else { continue };
+                let range = base + expr.range.start..base + expr.range.end;
                 let finding = cx
                     .finding(&META, range, format!("variable `#{variable}` may be read before it is set"))
                     .label("holds nothing on some path to this block")

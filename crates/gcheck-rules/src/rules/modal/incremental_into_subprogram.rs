@@ -5,7 +5,7 @@ use gcheck_engine::{At, Event, Fact, FrameKind, Role};
 
 use super::distance_mode_not_stated::is_home;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A subprogram takes positions or increments (`G90`, `G91`) from its caller, and its callers differ: the same moves go to
@@ -68,6 +68,10 @@ struct IncrementalIntoSubprogram {
 const MOST_CALLS: usize = 200;
 
 impl PathRule for IncrementalIntoSubprogram {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall))
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.has_effect(|effect| matches!(effect, Effect::Absolute | Effect::Incremental)) {
             self.depth_set = Some((cx.origin().at, cx.depth()));

@@ -8,7 +8,7 @@ use gcheck_engine::{At, Ending, Event, Fact, Role};
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::{Boundary, LeftOn};
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// Increments (`G91`) were left on: the first move of the next tool, or the first move after a subprogram, goes by increments
@@ -69,6 +69,10 @@ struct IncrementalLeftOn {
 }
 
 impl PathRule for IncrementalLeftOn {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::Incremental)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let switches_on = cx.has_effect(|effect| effect == Effect::Incremental);
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {

@@ -8,7 +8,7 @@ use gcheck_engine::{Event, Fact, Role};
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::Boundary;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// Where paths of the program meet, one comes in increments (`G91`) and one in positions (`G90`), and a block moves.
@@ -51,6 +51,10 @@ struct MaybeIncrementalLeftOn {
 }
 
 impl PathRule for MaybeIncrementalLeftOn {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::Incremental)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.boundary() == Some(Boundary::ToolChange) {
             self.change = Some(cx.boundary_range(Boundary::ToolChange));

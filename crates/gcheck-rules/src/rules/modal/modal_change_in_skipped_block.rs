@@ -8,7 +8,7 @@ use gcheck_program::BlockFlags;
 
 use super::distance_mode_not_stated::is_home;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A block with a block delete (`/`) changes a mode, and a later block without one moves by it: what it does depends on the
@@ -74,6 +74,10 @@ struct ModalChangeInSkippedBlock {
 }
 
 impl PathRule for ModalChangeInSkippedBlock {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.survey.block_deletes != 0
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         for code in cx.codes().iter().copied() {
             let Some(role) = cx.model.role(code).filter(|role| ROLES.contains(role)) else { continue };

@@ -1,7 +1,9 @@
 //! A dwell of many minutes.
 
+use gcheck_controls::{DwellWord, Effect, Letter, Unpointed};
 use gcheck_engine::Event;
 
+use super::dwell_unit_unsure::other_reading;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -36,7 +38,7 @@ declare_rule! {
 }
 
 /// Seconds: longer than any warm-up of a spindle step, shorter than a second meant as milliseconds.
-const LONG: f64 = 300.0;
+pub(super) const LONG: f64 = 300.0;
 
 struct DwellVeryLong;
 
@@ -47,17 +49,79 @@ impl PathRule for DwellVeryLong {
         if seconds < LONG || !seconds.is_finite() {
             return;
         }
-        let minutes = seconds / 60.0;
         let dwell = &cx.model.semantics().dwell;
         let is_time = |word: &gcheck_program::Word| {
             dwell.keys().any(|letter| gcheck_controls::Letter::parse(letter) == Some(word.letter))
         };
-        report.add(
-            cx.finding(&META, cx.word_range(is_time), format!("dwell of {minutes:.0} minutes"))
-                .label(format!("{seconds:.0} seconds on this control"))
-                .help("check whether the value was meant in milliseconds"),
-        );
+        // A number without a point may be least increments there: nobody knows.
+        let by_parameter = cx.scene.control().numbers().unpointed == Unpointed::ByParameter;
+        let is_unsure = |word: &gcheck_program::Word| {
+            let kind = dwell.iter().find(|(letter, _)| Letter::parse(letter) == Some(word.letter));
+            let is_seconds = kind.is_some_and(|(_, kind)| *kind == DwellWord::Seconds);
+            is_seconds && !word.shape.point && word.number().is_some()
+        };
+        if by_parameter && cx.find_word(cx.origin().at, is_unsure).is_some() {
+            return;
+        }
+        // What the control does not take is reported as that.
+        if cx.place().is_some_and(|place| is_above_range(cx, &place, is_time)) {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.word_range(is_time), format!("dwell of {}", duration(seconds)))
+            .label(format!("{seconds:.0} seconds on this control"))
+            .help("check whether the value was meant in milliseconds");
+        report.add(match other_reading(cx, seconds) {
+            Some(other) => finding.note(of_another_control(other)),
+            None => finding,
+        });
     }
+}
+
+/// Does the time exceed what the code that reads it takes?
+fn is_above_range(
+    cx: &PathCx<'_>,
+    place: &gcheck_program::Place,
+    is_time: impl Fn(&gcheck_program::Word) -> bool,
+) -> bool {
+    let words = place.table.words(place.block());
+    let codes = words.iter().filter_map(|word| cx.scene.control().code_at(word.code));
+    let entries: Vec<_> = codes
+        .filter(|code| code.effect() == Effect::Dwell)
+        .flat_map(|code| &code.entry().words)
+        .filter_map(|entry| Some((Letter::parse(&entry.letter)?, entry.max?)))
+        .collect();
+    words.iter().filter(|word| is_time(word)).any(|word| {
+        let value = word.number().unwrap_or(0.0);
+        entries.iter().any(|(letter, max)| *letter == word.letter && value > *max)
+    })
+}
+
+/// A time for people: `0.5 seconds`, `8 minutes`, `28 hours`.
+pub(super) fn duration(seconds: f64) -> String {
+    const MINUTE: f64 = 60.0;
+    const HOUR: f64 = 60.0 * MINUTE;
+    let (value, unit) = if seconds < 0.1 {
+        (seconds * 1000.0, "milliseconds")
+    } else if seconds < 2.0 * MINUTE {
+        (seconds, "seconds")
+    } else if seconds < 2.0 * HOUR {
+        (seconds / MINUTE, "minutes")
+    } else {
+        (seconds / HOUR, "hours")
+    };
+    let text = match (value < 10.0, seconds < 2.0 * MINUTE) {
+        (true, true) => format!("{value:.2}"),
+        (true, false) => format!("{value:.1}"),
+        (false, _) => format!("{value:.0}"),
+    };
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "1" { format!("1 {}", unit.trim_end_matches('s')) } else { format!("{text} {unit}") }
+}
+
+/// The time on a control that counts in the other unit, where the control was only guessed.
+pub(super) fn of_another_control(seconds: f64) -> String {
+    format!("the control was guessed: one that counts in the other unit waits {}", duration(seconds))
 }
 
 #[cfg(test)]
@@ -65,7 +129,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
 
     #[test]
     fn the_time_is_marked() {
@@ -77,8 +142,47 @@ mod tests {
                 1 | G4 P2000
                   |    ^^^^^ warning[dwell-very-long] dwell of 33 minutes
                 5 | G4 P#2
-                  |    ^^^ warning[dwell-very-long] dwell of 8 minutes
+                  |    ^^^ warning[dwell-very-long] dwell of 8.3 minutes
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_guessed_control_says_what_the_other_unit_makes() {
+        let world = World { control_is_guessed: true, ..World::default() };
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "G4 P8000\nM2\n", &world);
+        expect![[r#"
+            dwell of 2.2 hours
+              here: 8000 seconds on this control
+              note: the control was guessed: one that counts in the other unit waits 8 seconds
+              help: check whether the value was meant in milliseconds
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn seconds_that_may_be_least_increments_are_not_judged() {
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G4 X10000\nG4 X500.\nM30\n",
+            &expect![[r#"
+            2 | G4 X500.
+              |    ^^^^^ warning[dwell-very-long] dwell of 8.3 minutes
+        "#]],
+        );
+    }
+
+    #[test]
+    fn more_than_the_control_takes_is_reported_as_that() {
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G4 X99999.\nG4 X100000.\nM30\n",
+            &expect![[r#"
+            1 | G4 X99999.
+              |    ^^^^^^^ warning[dwell-very-long] dwell of 28 hours
+        "#]],
         );
     }
 

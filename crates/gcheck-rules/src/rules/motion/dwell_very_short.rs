@@ -1,7 +1,10 @@
 //! A dwell of a few milliseconds.
 
+use gcheck_controls::DwellWord;
 use gcheck_engine::Event;
 
+use super::dwell_unit_unsure::other_reading;
+use super::dwell_very_long::{duration, of_another_control};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -33,7 +36,7 @@ declare_rule! {
 }
 
 /// Seconds: less than a spindle needs for a turn.
-const SHORT: f64 = 0.02;
+pub(super) const SHORT: f64 = 0.02;
 /// Milliseconds: the shortest dwell there is only keeps the control from reading ahead.
 const SHORTEST: f64 = 1.0001;
 
@@ -42,22 +45,37 @@ struct DwellVeryShort;
 impl PathRule for DwellVeryShort {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Dwell(time) = event else { return };
-        let milliseconds = time.0 * 1000.0;
-        if !(milliseconds > SHORTEST && time.0 < SHORT) {
+        if !is_too_short(time.0) {
             return;
         }
         let dwell = &cx.model.semantics().dwell;
         let is_time = |word: &gcheck_program::Word| {
             dwell.keys().any(|letter| gcheck_controls::Letter::parse(letter) == Some(word.letter))
         };
-        let text = format!("{milliseconds:.1}");
-        let text = text.trim_end_matches('0').trim_end_matches('.');
-        report.add(
-            cx.finding(&META, cx.word_range(is_time), format!("dwell of {text} milliseconds"))
-                .label("no noticeable time on this control")
-                .help("check whether the value was meant in seconds"),
-        );
+        // Milliseconds with a decimal point are reported for the point.
+        let words = cx.place().map(|place| place.table.words(place.block()).to_vec()).unwrap_or_default();
+        let is_pointed = |word: &gcheck_program::Word| {
+            let kinds = dwell.iter().filter(|(_, kind)| **kind == DwellWord::Milliseconds);
+            let mut letters = kinds.filter_map(|(letter, _)| gcheck_controls::Letter::parse(letter));
+            word.shape.point && letters.any(|letter| letter == word.letter)
+        };
+        if words.iter().any(is_pointed) {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.word_range(is_time), format!("dwell of {}", duration(time.0)))
+            .label("no noticeable time on this control")
+            .help("check whether the value was meant in seconds");
+        report.add(match other_reading(cx, time.0) {
+            Some(other) => finding.note(of_another_control(other)),
+            None => finding,
+        });
     }
+}
+
+/// Less than anybody could want, but more than what is written to keep the control from reading ahead.
+fn is_too_short(seconds: f64) -> bool {
+    seconds * 1000.0 > SHORTEST && seconds < SHORT
 }
 
 #[cfg(test)]

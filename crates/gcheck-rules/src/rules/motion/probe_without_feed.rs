@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use gcheck_controls::{CodeIx, Letter, Need};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, TravelKind};
 
 use super::feed_missing::{probes, zero_was_given};
@@ -21,7 +22,7 @@ declare_rule! {
     /// G38.2 Z-10
     /// M2
     /// ```
-    /// ```nc,reported,haas-mill
+    /// ```nc,reported,fanuc-mill
     /// G90 G0 X0 Y0 Z1.
     /// G31 Z-1.
     /// M30
@@ -69,6 +70,15 @@ impl PathRule for ProbeWithoutFeed {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         let skips = matches!(travel.kind, TravelKind::Probe { skip: true, .. });
+        // A code that needs `F` in its own block is spoken of there.
+        let needs_feed = |code: &CodeIx| {
+            cx.code_of(*code).is_some_and(|code| {
+                code.entry().words.iter().any(|word| word.letter == "F" && word.need == Need::Required)
+            })
+        };
+        if cx.codes().iter().any(needs_feed) && !cx.origin().letters.contains(Letter::of('F')) {
+            return;
+        }
         let none = Abstract::known(cx.state().feed()).is_some_and(|feed| feed.abs() <= 0.0);
         if skips && none && zero_was_given(cx).is_none() {
             let finding = self::finding(cx, "probing move without a feed (`F`)", "no feed is in effect here")
@@ -123,6 +133,11 @@ mod tests {
                   | ^^^^^^^^^^^^^ error[probe-without-feed] probing move under inverse-time feed
             "#]],
         );
+    }
+
+    #[test]
+    fn a_code_that_needs_its_own_feed_is_another_rules() {
+        check_rule(&RULE, "haas-mill", "G90 G0 Z1.\nG31 Z-1.\nM30\n", &expect![[""]]);
     }
 
     #[test]

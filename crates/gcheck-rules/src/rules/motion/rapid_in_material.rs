@@ -208,9 +208,9 @@ impl Cuts {
             return false;
         }
         let from = match event {
-            Event::Travel(travel) => travel.from,
-            Event::Arc(arc) => arc.from,
-            _ => Position::UNKNOWN,
+            Event::Travel(travel) => &travel.from,
+            Event::Arc(arc) => &arc.from,
+            _ => &Position::UNKNOWN,
         };
         let shift = cx.state().shift();
         let frame =
@@ -218,7 +218,7 @@ impl Cuts {
         let new_frame = self.frame.is_some() && self.frame != frame;
         let jumped = !new_frame
             // Z may count anew when a tool offset comes into effect.
-            && matches!((self.last, point(&from)), (Some(last), Some(from)) if (last[0] - from[0]).hypot(last[1] - from[1]) > 1e-6);
+            && matches!((self.last, point(from)), (Some(last), Some(from)) if is_apart(last, from));
         let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
         if frame.is_none()
             || new_frame && !self.list.is_empty()
@@ -238,23 +238,23 @@ impl Cuts {
     /// Keeps what a move cuts.
     pub(crate) fn add(&mut self, event: &Event) {
         let (from, to, cuts) = match event {
-            Event::Travel(travel) => (travel.from, travel.to, travel.kind != TravelKind::Rapid),
-            Event::Arc(arc) => (arc.from, arc.to, true),
-            _ => (Position::UNKNOWN, Position::UNKNOWN, true),
+            Event::Travel(travel) => (&travel.from, &travel.to, travel.kind != TravelKind::Rapid),
+            Event::Arc(arc) => (&arc.from, &arc.to, true),
+            _ => (&Position::UNKNOWN, &Position::UNKNOWN, true),
         };
-        self.last = point(&to);
+        self.last = point(to);
         if !cuts {
             return;
         }
         let depth = |position: &Position| position.get(Axis::Z);
-        let z = match (depth(&from), depth(&to)) {
+        let z = match (depth(from), depth(to)) {
             (Some(a), Some(b)) => Some(a.min(b)),
             // Down from where nobody knows.
             (None, b) => b,
             (Some(_), None) => None,
         };
         let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
-        let (Some(a), Some(b), Some(z)) = (flat(&from), flat(&to), z) else {
+        let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
             self.blind = true;
             self.list = Vec::new();
             return;
@@ -304,6 +304,13 @@ impl Cuts {
 /// X, Y and Z, if all are known.
 pub(crate) fn point(position: &Position) -> Option<[f64; 3]> {
     Some([position.get(Axis::X)?, position.get(Axis::Y)?, position.get(Axis::Z)?])
+}
+
+/// Are two points not one in X and Y?
+fn is_apart(a: [f64; 3], b: [f64; 3]) -> bool {
+    let (x, y) = (a[0] - b[0], a[1] - b[1]);
+    // Asked at every move, so without a root.
+    x * x + y * y > 1e-12
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {

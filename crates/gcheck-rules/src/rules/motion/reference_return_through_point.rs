@@ -4,7 +4,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Travel};
 
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A return to the reference position (`G28`, `G30`) has axis words in absolute mode (`G90`), and the point they give is
@@ -63,6 +63,10 @@ struct ReferenceReturnThroughPoint {
 const SAME: f64 = 0.001;
 
 impl PathRule for ReferenceReturnThroughPoint {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(returns)
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         if !travel.expanded || !cx.origin().flags.contains(gcheck_program::BlockFlags::CODE) {

@@ -5,7 +5,7 @@ use gcheck_engine::{At, Axis, Ending, Event};
 
 use crate::boundary::Boundary;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// The shift of the work coordinates (`G52`, `G92`) is still on where the program ends.
@@ -51,6 +51,10 @@ struct ShiftLeftOn {
 }
 
 impl PathRule for ShiftLeftOn {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_shift)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if cx.boundary() == Some(Boundary::ProgramEnd) {
             self.judge(cx, report);

@@ -1,8 +1,11 @@
 //! A cut while the spindle stands.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{At, Axis, Event, Fact, Fault, Spindle, TravelKind, Truth};
+use gcheck_engine::{
+    Abstract, At, Axis, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, TravelKind, Truth,
+};
 
+use super::super::motion::feed_of_another_mode::goes_by_feed;
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -11,7 +14,8 @@ declare_rule! {
     ///
     /// ## Why it matters
     /// The tool is pushed through the material and breaks. Probing, drag knives, engraving by scratching and machines whose
-    /// spindle is switched by hand are the exceptions.
+    /// spindle is switched by hand are the exceptions. Where the feed is counted by turns of the spindle (`G95`; `G99` on
+    /// lathes), the axes do not even move: the program waits for turns that do not come.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -21,12 +25,28 @@ declare_rule! {
     /// G1 X3.
     /// M30
     /// ```
+    /// By turns the spindle has to turn for every feed move, the way out as well.
+    /// ```nc,reported,generic-mill
+    /// G21 G90 G95 G0 Z-5. S1000 M3
+    /// G1 X20. F0.2
+    /// M5
+    /// G1 Z50.
+    /// M30
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G0 X1. S1000 M3
     /// G1 X2. F10.
     /// M5
     /// G0 Z5.
+    /// M30
+    /// ```
+    /// Feed a minute needs no turns.
+    /// ```nc,quiet,generic-mill
+    /// G21 G90 G95 G0 Z-5. S1000 M3
+    /// G1 X20. F0.2
+    /// M5
+    /// G94 G1 Z50. F500.
     /// M30
     /// ```
     /// A feed move straight up is a way out, not a cut.
@@ -61,23 +81,41 @@ impl PathRule for SpindleStoppedWhileCutting {
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
             Event::OrientSpindle { .. } => self.is_oriented = true,
-            Event::Spindle(_) => self.is_oriented = false,
+            // A new bar is taken at an angle, and then the spindle is to turn again.
+            Event::Spindle(_) | Event::BarPush(_) => self.is_oriented = false,
             _ => {}
         }
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
-        if !stands || self.is_oriented || !is_cut(cx, event) || cx.is_called_only() {
+        // Who chose a feed by turns wants them for every move.
+        let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
+        let needs_turns = by_turns
+            && cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_some()
+            && goes_by_feed(event)
+            && !cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip));
+        // A strict control refuses the block, which is reported as a fault.
+        let is_refused =
+            by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
+        if !stands
+            || is_refused
+            || self.is_oriented
+            || !needs_turns && !is_cut(cx, event)
+            || cx.is_called_only()
+        {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
         let is_ever_started = cx.file_uses(starts);
         // Neither start nor speed anywhere: a spindle switched by hand, or none at all: a laser, a knife, a pen.
-        if !is_ever_started && cx.trace().set_by(Fact::Speed).is_none() {
+        if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() {
             return;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
+            return;
+        }
+        if cx.is_near(probes) {
             return;
         }
         self.told.push(stopped_by);
@@ -87,13 +125,21 @@ impl PathRule for SpindleStoppedWhileCutting {
         if is_started_with_change.is_some() {
             return;
         }
-        let message = match stopped_by {
-            Some(at) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
-            None => "cut, and the spindle was not started (no `M3`)".to_owned(),
+        let message = match (stopped_by, needs_turns) {
+            (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
+            (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
+            (Some(at), true) => {
+                format!("feed by turns of a spindle that was stopped (`{}`)", stop_code(cx, at))
+            }
+            (None, true) => "feed by turns of a spindle that was not started (no `M3`)".to_owned(),
         };
         let mut finding = cx
             .finding(&META, cx.range(), message)
-            .label(if is_ever_started { "nothing turns here" } else { "the program never starts the spindle" })
+            .label(match (needs_turns, is_ever_started) {
+                (true, _) => "the axes wait for turns that do not come",
+                (false, true) => "nothing turns here",
+                (false, false) => "the program never starts the spindle",
+            })
             .help(
                 "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
             );
@@ -101,6 +147,9 @@ impl PathRule for SpindleStoppedWhileCutting {
         let is_mill = is_ever_started || cx.file_uses(|effect| effect == Effect::ToolChange);
         if !is_mill || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
+        }
+        if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
+            finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         }
         report.add(since(cx, finding, stopped_by));
     }
@@ -129,7 +178,7 @@ fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
 }
 
 fn stops(effect: Effect) -> bool {
-    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient)
+    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient | Effect::BarFeed)
 }
 
 /// The code that stopped the spindle, as programs write it.
@@ -197,6 +246,30 @@ mod tests {
     use crate::testing::{World, check_rule, findings, words};
 
     #[test]
+    fn moves_around_a_touch_cut_nothing() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T20 M6\nG1 X1. Z-.3 F50.\nG91 G31 Y-1. F8. M75\nG1 Y.2 F50.\nG136 Y1. F8.\nM5\nG1 Y-.2\nT1 M6\nS3000 M3\n\
+             G1 X1. F10.\nG90\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_touch_with_another_tool_is_no_excuse() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S1000 M3\nG1 X1. F10.\nT20 M6\nG31 Y1. F8.\nT2 M6\nG1 X2. F10.\nM30\n",
+            &expect![[r#"
+                6 | G1 X2. F10.
+                  | ^^^^^^^^^^^ info[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
+            "#]],
+        );
+    }
+
+    #[test]
     fn the_first_cut_of_each_stop_is_marked() {
         check_rule(
             &RULE,
@@ -208,6 +281,17 @@ mod tests {
                 8 | G1 X5.
                   | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M6`)
             "#]],
+        );
+    }
+
+    /// A bar job ends by starting again, and its bar feed stops the spindle, at an angle for a new bar or not.
+    #[test]
+    fn a_bar_feed_stops_the_spindle() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "T101\nG97 S900 M3\nG1 X1. F.01\nG0 X3.\nG105 J1.75 R90.\nG1 X0.\nM99\n",
+            &expect![[""]],
         );
     }
 
@@ -259,6 +343,53 @@ mod tests {
             &expect![[r#"
             2 | G33 Z-10 K1
               | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_feed_by_turns_needs_them_for_every_move() {
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G21 G90 G95 G0 X0. Z5.\nG1 Z-1. F0.1\nS900 M3\nG1 X5.\nM5\nG1 Z5.\nG94 G1 Z9. F99.\nM30\n",
+            &expect![[r#"
+                2 | G1 Z-1. F0.1
+                  | ^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was not started (no `M3`)
+                6 | G1 Z5.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was stopped (`M5`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G95\nG1 X1 F0.1\nM2\n",
+            &expect![[r#"
+            2 | G1 X1 F0.1
+              | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G95 S900\nG1 X1 F0.1\nM2\n",
+            &expect![[r#"
+            2 | G1 X1 F0.1
+              | ^^^^^^^^^^ info[spindle-stopped-while-cutting] feed by turns of a spindle that was not started (no `M3`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_lathe_at_power_on_feeds_by_turns_but_may_be_left_so() {
+        check_rule(&RULE, "fanuc-lathe", "G21 G0 X5.\nG1 Z5. F0.1\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 G99 S900 M3\nG1 X5. F0.1\nM5\nG1 Z5.\nM30\n",
+            &expect![[r#"
+            4 | G1 Z5.
+              | ^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was stopped (`M5`)
         "#]],
         );
     }

@@ -5,7 +5,7 @@ use gcheck_engine::{At, Event, Fact, Role, Spindle};
 
 use super::spindle_stopped_while_cutting::is_cut;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A block cuts at constant surface speed (`G96`) and no limit of the spindle speed was given (`G50 S`, `G92 S`, `D`).
@@ -49,6 +49,10 @@ struct SurfaceSpeedWithoutLimit {
 }
 
 impl PathRule for SurfaceSpeedWithoutLimit {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::SurfaceSpeed)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(Effect::SurfaceSpeed) = state.effect(Role::SpindleMode, cx.model) else { return };

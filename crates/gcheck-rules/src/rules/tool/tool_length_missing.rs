@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role};
 
+use crate::five_axis::is_along_tool;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -32,6 +33,13 @@ declare_rule! {
     /// T1 M6
     /// G53 G0 Z0.
     /// G43 H1 Z.1
+    /// M30
+    /// ```
+    /// Lengths posted into the path need no other:
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G0 G90 G54 X0. Y0. Z1. A0. B0.
+    /// G143 H1 X0. Y0. Z.1 A5. B5.
     /// M30
     /// ```
     rule "tool-length-missing" in "tool" {
@@ -71,6 +79,10 @@ impl ToolLengthMissing {
     fn judge(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let rules = cx.model.semantics().tools;
         let Some(at) = self.changed else { return };
+        // Lengths that are posted into the path need none: what the control adds is a difference.
+        if cx.file_uses(is_along_tool) {
+            return;
+        }
         if self.is_done || rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
             return;
         }
@@ -89,6 +101,14 @@ impl ToolLengthMissing {
         };
         let Some(on) = cx.scene.control().codes().find(|code| compensates(code.effect())) else { return };
         let on = on.number().to_string();
+        // A work offset is measured with the length off, and the probe goes to its place without it.
+        if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
+            return;
+        }
+        // A tool that is about to touch off finds its own zero.
+        if cx.is_near(|effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional)) {
+            return;
+        }
         let is_ever_used = cx.file_uses(compensates);
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
@@ -133,7 +153,10 @@ fn needs_no_length(cx: &PathCx<'_>) -> bool {
                 | Effect::ReturnReference(_)
                 | Effect::ReturnFromReference
                 | Effect::ToolChange
+                | Effect::ProbeDiameter
+                | Effect::ProbeOffset
                 | Effect::ProbeLength
+                | Effect::ProbeCentre
                 | Effect::Skip
                 | Effect::ProbeToward
                 | Effect::ProbeTowardOptional
@@ -190,6 +213,26 @@ mod tests {
     #[test]
     fn a_turret_knows_its_tools() {
         check_rule(&RULE, "fanuc-lathe", "T0101\nG1 X5. Z0. F.1\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_probe_that_measures_a_work_offset_works_without_its_length() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T20 M6\nG90 G54 G0 X0. Y0.\nZ1.\nG91 G36 Z-1. F5.\nT1 M6\nG90 G43 H1 Z1.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_tool_that_touches_off_finds_its_own_zero() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 T1 M6\nG0 X0 Y0\nG0 Z10\nG38.2 Z-20 F100\nG10 L20 P1 Z0\nT2 M6\nG43 Z10\nM2\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

@@ -5,13 +5,14 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::contract::{choice, letters_of};
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// An arc names its end point, but neither its centre nor its radius.
     ///
     /// ## Why it matters
-    /// The control does not know the arc. It stops with an alarm, or moves in a straight line through the part.
+    /// The control does not know the arc. It stops with an alarm, or moves in a straight line through the part; where a setting
+    /// decides between the two and nobody told it, this is a warning.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -54,12 +55,19 @@ fn is_end_point(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> bool {
 
 fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: LetterSet) -> Finding {
     let entry = code.entry();
-    Finding::new(&META, cx.range(word), format!("arc without centre or radius: `{}`", cx.text(word)))
-        .label(format!("needs {}", choice(letters)))
-        .also(cx.range(end), "the end point alone does not make an arc")
-        .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
-        .help("add the centre or the radius, or write the straight move as a straight move")
-        .at_most(limit(entry.confidence))
+    let finding =
+        Finding::new(&META, cx.range(word), format!("arc without centre or radius: `{}`", cx.text(word)))
+            .label(format!("needs {}", choice(letters)))
+            .also(cx.range(end), "the end point alone does not make an arc")
+            .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
+            .help("add the centre or the radius, or write the straight move as a straight move")
+            .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)));
+    match cx.control().semantics().arcs.straight_setting.as_deref() {
+        Some(setting) if cx.scene.setting(setting).is_none_or(|(value, _)| value != "alarm") => finding
+            .note(format!("setting {setting} decides: a straight line, or an alarm"))
+            .at_most(Severity::Warning),
+        _ => finding,
+    }
 }
 
 #[cfg(test)]
@@ -68,7 +76,7 @@ mod tests {
 
     use super::RULE;
     use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, words};
 
     #[test]
     fn the_code_is_marked() {
@@ -91,8 +99,24 @@ mod tests {
             "G02 U10. W-5. F0.1\nG02 U10. W-5. R5. F0.1\n",
             &expect![[r#"
                 1 | G02 U10. W-5. F0.1
-                  | ^^^ error[arc-without-centre] arc without centre or radius: `G02`
+                  | ^^^ warning[arc-without-centre] arc without centre or radius: `G02`
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_setting_that_is_told_decides() {
+        let mut alarms = World::default();
+        alarms.machine.settings.insert("3403#5".to_owned(), "alarm".to_owned());
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G2 X10. Y5. F100.\n",
+            &alarms,
+            &expect![[r#"
+            1 | G2 X10. Y5. F100.
+              | ^^ error[arc-without-centre] arc without centre or radius: `G2`
+        "#]],
         );
     }
 

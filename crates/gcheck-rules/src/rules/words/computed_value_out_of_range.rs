@@ -1,11 +1,12 @@
 //! A computed value that its code cannot use.
 
+use gcheck_controls::{Code, Letter};
 use gcheck_engine::{Fault, FrameKind};
 use gcheck_program::Value;
 
 use crate::meta::declare_rule;
 use crate::usage::is_called_from_elsewhere;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
     /// A word's value is computed, and comes to one that the code cannot use: a fraction or a negative number where a
@@ -63,6 +64,17 @@ impl PathRule for ComputedValueOutOfRange {
             .finding(&META, range, format!("computed value of `{name}` cannot be used here"))
             .label("comes to a fraction, or out of the range of its code")
             .help("check what the value is computed from");
+        // What the range of a word rests on, limits what may be said of a value beyond it.
+        let codes = cx.codes();
+        let entries = codes.iter().filter_map(|code| cx.scene.control().code_at(*code)).map(Code::entry);
+        let confidence = entries
+            .flat_map(|entry| entry.words.iter().map(move |word| (entry, word)))
+            .filter(|(_, word)| Letter::parse(&word.letter) == Some(*letter))
+            .map(|(entry, word)| word.range_confidence.or(word.confidence).unwrap_or(entry.confidence))
+            .min();
+        if let Some(confidence) = confidence {
+            finding = finding.at_most(limit(confidence));
+        }
         if cx.scene.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
@@ -95,6 +107,30 @@ mod tests {
             &expect![[r#"
             2 | M3 S#1
               |    ^^^ error[computed-value-out-of-range] computed value of `S` cannot be used here
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_range_that_is_only_assumed_makes_a_warning() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "#1=-1\nG4 X[#1]\nM30\n",
+            &expect![[r#"
+            2 | G4 X[#1]
+              |    ^^^^^ warning[computed-value-out-of-range] computed value of `X` cannot be used here
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "#1=-1\nG4 P[#1]\nG4 U[#1]\nM30\n",
+            &expect![[r#"
+            2 | G4 P[#1]
+              |    ^^^^^ warning[computed-value-out-of-range] computed value of `P` cannot be used here
+            3 | G4 U[#1]
+              |    ^^^^^ error[computed-value-out-of-range] computed value of `U` cannot be used here
         "#]],
         );
     }

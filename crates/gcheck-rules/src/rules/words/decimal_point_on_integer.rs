@@ -59,13 +59,23 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let general =
         cx.control().letter(word.letter).filter(|entry| is_whole(entry.kind)).map(|entry| entry.confidence);
     let confidence = general.map_or(facts.confidence, |general| general.max(facts.confidence));
+    let help = match word.number() {
+        // A time in milliseconds with a point may have been meant as seconds.
+        Some(number) if facts.kind == WordKind::Milliseconds => {
+            format!(
+                "write whole milliseconds: `{}{}` for {number} seconds",
+                word.letter,
+                (number * 1000.0).round()
+            )
+        }
+        _ => "write the number without decimal point".to_owned(),
+    };
     let finding = Finding::new(&META, cx.range(word), format!("decimal point on a whole number: `{text}`"))
         .label(facts.is)
         .note(format!("`{}` takes a whole number here  [{}]", word.letter, facts.source))
-        .help("write the number without decimal point")
+        .help(help)
         .at_most(limit(confidence));
     match whole(text) {
-        // A time in milliseconds with a point may have been meant as seconds.
         Some(whole) if facts.kind != WordKind::Milliseconds => {
             finding.fix(Fix::safe(format!("write `{text}` as `{whole}`"), cx.range(word), whole))
         }

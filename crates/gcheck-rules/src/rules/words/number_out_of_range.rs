@@ -65,7 +65,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> 
         .label(facts.is)
         .note(format!("`{}`{of} takes {}  [{}]", word.letter, range(facts), facts.source))
         .help("correct the value")
-        .at_most(limit(facts.confidence))
+        .at_most(limit(facts.range_confidence))
 }
 
 /// "0 to 99", "1 or more", "more than 0".

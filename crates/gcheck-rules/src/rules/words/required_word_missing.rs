@@ -3,6 +3,7 @@
 use gcheck_controls::{Code, Confidence, Letter, Need, WordEntry};
 use gcheck_program::{BlockFlags, Word};
 
+use super::dwell_time_in_other_word::time_elsewhere;
 use crate::meta::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
@@ -39,7 +40,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         for needed in code.entry().words.iter().filter(|w| w.need == Need::Required) {
             let stands =
                 Letter::parse(&needed.letter).is_none_or(|letter| cx.block().letters.contains(letter));
-            if !stands && is_certain(cx, word, code) {
+            // A time in a word of another control is reported as that.
+            let is_elsewhere = !stands && time_elsewhere(cx, code).is_some();
+            if !stands && !is_elsewhere && is_certain(cx, word, code) {
                 report.add(finding(cx, word, code, needed));
             }
         }

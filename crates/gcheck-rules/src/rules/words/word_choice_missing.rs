@@ -57,7 +57,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, letters: LetterSet) ->
             entry.code, entry.title, entry.source
         ))
         .help(format!("add {missing} to the block"))
-        .at_most(limit(entry.confidence))
+        .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
             entry.code, entry.title, entry.source
         ))
         .help(format!("keep `{a}` or `{b}`"))
-        .at_most(limit(entry.confidence))
+        .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 
 fn meaning<'a>(code: Code<'a>, word: &Word) -> &'a str {
@@ -99,6 +99,21 @@ mod tests {
             &expect![[r#"
                 1 | G83 Z-1. Q0.1 I0.2 F0.1
                   |               ^^^^ error[words-exclude-each-other] `Q` and `I` together with `G83`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn what_is_only_assumed_is_a_warning() {
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G4 P500 X0.5\nG4 U0.5 X0.5\nG4 P500\nG4\n",
+            &expect![[r#"
+                1 | G4 P500 X0.5
+                  |         ^^^^ warning[words-exclude-each-other] `P` and `X` together with `G4`
+                2 | G4 U0.5 X0.5
+                  |         ^^^^ warning[words-exclude-each-other] `U` and `X` together with `G4`
             "#]],
         );
     }

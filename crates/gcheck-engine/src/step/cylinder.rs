@@ -1,0 +1,197 @@
+//! Cylindrical mapping: a linear axis wrapped around a cylinder on a rotary axis.
+//!
+//! Knows: the words that begin and end it, which diameter counts, what moves of the axes themselves do to the drawing. Must not
+//! know: the angle of a point ([`crate::Cylinder`]).
+
+use gcheck_controls::{CodeIx, CylinderRules, Letter, LetterSet};
+
+use super::{Executor, Step};
+use crate::assumption::Assumption;
+use crate::cylinder::{Cylinder, Wrapped};
+use crate::event::{Event, Units};
+use crate::fault::Fault;
+use crate::modal::ModeSet;
+use crate::model::Role;
+use crate::observer::Observer;
+use crate::position::{Axis, Position};
+use crate::state::State;
+use crate::value::{Domain, Truth};
+
+/// Angles closer than this are one, degrees.
+const SAME_ANGLE: f64 = 1e-6;
+
+impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
+    /// Mapping on, off, or a new default diameter.
+    pub(super) fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+        let Some(rules) = &self.model.semantics().cylinder else { return self.cylinder_by_radius(ix, state) };
+        let given = |axes: &[Axis]| -> Vec<Axis> {
+            axes.iter().copied().filter(|axis| self.words.has(axis.letter())).collect()
+        };
+        let linear = given(&[Axis::X, Axis::Y, Axis::Z]);
+        let rotary = given(&[Axis::A, Axis::B, Axis::C]);
+        let (q, r) = (self.length(Letter::of('Q'), state), self.length(Letter::of('R'), state));
+        let [two_linear, two_rotary] = [&linear, &rotary].map(|axes| axes.len() > 1);
+        let two_sizes = q.is_some() && r.is_some();
+        if self.may_be_vacant(&linear)
+            || two_rotary && self.may_be_vacant(&rotary)
+            || two_sizes && (q.is_some_and(f64::is_nan) || r.is_some_and(f64::is_nan))
+        {
+            // Words that may be nothing may begin nothing, and may leave one of two.
+            state.diameters.forget();
+            state.wrapped = Wrapped::Unknown;
+            if let Some(mode) = state.modes.get_mut(Role::Cylinder.index()) {
+                *mode = mode.join(&ModeSet::one(ix));
+            }
+            self.emit(state, Event::Modal(ix));
+            return Ok(());
+        }
+        if two_linear || two_rotary || two_sizes {
+            return Err(Fault::Conflict);
+        }
+        // What compensation holds back was drawn before.
+        self.flush_compensation(state)?;
+        let size = q.or(r.map(|radius| 2.0 * radius));
+        let Some(rotary) = rotary.first().copied() else {
+            if !linear.is_empty() || size.is_some() {
+                return Err(Fault::MissingWord(Letter::of('A')));
+            }
+            self.unwrap_axis(state);
+            return Ok(());
+        };
+        if let Some(axes) = &self.machine.axes
+            && !axes.contains(&rotary)
+        {
+            return Err(Fault::NoSuchAxis(rotary.letter()));
+        }
+        if let Some(size) = size {
+            // A size below zero means nothing; rules of words speak of it.
+            state.diameters.set(rotary, if size >= 0.0 { size } else { f64::NAN });
+        }
+        let Some(linear) = linear.first().copied() else { return Ok(()) };
+        let diameter = self.diameter_of(rotary, rules, state);
+        // The same axis on another cylinder goes on with its drawing.
+        if state.wrapped.cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
+            self.unwrap_axis(state);
+        }
+        let stands = state.wrapped.standing(state.actual).raw(linear);
+        let mut cylinder = Cylinder { linear, rotary, diameter, stands, zero: f64::NAN };
+        cylinder.anchor(&state.actual);
+        if cylinder.zero.abs() > SAME_ANGLE {
+            self.assumptions.insert(Assumption::CylinderStart(rotary));
+        }
+        state.wrapped = Wrapped::On(cylinder);
+        state.set_mode(Role::Cylinder, ix);
+        self.emit(state, Event::Modal(ix));
+        self.emit(state, Event::Cylinder(Some(cylinder)));
+        Ok(())
+    }
+
+    /// May a word for one of the axes be left out, because its value may be nothing?
+    fn may_be_vacant(&self, axes: &[Axis]) -> bool {
+        let doubtful = |value: D::Value| D::is_vacant(&value) == Truth::Unknown;
+        axes.iter().any(|axis| self.words.get(axis.letter()).is_some_and(doubtful))
+    }
+
+    /// The diameter in effect for a rotary axis: the last one that is not zero, else that of the control's setting.
+    fn diameter_of(&mut self, rotary: Axis, rules: &CylinderRules, state: &State<D>) -> f64 {
+        let last = state.diameters.of(rotary);
+        if let Some(diameter) = last.filter(|diameter| *diameter != 0.0) {
+            return diameter;
+        }
+        if last.is_none() {
+            self.assumptions.insert(Assumption::CylinderDiameter(rotary));
+        }
+        let Some(number) = self.model.cylinder_setting(rotary, rules, self.machine) else { return f64::NAN };
+        let unit = self.machine.units.map_or_else(|| self.unit(state), Units::in_mm);
+        let diameter = self.setting(number).and_then(|value| value.parse::<f64>().ok());
+        diameter.map_or(f64::NAN, |diameter| diameter * unit)
+    }
+
+    /// Ends mapping: the linear axis is where it stood all along.
+    fn unwrap_axis(&mut self, state: &mut State<D>) {
+        if state.wrapped != Wrapped::No {
+            state.actual = state.wrapped.standing(state.actual);
+            state.wrapped = Wrapped::No;
+            state.position = self.programmed_of(&state.actual, state);
+            self.emit(state, Event::Cylinder(None));
+        }
+        if state.mode(Role::Cylinder).only() != Some(CodeIx::NONE) {
+            state.set_mode(Role::Cylinder, CodeIx::NONE);
+        }
+    }
+
+    /// The end of the program ends mapping where a setting says so.
+    pub(super) fn unwrap_at_end(&mut self, state: &mut State<D>) {
+        if state.wrapped == Wrapped::No {
+            return;
+        }
+        let rules = self.model.semantics().cylinder.as_ref();
+        if let Some(number) = rules.and_then(|rules| rules.ended_by_setting.as_deref())
+            && self.setting(number) == Some("on")
+        {
+            self.unwrap_axis(state);
+        }
+    }
+
+    /// The code with the radius in the rotary axis' word; 0 ends it. Its path is not followed.
+    fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+        let radius = [Axis::A, Axis::B, Axis::C].iter().find_map(|axis| self.words.number(axis.letter()));
+        let on = radius.is_some_and(|radius| radius != 0.0);
+        state.set_mode(Role::Cylinder, if on { ix } else { CodeIx::NONE });
+        self.emit(state, Event::Modal(ix));
+        self.unknown_frame(ix, on, state);
+        Ok(())
+    }
+
+    // ---- moves of the axes themselves ----
+
+    /// A word for the rotary axis turns the part, and the drawing with it.
+    pub(super) fn turn_drawing(&mut self, state: &mut State<D>) {
+        let Some(cylinder) = state.wrapped.cylinder() else { return };
+        let letters: LetterSet =
+            self.model.letters_of(cylinder.rotary).filter(|letter| self.words.has(*letter)).collect();
+        if letters.is_empty() {
+            return;
+        }
+        let (rotary, linear) = (cylinder.rotary, cylinder.linear);
+        let moves_both = self.model.letters_of(linear).any(|letter| self.words.has(letter));
+        let mut at = state.actual;
+        at.set(rotary, f64::NAN);
+        // Which of two words counts first nobody says, and moves that compensation holds back are of the drawing before.
+        if !moves_both && state.compensation.is_none() {
+            for letter in letters.iter() {
+                let (Some(value), Some((_, increment))) =
+                    (self.words.number(letter), self.model.axis_of(letter))
+                else {
+                    continue;
+                };
+                let from = state.actual.raw(rotary);
+                let angle = match (increment, state.is_incremental(self.model)) {
+                    (true, _) | (false, Some(true)) => from + value,
+                    (false, Some(false)) => value,
+                    (false, None) => f64::NAN,
+                };
+                at.set(rotary, angle);
+            }
+        }
+        self.assumptions.insert(Assumption::CylinderStart(rotary));
+        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+            cylinder.anchor(&at);
+        }
+    }
+
+    /// Axes moved by themselves, not along the drawing: to a reference position, in machine coordinates.
+    pub(super) fn moved_off_drawing(&self, named: LetterSet, to: &mut Position, state: &mut State<D>) {
+        let names = |axis: Axis| {
+            named.iter().filter_map(|letter| self.model.axis_of(letter)).any(|(moved, _)| moved == axis)
+        };
+        let Some(cylinder) = state.wrapped.cylinder_mut() else { return };
+        if names(cylinder.linear) {
+            cylinder.stands = to.raw(cylinder.linear);
+            to.set(cylinder.linear, f64::NAN);
+        }
+        if names(cylinder.linear) || names(cylinder.rotary) {
+            cylinder.anchor(to);
+        }
+    }
+}

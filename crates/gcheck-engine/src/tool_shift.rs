@@ -1,0 +1,79 @@
+//! Where the axes stand beside the programmed point for the sake of the tool: by a length along a tilting tool, by the size of
+//! a cutter along a vector.
+//!
+//! Knows: the amounts in effect, how two of them join. Must not know: which codes set them, how a vector comes about.
+
+/// Shifts between the programmed point and the axes. All off by default.
+#[derive(Debug, Clone, Copy)]
+pub struct ToolShift {
+    /// Length added along the tool, millimetres; NaN unknown, `None` off.
+    pub(crate) along: Option<f64>,
+    /// Radius by which each block's point is shifted along the block's vector, millimetres; NaN unknown, `None` off.
+    pub(crate) cutter: Option<f64>,
+    /// How far X, Y and Z stand beside the programmed point, millimetres; NaN unknown. An axis that a block does not name
+    /// keeps its distance though the tool has turned.
+    pub(crate) beside: [f64; 3],
+}
+
+impl ToolShift {
+    /// Nothing.
+    pub const NONE: Self = Self { along: None, cutter: None, beside: [0.0; 3] };
+
+    /// Length added along the tool, millimetres; NaN unknown, `None` off.
+    pub fn along_tool(&self) -> Option<f64> {
+        self.along
+    }
+
+    /// Radius by which the path is shifted along vectors, millimetres; NaN unknown, `None` off.
+    pub fn along_vectors(&self) -> Option<f64> {
+        self.cutter
+    }
+
+    pub(crate) fn is_on(&self) -> bool {
+        self.along.is_some() || self.cutter.is_some()
+    }
+
+    /// As it may be after something that nobody knows: what is on now may be off, or changed.
+    pub(crate) fn or_none(&self) -> Self {
+        let unknown = |amount: Option<f64>| amount.map(|_| f64::NAN);
+        let beside = if self.is_on() { [f64::NAN; 3] } else { [0.0; 3] };
+        Self { along: unknown(self.along), cutter: unknown(self.cutter), beside }
+    }
+
+    pub(crate) fn join(&self, other: &Self) -> Self {
+        let number = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
+        let amount = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (None, None) => None,
+            (Some(a), Some(b)) => Some(number(a, b)),
+            // On or off: a length that nobody knows.
+            _ => Some(f64::NAN),
+        };
+        let mut beside = self.beside;
+        for (slot, with) in beside.iter_mut().zip(other.beside) {
+            *slot = number(*slot, with);
+        }
+        Self { along: amount(self.along, other.along), cutter: amount(self.cutter, other.cutter), beside }
+    }
+
+    pub(crate) fn contains(&self, inner: &Self) -> bool {
+        let same = |a: f64, b: f64| a.is_nan() || a.to_bits() == b.to_bits();
+        let amount = |a: Option<f64>, b: Option<f64>| match (a, b) {
+            (None, None) => true,
+            (Some(a), Some(b)) => same(a, b),
+            (Some(a), None) => a.is_nan(),
+            (None, Some(_)) => false,
+        };
+        amount(self.along, inner.along)
+            && amount(self.cutter, inner.cutter)
+            && self.beside.into_iter().zip(inner.beside).all(|(a, b)| same(a, b))
+    }
+}
+
+impl PartialEq for ToolShift {
+    /// Bit by bit, so that unknown equals unknown.
+    fn eq(&self, other: &Self) -> bool {
+        self.along.map(f64::to_bits) == other.along.map(f64::to_bits)
+            && self.cutter.map(f64::to_bits) == other.cutter.map(f64::to_bits)
+            && self.beside.map(f64::to_bits) == other.beside.map(f64::to_bits)
+    }
+}

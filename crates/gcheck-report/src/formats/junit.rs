@@ -1,0 +1,142 @@
+//! `junit`: test results, which nearly every CI server shows.
+//!
+//! Knows: suites, cases and failures of the JUnit format. Must not know: exit codes.
+//!
+//! A file is a suite and a finding a case of it. Errors and warnings fail; milder findings are cases that pass and say what
+//! was found, and a file without findings is a case that passes, since servers take a suite without cases for a mistake.
+
+use std::io::{self, Write};
+
+use gcheck_rules::{Finding, Severity};
+use quick_xml::Writer;
+use quick_xml::events::BytesText;
+
+use super::{remarks, xml};
+use crate::Report;
+use crate::report::File;
+
+pub(super) fn write(report: &Report, out: &mut dyn Write) -> io::Result<()> {
+    xml::document(out, |writer| {
+        let (mut tests, mut failures) = (0, 0);
+        for file in report.files() {
+            tests += cases(file);
+            failures += failed(file);
+        }
+        let root = writer
+            .create_element("testsuites")
+            .with_attribute(("name", "gcheck"))
+            .with_attribute(("tests", tests.to_string().as_str()))
+            .with_attribute(("failures", failures.to_string().as_str()))
+            .with_attribute(("errors", "0"));
+        if report.files().is_empty() {
+            root.write_empty()?;
+            return Ok(());
+        }
+        root.write_inner_content(|writer| {
+            report.files().iter().try_for_each(|file| write_suite(file, writer))
+        })?;
+        Ok(())
+    })
+}
+
+/// At least the one that says that nothing was found.
+fn cases(file: &File) -> usize {
+    file.findings.len().max(1)
+}
+
+fn failed(file: &File) -> usize {
+    file.findings.iter().filter(|finding| fails(finding)).count()
+}
+
+fn fails(finding: &Finding) -> bool {
+    finding.severity >= Severity::Warning
+}
+
+fn write_suite<W: Write>(file: &File, writer: &mut Writer<W>) -> io::Result<()> {
+    let path = xml::text(&file.path);
+    let suite = writer
+        .create_element("testsuite")
+        .with_attribute(("name", path.as_ref()))
+        .with_attribute(("tests", cases(file).to_string().as_str()))
+        .with_attribute(("failures", failed(file).to_string().as_str()))
+        .with_attribute(("errors", "0"));
+    suite.write_inner_content(|writer| {
+        if file.findings.is_empty() {
+            let case = writer.create_element("testcase").with_attribute(("name", "no findings"));
+            case.with_attribute(("classname", path.as_ref())).write_empty()?;
+        }
+        file.findings.iter().try_for_each(|finding| write_case(file, finding, writer))
+    })?;
+    Ok(())
+}
+
+fn write_case<W: Write>(file: &File, finding: &Finding, writer: &mut Writer<W>) -> io::Result<()> {
+    let at = file.source.position(finding.range.start);
+    let place = format!("{}:{}:{}", file.path, at.line, at.column);
+    let case = writer
+        .create_element("testcase")
+        .with_attribute(("name", format!("{}:{} {}", at.line, at.column, finding.rule.id).as_str()))
+        .with_attribute(("classname", xml::text(&file.path).as_ref()))
+        .with_attribute(("file", xml::text(&file.path).as_ref()))
+        .with_attribute(("line", at.line.to_string().as_str()));
+    let mut said = format!("{place}: {}[{}] {}", finding.severity, finding.rule.id, finding.message);
+    for remark in remarks(finding) {
+        said.push('\n');
+        said.push_str(&remark);
+    }
+    let said = xml::block(&said);
+    case.write_inner_content(|writer| {
+        if fails(finding) {
+            let failure = writer.create_element("failure").with_attribute(("type", finding.severity.name()));
+            let failure = failure.with_attribute(("message", xml::text(&finding.message).as_ref()));
+            failure.write_text_content(BytesText::new(&said))?;
+        } else {
+            writer.create_element("system-out").write_text_content(BytesText::new(&said))?;
+        }
+        Ok(())
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use crate::testing::{everything, render};
+    use crate::{Format, Report};
+
+    #[test]
+    fn a_suite_a_file() {
+        expect![[r#"
+            <?xml version="1.0" encoding="UTF-8"?>
+            <testsuites name="gcheck" tests="3" failures="1" errors="0">
+              <testsuite name="empty.nc" tests="1" failures="0" errors="0">
+                <testcase name="no findings" classname="empty.nc"/>
+              </testsuite>
+              <testsuite name="part.nc" tests="2" failures="1" errors="0">
+                <testcase name="4:5 feed-missing" classname="part.nc" file="part.nc" line="4">
+                  <failure type="error" message="no feed rate is in effect">part.nc:4:5: error[feed-missing] no feed rate is in effect
+            note: the control stops without a feed rate
+            note: from the manual:
+              &quot;feed is modal&quot;
+            note: the control raises alarm 312 FEED
+            note: assuming setting 162 is off
+            help: write a feed rate, e.g. `F200.`</failure>
+                </testcase>
+                <testcase name="5:5 arc-end-off-circle" classname="part.nc" file="part.nc" line="5">
+                  <system-out>part.nc:5:5: info[arc-end-off-circle] arc may end off the circle</system-out>
+                </testcase>
+              </testsuite>
+            </testsuites>
+        "#]].assert_eq(&render(&everything(), Format::Junit));
+    }
+
+    #[test]
+    fn no_files() {
+        expect![[r#"
+            <?xml version="1.0" encoding="UTF-8"?>
+            <testsuites name="gcheck" tests="0" failures="0" errors="0"/>
+        "#]]
+        .assert_eq(&render(&Report::new(vec![]), Format::Junit));
+    }
+}

@@ -1,0 +1,221 @@
+//! What rules ask about a bar feed: where its lengths come from, and how they are named.
+//!
+//! Knows: the words of the feed and the variables that stand in for them. Must not know: any rule.
+
+use std::ops::Range;
+
+use gcheck_controls::{BarFeederRules, Effect, Letter};
+use gcheck_engine::{Abstract, BarLengths, Domain, Event, Fact, Role, Units};
+use gcheck_geometry::Mm;
+
+use crate::{Finding, PathCx, Severity};
+
+/// A length that a bar is fed by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Length {
+    /// A part with its cutoff.
+    Part,
+    /// The push of a new bar.
+    Initial,
+    /// What must stay clamped.
+    Clamping,
+}
+
+/// Who gives a length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Given {
+    /// A word of the block.
+    Word,
+    /// Its variable, which the program set or somebody told.
+    Variable,
+    /// The control's own page, which nobody told.
+    Nobody,
+}
+
+impl Length {
+    pub(crate) const ALL: [Self; 3] = [Self::Part, Self::Initial, Self::Clamping];
+
+    pub(crate) const fn letter(self) -> char {
+        match self {
+            Self::Part => 'J',
+            Self::Initial => 'I',
+            Self::Clamping => 'K',
+        }
+    }
+
+    pub(crate) const fn words(self) -> &'static str {
+        match self {
+            Self::Part => "part length",
+            Self::Initial => "initial push",
+            Self::Clamping => "clamping length",
+        }
+    }
+
+    pub(crate) const fn variable(self, rules: &BarFeederRules) -> u32 {
+        match self {
+            Self::Part => rules.part,
+            Self::Initial => rules.initial_push,
+            Self::Clamping => rules.clamping,
+        }
+    }
+
+    /// As the feed has it; NaN unknown.
+    pub(crate) const fn of(self, lengths: &BarLengths) -> Mm {
+        match self {
+            Self::Part => lengths.part,
+            Self::Initial => lengths.initial,
+            Self::Clamping => lengths.clamping,
+        }
+    }
+}
+
+impl<'a> PathCx<'a> {
+    /// The variables of the control's bar feeder, for rules that watch programs which use one; silence for all others.
+    pub(crate) fn bar_feeder(&self) -> Option<&'a BarFeederRules> {
+        let rules = self.model.semantics().bar_feeder.as_ref();
+        if rules.is_none() || !self.file_uses(|effect| effect == Effect::BarFeed) {
+            self.enough();
+            return None;
+        }
+        rules
+    }
+
+    /// Who gives a length of the bar feed at hand.
+    pub(crate) fn given(&self, length: Length, rules: &BarFeederRules) -> Given {
+        if self.origin().letters.contains(Letter::of(length.letter())) {
+            Given::Word
+        } else if self.state().variables().is_written(length.variable(rules)) {
+            Given::Variable
+        } else {
+            Given::Nobody
+        }
+    }
+
+    /// Bytes of the word that gives a length, else of the feed's code.
+    pub(crate) fn length_range(&self, length: Length) -> Range<u32> {
+        if self.origin().letters.contains(Letter::of(length.letter())) {
+            self.letter_range(length.letter())
+        } else {
+            self.bar_feed_range()
+        }
+    }
+
+    /// Bytes of the feed's code.
+    pub(crate) fn bar_feed_range(&self) -> Range<u32> {
+        self.effect_range(|effect| effect == Effect::BarFeed)
+    }
+
+    /// The feed's code as programs write it.
+    pub(crate) fn bar_feed_name(&self) -> String {
+        self.cancel_of(Effect::BarFeed).unwrap_or_default()
+    }
+
+    /// The finding no more severe than the units that the block's lengths are read in.
+    pub(crate) fn resting_on_units(&self, finding: Finding) -> Finding {
+        let is_told = self.scene.machine.units_are_told;
+        if is_told || self.trace().set_by(Fact::Mode(Role::Units)).is_some() {
+            return finding;
+        }
+        let code = self.code_name(Role::Units).map_or_else(String::new, |code| format!(" (`{code}`)"));
+        finding
+            .at_most(Severity::Warning)
+            .assuming(format!("the units{code} are as the control has them at the start"))
+    }
+
+    /// A variable's number, if it is exactly known.
+    pub(crate) fn known_variable(&self, number: u32) -> Option<f64> {
+        Abstract::known(&self.state().variables().get(number))
+    }
+
+    /// A length as the program writes lengths: `1.75 in`.
+    pub(crate) fn shown(&self, length: Mm) -> String {
+        let (number, unit) = match self.state().units(self.model) {
+            Some(Units::Inch) => (format!("{:.4}", length.inch()), "in"),
+            _ => (format!("{:.3}", length.0), "mm"),
+        };
+        format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
+    }
+}
+
+/// What the feeder is told, when an event begins a feed.
+pub(crate) const fn lengths(event: &Event) -> Option<&BarLengths> {
+    if let Event::BarFeed(lengths) = event { Some(lengths) } else { None }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fmt::Write as _;
+
+    use expect_test::expect;
+    use gcheck_geometry::Mm;
+
+    use crate::testing::{World, findings};
+    use crate::{Selection, Severity};
+
+    /// Findings of every rule on a bar job with this feed, in one line.
+    fn found(feed: &str, world: &World<'_>) -> Vec<(Severity, &'static str)> {
+        let program = format!("%\nO1\nG21 G18 G40 G80 G99\n{feed}\nM30\n%\n");
+        let found = findings(&Selection::default(), "haas-lathe", &program, world);
+        found.iter().map(|one| (one.severity, one.rule.id)).collect()
+    }
+
+    fn world() -> World<'static> {
+        let mut world = World::default();
+        world.machine.engine.bar.new_bar = Some(Mm(1000.0));
+        world
+    }
+
+    /// Every word missing, doubled, negative, zero, huge, no number, unknown.
+    #[test]
+    fn bad_input() {
+        let whole = [("I", "30."), ("J", "25."), ("K", "60."), ("Q", "0"), ("R", "90.")];
+        let mut shown = String::new();
+        for (letter, usual) in whole {
+            for value in ["", "twice", "-1.", "0", "99999.", "1.2.3", "X", "#500", "[1/0]"] {
+                let mut feed = "G105".to_owned();
+                for (other, usual) in whole.iter().filter(|(other, _)| *other != letter) {
+                    let _ = write!(feed, " {other}{usual}");
+                }
+                match value {
+                    "" => {}
+                    "twice" => {
+                        let _ = write!(feed, " {letter}{usual} {letter}{usual}");
+                    }
+                    "X" => {
+                        let _ = write!(feed, " {letter}");
+                    }
+                    value => {
+                        let _ = write!(feed, " {letter}{value}");
+                    }
+                }
+                let found: Vec<String> = found(&feed, &world())
+                    .iter()
+                    .map(|(severity, id)| format!("{}[{id}]", severity.name()))
+                    .collect();
+                let case = if value.is_empty() { "missing" } else { value };
+                let _ = writeln!(shown, "{letter} {case}: {}", found.join(" "));
+            }
+        }
+        expect![[""]].assert_eq(&shown);
+    }
+
+    /// What rests on a value that nobody knows is silent, wherever the feed stands.
+    #[test]
+    fn unknown_values_make_no_findings_of_this_group() {
+        let feed = "G105 I#500 J#501 K#502 R#503";
+        for program in [
+            format!("{feed}"),
+            format!("/{feed}"),
+            format!("#1=0\nWHILE [#1 LT 3] DO1\n{feed}\n#1=#1+1\nEND1"),
+            format!("M97 P10\nM30\nN10 {feed}\nM99"),
+            format!("IF [#504 EQ 1] GOTO 5\n{feed}\nN5 {feed}"),
+            "G105 I30. J25. K60. Q#500".to_owned(),
+            "G105 I30. J25. K60. P#500".to_owned(),
+        ] {
+            let found = found(&program, &world());
+            let of_group = found.iter().filter(|(_, id)| id.contains("bar-") || id.contains("cutoff"));
+            assert_eq!(of_group.count(), 0, "{program}: {found:?}");
+            assert!(!found.iter().any(|(severity, _)| *severity == Severity::Error), "{program}: {found:?}");
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! A new bar that is pushed by the reference position.
+
+use gcheck_controls::Letter;
+use gcheck_engine::Event;
+use gcheck_program::Word;
+
+use crate::bar_feeder::{Given, Length, lengths};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// The initial push of a bar feed (`G105`) is zero, so that the reference position (`#3112`) stands in for it.
+    ///
+    /// It does so where `I` and `#3101` are zero. What a zero of the block means while `#3101` is not zero, the manual does
+    /// not say.
+    ///
+    /// ## Why it matters
+    /// The reference position is set when the feeder is set up. It stands for another length than this part needs.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// #3101=0
+    /// M5
+    /// G105 J1.75 K0.5
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// #3101=0
+    /// M5
+    /// G105 J1.75 K0.5 I2.
+    /// M99
+    /// ```
+    rule "bar-initial-push-zero" in "bar_feeder" {
+        summary: "new bar pushed by the reference position",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CHANGES, make: || Box::new(BarInitialPushZero) },
+    }
+}
+
+struct BarInitialPushZero;
+
+impl PathRule for BarInitialPushZero {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some(rules) = cx.bar_feeder() else { return };
+        if lengths(event).is_none() {
+            return;
+        }
+        let stored = cx.known_variable(rules.initial_push);
+        let (variable, reference) = (rules.initial_push, rules.reference);
+        let by_word = cx.given(Length::Initial, rules) == Given::Word;
+        if by_word && !writes_zero(cx) || !by_word && stored != Some(0.0) {
+            return;
+        }
+        // Somebody who told the reference position knows that it is used.
+        if stored == Some(0.0) && cx.state().variables().is_written(reference) {
+            return;
+        }
+        let range = cx.length_range(Length::Initial);
+        let finding = match stored {
+            Some(stored) if stored != 0.0 => cx
+                .finding(&META, range, format!("initial push is zero, and `#{variable}` is not"))
+                .label("by what a new bar is pushed is not certain")
+                .note(format!(
+                    "the reference position `#{reference}` is used when both are zero  [{}]",
+                    source(cx)
+                ))
+                .help("leave `I` out to push by the variable, or give the length"),
+            _ => cx
+                .finding(
+                    &META,
+                    range,
+                    format!("new bar is pushed by the reference position (`#{reference}`)"),
+                )
+                .label("the initial push is zero")
+                .note(format!(
+                    "`#{reference}` stands in for `I` and `#{variable}` when both are zero  [{}]",
+                    source(cx)
+                ))
+                .assuming(format!("`#{reference}` was set when the feeder was set up"))
+                .help("give the push of a new bar: the part, its cutoff and what is faced off"),
+        };
+        // A zero of the block alone: what the variable holds nobody told.
+        report.add(if by_word && stored.is_none() {
+            finding.assuming(format!("`#{variable}` is zero as well")).at_most(Severity::Info)
+        } else {
+            finding
+        });
+    }
+}
+
+/// The block writes `I0`.
+fn writes_zero(cx: &PathCx<'_>) -> bool {
+    let is_zero = |word: &Word| word.letter == Letter::of('I') && word.number() == Some(0.0);
+    cx.find_word(cx.origin().at, is_zero).is_some()
+}
+
+fn source(cx: &PathCx<'_>) -> String {
+    let codes = cx.codes();
+    let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+    let feed = codes.find(|code| code.effect() == gcheck_controls::Effect::BarFeed);
+    feed.map_or_else(String::new, |code| code.entry().source.clone())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn a_zero_of_the_block() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "M5\nG105 J1. K1. I0\nM99\n",
+            &expect![[r#"
+            2 | G105 J1. K1. I0
+              |              ^^ info[bar-initial-push-zero] new bar is pushed by the reference position (`#3112`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "#3101=2.\nM5\nG105 J1. K1. I0\nM99\n",
+            &expect![[r#"
+            3 | G105 J1. K1. I0
+              |              ^^ info[bar-initial-push-zero] initial push is zero, and `#3101` is not
+        "#]],
+        );
+        check_rule(&RULE, "haas-lathe", "M5\nG105 J1. K1. I#500\nM99\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_reference_position_that_was_told_is_meant() {
+        let mut world = World::default();
+        world.machine.engine.variables = [(3101, 0.0), (3112, 4.0)].into();
+        check_rule_in(&RULE, "haas-lathe", "M5\nG105 J1. K1.\nM99\n", &world, &expect![[""]]);
+    }
+}

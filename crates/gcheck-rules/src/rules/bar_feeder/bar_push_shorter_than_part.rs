@@ -1,0 +1,156 @@
+//! A part that is longer than the bar is pushed.
+
+use gcheck_engine::Event;
+use gcheck_geometry::Mm;
+
+use crate::bar_feeder::{Length, lengths};
+use crate::meta::declare_rule;
+use crate::parting::Parting;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The bar is pushed (`J` of `G105`, `#3100`) by less than the part is long: the cut that parts it off stands farther
+    /// behind the face.
+    ///
+    /// The part is taken to reach from `Z0` to the deepest cut across the centre. What the parting tool takes away comes on
+    /// top; it is not counted here.
+    ///
+    /// ## Why it matters
+    /// The end of the bar does not reach `Z0`. The next part comes out too short, or its face is not cut.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// G20
+    /// T404
+    /// G97 S900 M3
+    /// G0 X2.1 Z-1.625
+    /// G1 X-0.04 F0.004
+    /// G0 X6. Z6.
+    /// M5
+    /// G105 J1.5
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// G20
+    /// T404
+    /// G97 S900 M3
+    /// G0 X2.1 Z-1.625
+    /// G1 X-0.04 F0.004
+    /// G0 X6. Z6.
+    /// M5
+    /// G105 J1.75
+    /// M99
+    /// ```
+    rule "bar-push-shorter-than-part" in "bar_feeder" {
+        summary: "bar pushed by less than the part is long",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::MOVES),
+            make: || Box::new(BarPushShorterThanPart { deepest: None }),
+        },
+    }
+}
+
+struct BarPushShorterThanPart {
+    /// The deepest parting cut since the bar was fed last.
+    deepest: Option<Parting>,
+}
+
+impl PathRule for BarPushShorterThanPart {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if cx.bar_feeder().is_none() {
+            return;
+        }
+        if let Some(parting) = Parting::of(cx, event)
+            && self.deepest.is_none_or(|deepest| parting.z < deepest.z)
+        {
+            self.deepest = Some(parting);
+        }
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Some(told) = lengths(event) else { return };
+        let Some(parting) = self.deepest.take() else { return };
+        let length = Mm(-parting.z.0);
+        // A push of nothing is another rule's.
+        if !(told.part > Mm::ZERO && length.0 - told.part.0 > 1e-3) {
+            return;
+        }
+        let mut finding = cx
+            .finding(&META, cx.length_range(Length::Part), "bar is pushed by less than the part is long")
+            .label(format!(
+                "pushes {}; the part is cut off {} behind `Z0`",
+                cx.shown(told.part),
+                cx.shown(length)
+            ))
+            .assuming("`Z0` is at the face of the part")
+            .help(
+                "push by the part, the width of the parting tool and what is faced off (`J` or its variable)",
+            );
+        if let Some(range) = cx.range_of(parting.at) {
+            finding = finding.also(range, "cut off here");
+        }
+        report.add(finding);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn in_the_cutoff_program_and_by_a_variable() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "O1\nG20\n#3100=1.5\nG105 P2\nM99\nO2\nG0 X2.1 Z-1.625\nG1 X-0.04 F0.004\nG0 X6.\nM99\n",
+            &expect![[r#"
+                4 | G105 P2
+                  | ^^^^ warning[bar-push-shorter-than-part] bar is pushed by less than the part is long
+            "#]],
+        );
+    }
+
+    #[test]
+    fn holes_and_faces_are_no_partings() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20\nG0 X2.1 Z0.\nG1 X-0.04 F0.004\nG0 X0. Z0.1\nG1 Z-3. F0.004\nG0 Z0.1\nM5\nG105 J1.5\nM99\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn what_is_not_known_is_not_compared() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20\nG0 X2.1 Z#500\nG1 X-0.04 F0.004\nG0 X6.\nM5\nG105 J1.5\nM99\n",
+            &expect![[""]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20\nG0 X2.1 Z-2.\nG1 X-0.04 F0.004\nG0 X6.\nM5\nG105 J#500\nM99\n",
+            &expect![[""]],
+        );
+    }
+
+    /// Each part has its own cut.
+    #[test]
+    fn two_parts_of_two_lengths() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20\nG0 X2.1 Z-2.\nG1 X0. F0.004\nG0 X6.\nM5\nG105 J2.1\nS900 M3\nG0 X2.1 Z-1.\nG1 X0.\nG0 X6.\nM5\nG105 J1.1\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! A cutoff program in another file that does not come back to the bar feed.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::At;
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The cutoff program that a bar feed calls (`G105 P…`) stands in another file, and has no return (`M99`): it ends the job,
+    /// or its text just ends.
+    ///
+    /// Of a cutoff program in the same file `subprogram-without-return` speaks.
+    ///
+    /// ## Why it matters
+    /// The part is cut off and nothing follows: no push, no clamping, no next part.
+    ///
+    /// ## Reported
+    /// With a program 9099 in another file that ends with `M30`:
+    /// ```nc,reported,haas-lathe
+    /// O1
+    /// M5
+    /// G105 J1.75 P9099
+    /// M99
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// O1
+    /// G105 J1.75 P2
+    /// M99
+    /// O2
+    /// G1 X0. F0.004
+    /// G0 X3.
+    /// M99
+    /// ```
+    rule "cutoff-program-without-return" in "bar_feeder" {
+        summary: "cutoff program in another file without a return",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(CutoffProgramWithoutReturn) },
+    }
+}
+
+struct CutoffProgramWithoutReturn;
+
+/// Blocks of a program that are looked at.
+const MOST_BLOCKS: u32 = 20_000;
+
+impl PathRule for CutoffProgramWithoutReturn {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.bar_feeder().is_none() || !cx.has_effect(|effect| effect == Effect::BarFeed) {
+            return;
+        }
+        let Some(place) = cx.place() else { return };
+        let is_program = |word: &&gcheck_program::Word| word.letter == Letter::of('P');
+        let number = place.table.words(place.block()).iter().find(is_program).and_then(|word| word.integer());
+        let Some(entry) = number.and_then(|number| cx.program.find_number(number, 0)) else { return };
+        if entry.file == 0 {
+            return;
+        }
+        let Some(file) = cx.program.file(entry.file) else { return };
+        let part = file.loaded.outline().part_of(entry.block);
+        if part.end.saturating_sub(part.start) > MOST_BLOCKS {
+            return;
+        }
+        let has = |is: &dyn Fn(Effect) -> bool| {
+            part.clone().any(|block| {
+                let Some(place) = cx.place_of(At { file: entry.file, block }) else { return false };
+                place
+                    .table
+                    .words(place.block())
+                    .iter()
+                    .any(|word| word.code.is_some() && is(cx.model.effect(word.code)))
+            })
+        };
+        if has(&|effect| effect == Effect::Return) {
+            return;
+        }
+        let ends = has(&|effect| matches!(effect, Effect::ProgramEnd | Effect::ProgramEndWithPallet));
+        report.add(
+            cx.finding(&META, cx.letter_range('P'), "cutoff program has no return (`M99`)")
+                .label(if ends { "ends the whole job" } else { "runs to the end of its text" })
+                .note(format!("the program stands in `{}`", file.name))
+                .help("end the cutoff program with `M99`"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::rc::Rc;
+
+    use expect_test::{Expect, expect};
+    use gcheck_engine::SourceFile;
+
+    use super::RULE;
+    use crate::Programs;
+    use crate::testing::{World, check_rule_in};
+
+    /// Program 2.
+    struct Cutoff(&'static str);
+
+    impl Programs for Cutoff {
+        fn has_number(&self, number: u32) -> bool {
+            number == 2
+        }
+
+        fn has_name(&self, _: &str) -> bool {
+            false
+        }
+
+        fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+            (number == 2).then(|| SourceFile { name: Rc::from("O0002.nc"), text: self.0.to_owned() })
+        }
+    }
+
+    fn check(cutoff: &'static str, expected: &Expect) {
+        let programs = Cutoff(cutoff);
+        let world = World { programs: &programs, ..World::default() };
+        check_rule_in(&RULE, "haas-lathe", "O1\nM5\nG105 J1.75 P2\nM99\n", &world, expected);
+    }
+
+    #[test]
+    fn its_end_decides() {
+        check(
+            "O2\nG1 X0. F0.004\nM30\n",
+            &expect![[r#"
+            3 | G105 J1.75 P2
+              |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
+        "#]],
+        );
+        check(
+            "O2\nG1 X0. F0.004\n",
+            &expect![[r#"
+            3 | G105 J1.75 P2
+              |            ^^ warning[cutoff-program-without-return] cutoff program has no return (`M99`)
+        "#]],
+        );
+        check("O2\nG1 X0. F0.004\nIF [#500 EQ 1] GOTO 9\nM99\nN9 M30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,103 @@
+//! 3D cutter compensation by nothing.
+
+use gcheck_engine::{Abstract, Domain};
+
+use crate::five_axis::is_along_vectors;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
+
+declare_rule! {
+    /// 3D cutter compensation (`G141`) is switched on without a cutter offset: no `D` in its block and none in effect, or `D0`.
+    ///
+    /// ## Why it matters
+    /// `D` names the offset that the path is shifted by. Without one the path is cut as it was posted, whatever the size of the
+    /// tool.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G90 G1 G141 X1. Y0. Z0. I0. J0. K1. F20.
+    /// G40
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G90 G1 G141 D0 X1. Y0. Z0. I0. J0. K1. F20.
+    /// G40
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.
+    /// G40
+    /// G1 G141 X1. Y0. Z0. I0. J0. K1.
+    /// G40
+    /// M30
+    /// ```
+    rule "cutter-vector-without-size" in "five_axis" {
+        summary: "3D cutter compensation without a cutter offset",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(CutterVectorWithoutSize) },
+    }
+}
+
+struct CutterVectorWithoutSize;
+
+impl PathRule for CutterVectorWithoutSize {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let codes = cx.codes();
+        let Some(code) = codes.iter().copied().find(|code| is_along_vectors(cx.model.effect(*code))) else {
+            return;
+        };
+        let Some(code) = cx.scene.control().code_at(code) else { return };
+        let (name, entry) = (code.number(), code.entry());
+        let finding = match cx.word('D') {
+            Some(word) if word.number() == Some(0.0) => cx
+                .finding(
+                    &META,
+                    cx.letter_range('D'),
+                    format!("3D cutter compensation with no offset (`{name} D0`)"),
+                )
+                .label("offset zero is no size")
+                .at_most(Severity::Warning),
+            Some(_) => return,
+            None if cx.is_malformed() => return,
+            None if cx.is_called_only() || Abstract::known(cx.state().d()) != Some(0.0) => return,
+            None => cx
+                .finding(
+                    &META,
+                    cx.effect_range(is_along_vectors),
+                    format!("3D cutter compensation without an offset (`{name}` without `D`)"),
+                )
+                .label("no `D` here, and none in effect"),
+        };
+        let finding = finding
+            .note(format!("`D` selects the offset that `{name}` shifts the path by  [{}]", entry.source))
+            .help(format!("name the offset that holds the tool's size, or its difference: `{name} D1`"))
+            .at_most(limit(entry.confidence));
+        report.add(if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn computed_and_remembered_numbers_are_numbers() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G1 G41 D2 X1. F20.\nG40 X2.\nG141 X1. Y0. Z0. I0. J0. K1.\nG40\nG141 D#500 X1. I0. J0. K1.\nG40\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_subprogram_takes_its_callers_offset() {
+        check_rule(&RULE, "haas-mill", "O100\nG141 X1. Y0. Z0. I0. J0. K1.\nG40\nM99\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,136 @@
+//! A cylinder that no rotary axis carries.
+
+use gcheck_controls::{Code, Effect, Letter, LetterSet};
+use gcheck_program::{BlockFlags, Word};
+
+use crate::contract::choice;
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run, limit};
+
+declare_rule! {
+    /// Cylindrical mapping is given a linear axis or a size, but no rotary axis to wrap it around.
+    ///
+    /// ## Why it matters
+    /// The control does not know which axis carries the part, and stops with an alarm.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G107 Y0. Q2.5
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G107 R1.25
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G107 Y0. A0. Q2.5
+    /// G107 B0. Q4.
+    /// ```
+    /// Alone the code ends mapping.
+    /// ```nc,quiet,haas-mill
+    /// G107
+    /// ```
+    rule "cylinder-without-rotary-axis" in "mapping" {
+        summary: "cylinder without a rotary axis",
+        severity: Error,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+/// What may stand beside a rotary axis, and not without one.
+const OF_CYLINDER: LetterSet = LetterSet::of("XYZQR");
+const ROTARY: LetterSet = LetterSet::of("ABC");
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    if cx.control().semantics().cylinder.is_none() || cx.block().letters.intersects(ROTARY) {
+        return;
+    }
+    let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
+        return;
+    };
+    // A word that holds a variable may be left out.
+    let is_given = |word: &&Word| OF_CYLINDER.contains(word.letter) && word.number().is_some();
+    if let Some(word) = cx.words().iter().find(is_given)
+        && cx.words_are_plain()
+    {
+        report.add(finding(cx, code, word));
+    }
+}
+
+fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
+    let entry = code.entry();
+    let name = cx.written(code);
+    let reads = code.reads().and(ROTARY);
+    let what = if matches!(word.letter.ascii(), b'Q' | b'R') { "a size" } else { "an axis to wrap" };
+    let alarm = entry.alarms.iter().find(|alarm| alarm.number.is_some());
+    Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
+        .label(format!("{what} needs {} beside it", choice(reads)))
+        .note(format!(
+            "`{}` ({}) stops with an alarm when a linear axis or a size stands without a rotary axis  [{}]",
+            entry.code, entry.title, entry.source
+        ))
+        .alarm(alarm.map(|alarm| alarm.text.clone()))
+        .help(format!(
+            "name the axis that carries the part: `{}0.`",
+            reads.iter().next().unwrap_or(Letter::of('A'))
+        ))
+        .at_most(limit(entry.confidence))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn every_word_that_needs_one_is_found() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 X0.\nG107 Z#1 Q[#2*2]\nG107 Q0.\n/G107 Y0.\nG107 R-1.\nG107 Y#1 A#2\n",
+            &expect![[r#"
+                1 | G107 X0.
+                  |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                3 | G107 Q0.
+                  |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                4 | /G107 Y0.
+                  |       ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                5 | G107 R-1.
+                  |      ^^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_radius_in_the_axis_word_is_another_form() {
+        check_rule(&RULE, "fanuc-mill", "G107 C50.\nG107 Z0.\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_lathe_takes_c_too() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G107 Z0. R1.\nG107 Z0. C0. R1.\n",
+            &expect![[r#"
+            1 | G107 Z0. R1.
+              |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn what_it_says() {
+        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y0. Q2.5\n", &World::default());
+        expect![[r#"
+            the cylinder has no rotary axis (`G107`)
+              here: an axis to wrap needs `A`, `B` or `C` beside it
+              note: `G107` (cylindrical mapping) stops with an alarm when a linear axis or a size stands without a rotary axis  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
+              help: name the axis that carries the part: `A0.`
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+    }
+}

@@ -1,0 +1,101 @@
+//! A probe that turns with the spindle, or is cut by the tool.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Event, Fact, Spindle};
+
+use super::touches_do_not_meet::{is_compensated, is_probing};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A work offset is measured (`G36`, `G136`) with the probe in a spindle that turns, or a tool's size (`G35`) with the
+    /// spindle turning as for a cut.
+    ///
+    /// ## Why it matters
+    /// A spindle probe that turns is destroyed at the first touch. A right-hand cutter that turns forward cuts into the tool
+    /// probe; the manual has it turn backward (`M4`).
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// S500 M3
+    /// G90 G54 G0 X0. Y5.
+    /// G91 G36 Y-1. F10.
+    /// G90
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// S500 M3
+    /// G90 G54 G0 X0. Y5.
+    /// M5
+    /// G91 G36 Y-1. F10.
+    /// G90
+    /// M30
+    /// ```
+    rule "spindle-turns-while-probing" in "probing" {
+        summary: "spindle turns while the probe touches",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(SpindleTurnsWhileProbing) },
+    }
+}
+
+struct SpindleTurnsWhileProbing;
+
+impl PathRule for SpindleTurnsWhileProbing {
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let is_measuring =
+            |effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre | Effect::ProbeDiameter);
+        if !is_probing(event) || !cx.has_effect(is_measuring) || is_compensated(cx) {
+            return;
+        }
+        let of_tool = cx.has_effect(|effect| effect == Effect::ProbeDiameter);
+        let (message, label, help) = match cx.state().spindle() {
+            Some(Spindle::Clockwise) if of_tool => (
+                "the tool turns forward while it is measured (`M3`)",
+                "a right-hand cutter cuts into the tool probe",
+                "turn the tool backward (`M4`) while it touches",
+            ),
+            Some(Spindle::Clockwise | Spindle::CounterClockwise) if !of_tool => (
+                "the spindle turns while its probe touches",
+                "the probe turns with the spindle",
+                "stop the spindle (`M5`) before the probe goes in",
+            ),
+            _ => return,
+        };
+        let finding = cx.finding(&META, cx.effect_range(is_measuring), message).label(label).help(help);
+        report.add(cx.resting_on(finding, Fact::Spindle, "spindle"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_tool_may_turn_backward() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S200 M4\nG91 G31 X-1. F5. M75\nG0 X-2.\nG35 X1. D1 F5.\nM3\nG35 X1. D1 F5.\nM5\nG90\nM30\n",
+            &expect![[r#"
+                6 | G35 X1. D1 F5.
+                  | ^^^ warning[spindle-turns-while-probing] the tool turns forward while it is measured (`M3`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_spindle_that_may_stand_is_no_mistake() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S200 M3\nIF [#100 EQ 1] GOTO10\nM5\nN10 G91 G36 X1. F5.\nG90\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

@@ -1,0 +1,80 @@
+//! The rotary axes of a machine, from its configuration.
+//!
+//! Knows: keys that describe tilting heads and tables, and what they mean when one is left out. Must not know: programs, which
+//! code compensates for a tilted tool.
+
+use std::collections::BTreeMap;
+
+use gcheck_engine::Units;
+use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
+
+use crate::config::{MachineTable, Rotary};
+
+/// What the layers of a configuration say, each over the one before.
+#[derive(Debug, Default)]
+pub(super) struct RotaryAxes {
+    arrangement: Option<Arrangement>,
+    order: Option<Vec<RotaryAxis>>,
+    /// In the order in which `axes` names them.
+    named: Vec<RotaryAxis>,
+    sign: BTreeMap<usize, f64>,
+    pivot_length: Option<Mm>,
+}
+
+impl RotaryAxes {
+    /// Puts a layer over the others; `units` are those of its lengths.
+    pub(super) fn put(&mut self, table: &MachineTable, units: Units) {
+        let axes = |names: &[crate::config::Placed<String>]| -> Vec<RotaryAxis> {
+            names.iter().filter_map(|name| rotary_axis(&name.value)).collect()
+        };
+        if let Some(names) = &table.axes {
+            self.named = axes(names);
+        }
+        if let Some(names) = &table.rotary_order {
+            self.order = Some(axes(names));
+        }
+        if let Some(rotary) = table.rotary {
+            self.arrangement = Some(match rotary {
+                Rotary::HeadHead => Arrangement::HeadHead,
+                Rotary::HeadTable => Arrangement::HeadTable,
+                Rotary::TableTable => Arrangement::TableTable,
+            });
+        }
+        for (name, sign) in &table.rotary_sign {
+            if let Some(axis) = rotary_axis(&name.value) {
+                self.sign.insert(axis.index(), f64::from(sign.value));
+            }
+        }
+        if let Some(length) = &table.pivot_length {
+            self.pivot_length = Some(Mm(length.value * units.in_mm()));
+        }
+    }
+
+    /// The machine's kinematics, if anything was said of them: a tilting head where only the rest is told.
+    pub(super) fn kinematics(&self) -> Option<Kinematics> {
+        let is_told = self.arrangement.is_some()
+            || self.order.is_some()
+            || !self.sign.is_empty()
+            || self.pivot_length.is_some();
+        let order = self.order.as_deref().unwrap_or(&self.named);
+        let order = match order {
+            [first, second, ..] => [*first, *second],
+            _ => [RotaryAxis::A, RotaryAxis::B],
+        };
+        is_told.then(|| Kinematics {
+            arrangement: self.arrangement.unwrap_or(Arrangement::HeadHead),
+            order,
+            sign: order.map(|axis| self.sign.get(&axis.index()).copied().unwrap_or(1.0)),
+            pivot_length: self.pivot_length,
+        })
+    }
+}
+
+pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
+    match name.to_ascii_uppercase().as_str() {
+        "A" => Some(RotaryAxis::A),
+        "B" => Some(RotaryAxis::B),
+        "C" => Some(RotaryAxis::C),
+        _ => None,
+    }
+}

@@ -1,0 +1,124 @@
+//! Law 6: a safe fix leaves the moves of a program as they are.
+//!
+//! On our own programs, and on the real-program corpus (`GCHECK_CORPUS`) where there is one.
+
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::{env, fs};
+
+use gcheck_program::Dialect;
+use gcheck_rules::{
+    Execution, FixKinds, Job, MachineFacts, NoPrograms, Scene, Selection, apply_fixes, check,
+};
+use gcheck_syntax::SourceText;
+use gcheck_testkit::corpus;
+use rayon::prelude::*;
+
+/// A program with its safe fixes; `None` when it has none.
+fn mended(program: &[u8], control: &str) -> Option<Vec<u8>> {
+    let control = gcheck_controls::load(control).unwrap();
+    let dialect = Dialect::new(&control);
+    let machine = MachineFacts::default();
+    let mut selection = Selection::default();
+    selection.enable("all").unwrap();
+    let mut source = SourceText::from_bytes(program.to_vec()).unwrap();
+    let mut changed = false;
+    for _ in 0..10 {
+        let scene =
+            Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+        let outcome = check(&Job {
+            source: &source,
+            scene,
+            selection: &selection,
+            suppressions: true,
+            execution: Execution { fuel: 100_000, block_skip: None },
+        });
+        let Some(fixed) = apply_fixes(&source, &outcome.findings, FixKinds::Safe) else {
+            return changed.then(|| source.to_bytes());
+        };
+        source = SourceText::from_bytes(fixed.bytes).unwrap();
+        changed = true;
+    }
+    panic!("fixes of a program never end");
+}
+
+/// The moves of a program, and whether it came to its end.
+fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
+    command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    command.args(["run", "--isolated", "--control", control, "--output-format", "canonical"]);
+    command.args(["--fuel", "200000", "-"]);
+    let mut child = command.spawn().unwrap();
+    let mut stdin = child.stdin.take().unwrap();
+    let bytes = program.to_vec();
+    let writer = std::thread::spawn(move || {
+        // A run that fails early reads no more.
+        let _ = stdin.write_all(&bytes);
+    });
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    // The number before a call counts blocks, the one with N is the block's own.
+    let calls = text.lines().map(|line| line.split_whitespace().skip(2).collect::<Vec<_>>().join(" "));
+    let said = |call: &String| !call.starts_with("COMMENT") && !call.starts_with("MESSAGE");
+    (calls.filter(said).collect(), output.status.code() == Some(0))
+}
+
+/// The law for one program; says whether it had anything to mend.
+fn holds(name: &str, program: &[u8], control: &str, folder: &Path) -> bool {
+    let Some(after) = mended(program, control) else { return false };
+    let (before, ended) = moves(program, control, folder);
+    let (now, _) = moves(&after, control, folder);
+    if ended {
+        assert_eq!(before, now, "{name} ({control})");
+    } else {
+        // Mended, the program may go on where it stopped before.
+        let kept = before.iter().zip(&now).take_while(|(a, b)| a == b).count();
+        let ending = before.len().saturating_sub(kept);
+        assert!(ending <= 2, "{name} ({control}): {:?}, then {:?}", before.get(kept), now.get(kept));
+    }
+    true
+}
+
+#[test]
+fn on_our_own_programs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
+    let mut files: Vec<PathBuf> = Vec::new();
+    let mut folders = vec![root.join("fixtures")];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "ngc" || extension == "nc") {
+                files.push(path);
+            }
+        }
+    }
+    let count = files.len();
+    let with_fixes = files
+        .par_iter()
+        .filter(|path| {
+            let control = if path.extension().is_some_and(|e| e == "nc") { "haas-mill" } else { "linuxcnc" };
+            holds(&path.display().to_string(), &fs::read(path).unwrap(), control, path.parent().unwrap())
+        })
+        .count();
+    assert!(count > 300 && with_fixes > 0, "{with_fixes} of {count} programs had a fix");
+}
+
+#[test]
+fn on_the_corpus() {
+    let Some(programs) = corpus::programs() else { return };
+    let with_fixes = programs
+        .par_iter()
+        .filter(|program| {
+            let folder = program.path.parent().unwrap();
+            let known = gcheck_controls::names().contains(&program.control.as_str());
+            known && holds(&program.name, &fs::read(&program.path).unwrap(), &program.control, folder)
+        })
+        .count();
+    assert!(with_fixes > 5, "{with_fixes} of {} programs had a fix", programs.len());
+}
