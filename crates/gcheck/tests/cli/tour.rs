@@ -26,7 +26,7 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/bushing.nc:16:10: error[jump-target-missing] jump target `N210` does not exist in this program
         fixtures/tour/bushing.nc:25:17: warning[subprogram-missing] called program `O3099` is not here
         fixtures/tour/manifold.nc:10:1: error[loop-end-missing] loop `DO1` has no `END1`
-        fixtures/tour/manifold.nc:15:1: error[arc-without-centre] arc without centre or radius: `G3`
+        fixtures/tour/manifold.nc:15:1: warning[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
         fixtures/tour/manifold.nc:18:19: error[jump-target-missing] jump target `N900` does not exist in this program
         fixtures/tour/plate.nc:3:1: info[program-number-missing] program has no number
