@@ -148,9 +148,10 @@ impl<'a> Sink<'a> {
         self.put(Stroke::Feed(to))
     }
 
-    /// Rapid, unless the point is where the tool stands.
+    /// Rapid, unless the point is where the tool stands. An axis that nobody knows, before and after, stays where it is.
     fn rapid_if_elsewhere(&mut self, to: [Mm; 3]) -> Result<(), CycleError> {
-        if self.at == to { Ok(()) } else { self.rapid(to) }
+        let stays = |(at, to): (&Mm, &Mm)| at == to || at.0.is_nan() && to.0.is_nan();
+        if self.at.iter().zip(&to).all(stays) { Ok(()) } else { self.rapid(to) }
     }
 }
 

@@ -95,13 +95,16 @@ mod tests {
     }
 
     #[test]
-    fn surface_speed_given_in_one_block_is_none() {
+    fn surface_speed_given_in_one_block_is_no_turning_speed() {
         check_rule_in(
             &RULE,
             "fanuc-lathe",
             "S9000 G96 M3\nG97 S9000\nM30\n",
             &World::of_examples(&META),
-            &expect![[""]],
+            &expect![[r#"
+                2 | G97 S9000
+                  |     ^^^^^ warning[speed-above-machine-limit] speed of 9000 rpm is above the machine's 8000 rpm (`S`)
+            "#]],
         );
     }
 
