@@ -200,7 +200,7 @@ mod tests {
     fn check(directions: &[&str], expected: &expect_test::Expect) {
         let mut program = "G90 G1 G141 D1 X0. Y0. Z0. I0. J0. K1. F20.\n".to_owned();
         for direction in directions {
-            program += &format!("X1. {direction}\n");
+            program.extend(["X1. ", direction, "\n"]);
         }
         check_rule(&RULE, "haas-mill", &(program + "G40\nM30\n"), expected);
     }

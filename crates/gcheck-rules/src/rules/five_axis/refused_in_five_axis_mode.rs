@@ -106,10 +106,9 @@ pub(super) fn set_by(cx: &PathCx<'_>, mode: CodeIx) -> At {
 /// What the block brings together that does not go together.
 pub(super) fn clashes(cx: &PathCx<'_>) -> Vec<Clash> {
     let mut found = Vec::new();
-    let modes: [(Role, fn(Effect) -> bool); 2] =
-        [(Role::Length, is_along_tool), (Role::Compensation, is_along_vectors)];
-    for (role, is_on) in modes {
-        let Some(mode) = cx.in_effect(role, is_on) else {
+    for role in [Role::Length, Role::Compensation] {
+        let Some(mode) = cx.in_effect(role, |effect| is_along_tool(effect) || is_along_vectors(effect))
+        else {
             if role == Role::Compensation {
                 found.extend(changed_over(cx));
             }
