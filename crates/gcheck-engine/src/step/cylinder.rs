@@ -23,7 +23,10 @@ const SAME_ANGLE: f64 = 1e-6;
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Mapping on, off, or a new default diameter.
     pub(super) fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
-        let Some(rules) = &self.model.semantics().cylinder else { return self.cylinder_by_radius(ix, state) };
+        let Some(rules) = &self.model.semantics().cylinder else {
+            self.cylinder_by_radius(ix, state);
+            return Ok(());
+        };
         let given = |axes: &[Axis]| -> Vec<Axis> {
             axes.iter().copied().filter(|axis| self.words.has(axis.letter())).collect()
         };
@@ -101,7 +104,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if last.is_none() {
             self.assumptions.insert(Assumption::CylinderDiameter(rotary));
         }
-        let Some(number) = self.model.cylinder_setting(rotary, rules, self.machine) else { return f64::NAN };
+        let Some(number) = self.machine.cylinder_setting(rotary, rules) else { return f64::NAN };
         let unit = self.machine.units.map_or_else(|| self.unit(state), Units::in_mm);
         let diameter = self.setting(number).and_then(|value| value.parse::<f64>().ok());
         diameter.map_or(f64::NAN, |diameter| diameter * unit)
@@ -134,13 +137,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The code with the radius in the rotary axis' word; 0 ends it. Its path is not followed.
-    fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+    fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) {
         let radius = [Axis::A, Axis::B, Axis::C].iter().find_map(|axis| self.words.number(axis.letter()));
         let on = radius.is_some_and(|radius| radius != 0.0);
         state.set_mode(Role::Cylinder, if on { ix } else { CodeIx::NONE });
         self.emit(state, Event::Modal(ix));
         self.unknown_frame(ix, on, state);
-        Ok(())
     }
 
     // ---- moves of the axes themselves ----
