@@ -184,15 +184,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Axes moved by themselves, not along the drawing: to a reference position, in machine coordinates.
     pub(super) fn moved_off_drawing(&self, named: LetterSet, to: &mut Position, state: &mut State<D>) {
-        let names = |axis: Axis| {
+        let moves = |axis: Axis| {
             named.iter().filter_map(|letter| self.model.axis_of(letter)).any(|(moved, _)| moved == axis)
         };
         let Some(cylinder) = state.wrapped.cylinder_mut() else { return };
-        if names(cylinder.linear) {
+        if moves(cylinder.linear) {
             cylinder.stands = to.raw(cylinder.linear);
             to.set(cylinder.linear, f64::NAN);
         }
-        if names(cylinder.linear) || names(cylinder.rotary) {
+        if moves(cylinder.linear) || moves(cylinder.rotary) {
             cylinder.anchor(to);
         }
     }
