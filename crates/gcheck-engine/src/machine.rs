@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 
+use gcheck_controls::CylinderRules;
 use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
@@ -98,6 +99,19 @@ pub struct Tool {
 }
 
 impl Machine {
+    /// The setting that gives cylinders on a rotary axis their diameter: the first is that of the machine's first rotary axis.
+    pub fn cylinder_setting<'r>(&self, rotary: Axis, rules: &'r CylinderRules) -> Option<&'r str> {
+        let rotary_axes: Vec<Axis> = match &self.axes {
+            Some(axes) => {
+                Axis::ALL.into_iter().filter(|axis| axis.is_rotary() && axes.contains(axis)).collect()
+            }
+            // Of a machine that nobody described, as most are numbered.
+            None => vec![Axis::A, Axis::B],
+        };
+        let place = rotary_axes.iter().position(|axis| *axis == rotary)?;
+        rules.settings.get(place).map(String::as_str)
+    }
+
     /// A setting's value: configured, or the default that the knowledge base assumes.
     pub fn setting<'a>(&'a self, control: &'a gcheck_controls::Control, number: &str) -> Option<&'a str> {
         match self.settings.get(number) {

@@ -3,8 +3,8 @@
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
 use gcheck_controls::{
-    CodeIx, CodeNumber, Control, CylinderRules, Effect, GroupIx, Letter, LetterSet, Semantics,
-    SystemVariable, Unpointed, WordKind,
+    CodeIx, CodeNumber, Control, Effect, GroupIx, Letter, LetterSet, Semantics, SystemVariable, Unpointed,
+    WordKind,
 };
 use rustc_hash::FxHashMap;
 
@@ -361,24 +361,6 @@ impl<'c> Model<'c> {
     pub(crate) fn letters_of(&self, axis: Axis) -> impl Iterator<Item = Letter> + '_ {
         let is_of = move |letter: &Letter| self.axis_of(*letter).is_some_and(|(moved, _)| moved == axis);
         self.axis_letters.iter().filter(is_of)
-    }
-
-    /// The setting that gives cylinders on a rotary axis their diameter: the first is that of the machine's first rotary axis.
-    pub fn cylinder_setting<'r>(
-        &self,
-        rotary: Axis,
-        rules: &'r CylinderRules,
-        machine: &crate::Machine,
-    ) -> Option<&'r str> {
-        let rotary_axes: Vec<Axis> = match &machine.axes {
-            Some(axes) => {
-                Axis::ALL.into_iter().filter(|axis| axis.is_rotary() && axes.contains(axis)).collect()
-            }
-            // Of a machine that nobody described, as most are numbered.
-            None => vec![Axis::A, Axis::B],
-        };
-        let place = rotary_axes.iter().position(|axis| *axis == rotary)?;
-        rules.settings.get(place).map(String::as_str)
     }
 
     /// Does the control read numbers without decimal point as least increments, as far as data alone says?

@@ -142,7 +142,7 @@ fn an_open_outline_is_refused() {
         &expect![[r#"
         rapid x0 y0 z0
         rapid x0 y0 z5
-        Cycle(Geometry) in N5
+        Conflict in N5
         at x0 y0 z5"#]],
     );
 }

@@ -5,7 +5,9 @@ mod step_maker;
 use std::f64::consts::PI;
 
 use expect_test::expect;
-use gcheck_engine::{Axis, BarLengths, Event, FeedMode, Position, Travel, TravelKind, Units};
+use gcheck_engine::{
+    Axis, BarLengths, Clearing, Cylinder, Event, FeedMode, Position, Travel, TravelKind, Units,
+};
 use gcheck_geometry::{Mm, MmPerMin, Plane, Seconds};
 use gcheck_toolpath::{Clock, Names, Statistics, Timing, Untimed, View};
 use step_maker::{Run, point, timing, xyz};
@@ -117,6 +119,47 @@ fn dwells_and_tool_changes() {
     // The tool is there already.
     run.change(1).change(2);
     assert_eq!(seconds(&run), Ok(8.5));
+}
+
+/// The axis that is wrapped stands still: a rapid move takes what the rotary axis needs, a cut what its way on the surface is.
+#[test]
+fn around_a_cylinder() {
+    let wrapped = Cylinder { linear: Axis::Y, rotary: Axis::A, diameter: 100.0, stands: 0.0, zero: 0.0 };
+    let mut run = Run::new();
+    run.feed = 600.0;
+    run.event(Event::Cylinder(Some(wrapped)));
+    let mut to = point(0.0, 100.0, 0.0);
+    to.set(Axis::A, 60.0);
+    run.travel(TravelKind::Rapid, to);
+    assert_eq!(seconds(&run), Ok(1.0));
+    run.feed(0.0, 0.0, 0.0);
+    assert_eq!(seconds(&run), Ok(11.0));
+}
+
+/// What the control clears by itself is counted, apart, and its way down is no hole.
+#[test]
+fn pockets_are_estimates() {
+    let mut run = Run::new();
+    run.feed = 600.0;
+    run.feed(0.0, 0.0, -5.0);
+    let clearing = Clearing {
+        from: [Mm(-20.0), Mm(-10.0), Mm(-5.0)],
+        to: [Mm(20.0), Mm(10.0), Mm(0.0)],
+        levels: 1,
+        length: Mm(300.0),
+        seconds: Seconds(30.0),
+        at: run.at,
+    };
+    run.event(Event::Cleared(clearing)).rapid(0.0, 0.0, 0.0);
+    let total = run.statistics(xyz(), timing()).total();
+    assert_eq!((total.times.cutting, total.estimated, total.holes), (Seconds(30.5), Seconds(30.0), 0));
+    assert_eq!(total.cut.range(0), Some((-20.0, 20.0)));
+    assert_eq!(total.machine.range(1), Some((-10.0, 10.0)));
+
+    let mut unknown = Run::new();
+    unknown.event(Event::Cleared(Clearing { seconds: Seconds(f64::NAN), ..clearing }));
+    let total = unknown.statistics(xyz(), timing()).total();
+    assert_eq!((total.estimated, total.unaccounted.pockets), (Seconds(0.0), 1));
 }
 
 #[test]

@@ -23,7 +23,10 @@ const SAME_ANGLE: f64 = 1e-6;
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Mapping on, off, or a new default diameter.
     pub(super) fn cylinder(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
-        let Some(rules) = &self.model.semantics().cylinder else { return self.cylinder_by_radius(ix, state) };
+        let Some(rules) = &self.model.semantics().cylinder else {
+            self.cylinder_by_radius(ix, state);
+            return Ok(());
+        };
         let given = |axes: &[Axis]| -> Vec<Axis> {
             axes.iter().copied().filter(|axis| self.words.has(axis.letter())).collect()
         };
@@ -101,7 +104,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if last.is_none() {
             self.assumptions.insert(Assumption::CylinderDiameter(rotary));
         }
-        let Some(number) = self.model.cylinder_setting(rotary, rules, self.machine) else { return f64::NAN };
+        let Some(number) = self.machine.cylinder_setting(rotary, rules) else { return f64::NAN };
         let unit = self.machine.units.map_or_else(|| self.unit(state), Units::in_mm);
         let diameter = self.setting(number).and_then(|value| value.parse::<f64>().ok());
         diameter.map_or(f64::NAN, |diameter| diameter * unit)
@@ -134,13 +137,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The code with the radius in the rotary axis' word; 0 ends it. Its path is not followed.
-    fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) -> Step {
+    fn cylinder_by_radius(&mut self, ix: CodeIx, state: &mut State<D>) {
         let radius = [Axis::A, Axis::B, Axis::C].iter().find_map(|axis| self.words.number(axis.letter()));
         let on = radius.is_some_and(|radius| radius != 0.0);
         state.set_mode(Role::Cylinder, if on { ix } else { CodeIx::NONE });
         self.emit(state, Event::Modal(ix));
         self.unknown_frame(ix, on, state);
-        Ok(())
     }
 
     // ---- moves of the axes themselves ----
@@ -182,15 +184,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Axes moved by themselves, not along the drawing: to a reference position, in machine coordinates.
     pub(super) fn moved_off_drawing(&self, named: LetterSet, to: &mut Position, state: &mut State<D>) {
-        let names = |axis: Axis| {
+        let moves = |axis: Axis| {
             named.iter().filter_map(|letter| self.model.axis_of(letter)).any(|(moved, _)| moved == axis)
         };
         let Some(cylinder) = state.wrapped.cylinder_mut() else { return };
-        if names(cylinder.linear) {
+        if moves(cylinder.linear) {
             cylinder.stands = to.raw(cylinder.linear);
             to.set(cylinder.linear, f64::NAN);
         }
-        if names(cylinder.linear) || names(cylinder.rotary) {
+        if moves(cylinder.linear) || moves(cylinder.rotary) {
             cylinder.anchor(to);
         }
     }

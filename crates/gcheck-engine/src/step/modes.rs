@@ -16,7 +16,6 @@ use crate::position::{Axis, Position};
 use crate::state::State;
 use crate::value::{Domain, Truth};
 
-#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Carries out one code of the block.
     pub(super) fn code(&mut self, ix: CodeIx, place: &Place, words: &[Word], state: &mut State<D>) -> Step {

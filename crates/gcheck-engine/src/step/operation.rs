@@ -94,6 +94,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             tool_radius: Mm::ZERO,
             feed: MmPerMin(D::known(&state.feed).unwrap_or(f64::NAN)),
         };
+        match (words.step_x, words.step_y) {
+            (Some(_), Some(_)) => return Err(Fault::Conflict),
+            (None, None) => return Err(Fault::MissingWord(Letter::of('I'))),
+            _ => {}
+        }
         if self.compensates(state) {
             words.tool_radius = Mm(self.pocket_tool_radius(state)?);
         }

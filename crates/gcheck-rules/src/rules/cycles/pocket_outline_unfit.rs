@@ -60,7 +60,7 @@ declare_rule! {
 }
 
 /// Blocks of an outline that are looked at.
-const MOST_BLOCKS: u32 = 5_000;
+const MOST_BLOCKS: usize = 5_000;
 
 struct PocketOutlineUnfit;
 
@@ -85,13 +85,15 @@ pub(super) fn outline_of(cx: &PathCx<'_>) -> Option<Range<u32>> {
         Some(block) => block,
         None => outline.program(number)?.blocks.start,
     };
-    Some(first..outline.part_of(first).end.min(first.saturating_add(MOST_BLOCKS)))
+    Some(first..outline.part_of(first).end)
 }
 
 fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Report<'_>) {
     let name = code.number().to_string();
-    let end = blocks.end;
-    for block in blocks {
+    for (count, block) in blocks.enumerate() {
+        if count >= MOST_BLOCKS {
+            return;
+        }
         let Some(place) = cx.place_of(At { file: 0, block }) else { return };
         let range = |word: &Word| place.base + word.range().start..place.base + word.range().end;
         let read = place.block();
@@ -128,10 +130,9 @@ fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Repor
         .finding(&META, cx.letter_range('P'), format!("the pocket's outline does not return (`{name}`)"))
         .label("no `M99` ends the program that `P` names")
         .help("end the outline with `M99`")
+        .note(format!("an outline ends with a return  [{}]", code.entry().source))
         .at_most(limit(code.entry().confidence));
-    if end > 0 {
-        report.add(finding.note(format!("an outline ends with a return  [{}]", code.entry().source)));
-    }
+    report.add(finding);
 }
 
 /// The pocket that takes the outline.

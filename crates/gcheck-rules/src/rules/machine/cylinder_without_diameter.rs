@@ -44,7 +44,7 @@ impl PathRule for CylinderWithoutDiameter {
         }
         let Some(rules) = &cx.model.semantics().cylinder else { return };
         let axis = cylinder.rotary.name();
-        let setting = cx.model.cylinder_setting(cylinder.rotary, rules, &cx.scene.machine.engine);
+        let setting = cx.scene.machine.engine.cylinder_setting(cylinder.rotary, rules);
         let setting = setting.unwrap_or_default();
         let name = cx.cancel_of(Effect::CylinderMapping).unwrap_or_default();
         let finding = cx

@@ -58,7 +58,7 @@ impl PathRule for CylinderDiameterFromSetting {
 fn judge(cx: &PathCx<'_>, cylinder: &Cylinder, gone_back: bool, report: &mut Report<'_>) {
     let Some(rules) = &cx.model.semantics().cylinder else { return };
     let axis = cylinder.rotary.name();
-    let setting = cx.model.cylinder_setting(cylinder.rotary, rules, &cx.scene.machine.engine);
+    let setting = cx.scene.machine.engine.cylinder_setting(cylinder.rotary, rules);
     // Somebody said what the setting is.
     if setting.is_some_and(|number| cx.scene.machine.settings.contains_key(number)) {
         return;
