@@ -291,7 +291,7 @@ fn an_initial_push_of_zero_is_the_reference_position() {
     // What a zero of the block alone means the manual does not say; neither is anything known without a reference.
     let twice = "G21\nM5\nG105 J25. K100. I30.\nG105 J25. K100. I0\nM30\n";
     let ran = execute(twice, &with(bars(110.0, 3), &[(3101, 35.0), (3112, 40.0)]));
-    assert!(ran.shown.ends_with("4: load\n4: push NaN\n4: chuck closes\n"), "{}", ran.shown);
+    assert!(ran.shown.contains("4: load\n4: push NaN\n4: chuck closes\n"), "{}", ran.shown);
     assert!(shown(text, &[(3101, 0.0)]).contains("push 25"));
 }
 

@@ -193,10 +193,58 @@ mod tests {
                     .map(|(severity, id)| format!("{}[{id}]", severity.name()))
                     .collect();
                 let case = if value.is_empty() { "missing" } else { value };
-                let _ = writeln!(shown, "{letter} {case}: {}", found.join(" "));
+                let found = if found.is_empty() { "nothing".to_owned() } else { found.join(" ") };
+                let _ = writeln!(shown, "{letter} {case}: {found}");
             }
         }
-        expect![[""]].assert_eq(&shown);
+        expect![[r#"
+            I missing: warning[bar-length-missing]
+            I twice: warning[word-given-twice]
+            I -1.: warning[number-out-of-range]
+            I 0: info[bar-initial-push-zero]
+            I 99999.: warning[bar-too-short-for-part]
+            I 1.2.3: error[malformed-number]
+            I X: error[address-without-value]
+            I #500: nothing
+            I [1/0]: error[expression-without-value]
+            J missing: warning[bar-length-missing]
+            J twice: warning[word-given-twice]
+            J -1.: warning[number-out-of-range]
+            J 0: warning[number-out-of-range]
+            J 99999.: error[bar-too-short-for-part]
+            J 1.2.3: error[malformed-number]
+            J X: error[address-without-value]
+            J #500: nothing
+            J [1/0]: error[expression-without-value]
+            K missing: warning[bar-length-missing]
+            K twice: warning[word-given-twice]
+            K -1.: warning[number-out-of-range]
+            K 0: nothing
+            K 99999.: error[bar-too-short-for-part]
+            K 1.2.3: error[malformed-number]
+            K X: error[address-without-value]
+            K #500: nothing
+            K [1/0]: error[expression-without-value]
+            Q missing: nothing
+            Q twice: warning[word-given-twice]
+            Q -1.: warning[number-out-of-range]
+            Q 0: nothing
+            Q 99999.: warning[number-out-of-range]
+            Q 1.2.3: error[malformed-number]
+            Q X: error[address-without-value]
+            Q #500: nothing
+            Q [1/0]: error[expression-without-value]
+            R missing: nothing
+            R twice: warning[word-given-twice]
+            R -1.: warning[number-out-of-range]
+            R 0: nothing
+            R 99999.: warning[number-out-of-range]
+            R 1.2.3: error[malformed-number]
+            R X: error[address-without-value]
+            R #500: nothing
+            R [1/0]: error[expression-without-value]
+        "#]]
+        .assert_eq(&shown);
     }
 
     /// What rests on a value that nobody knows is silent, wherever the feed stands.
@@ -204,7 +252,7 @@ mod tests {
     fn unknown_values_make_no_findings_of_this_group() {
         let feed = "G105 I#500 J#501 K#502 R#503";
         for program in [
-            format!("{feed}"),
+            feed.to_owned(),
             format!("/{feed}"),
             format!("#1=0\nWHILE [#1 LT 3] DO1\n{feed}\n#1=#1+1\nEND1"),
             format!("M97 P10\nM30\nN10 {feed}\nM99"),

@@ -305,9 +305,10 @@ impl Table<'_> {
             let _ = write!(made, " from {}", count(bar.used_up(), "bar"));
             let (fewest, most) = (bar.by_bar().iter().min(), bar.by_bar().iter().max());
             if let (Some(fewest), Some(most)) = (fewest, most) {
-                let _ = match fewest == most {
-                    true => write!(made, ", {most} a bar"),
-                    false => write!(made, ", {fewest} to {most} a bar"),
+                let _ = if fewest == most {
+                    write!(made, ", {most} a bar")
+                } else {
+                    write!(made, ", {fewest} to {most} a bar")
                 };
             }
         }

@@ -41,6 +41,9 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/manifold.nc:15:1: warning[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
         fixtures/tour/manifold.nc:18:19: error[jump-target-missing] jump target `N900` does not exist in this program
+        fixtures/tour/pin.nc:15:1: info[chuck-moved-at-bar-feed] chuck is open before the bar is fed (`M11`)
+        fixtures/tour/pin.nc:15:1: warning[turret-in-the-way-of-bar] tool stands in the way of the bar
+        fixtures/tour/pin.nc:15:12: warning[bar-push-shorter-than-part] bar is pushed by less than the part is long
         fixtures/tour/plate.nc:3:1: info[program-number-missing] program has no number
         fixtures/tour/plate.nc:8:5: error[malformed-number] number `-2.5.0` has two decimal points
         fixtures/tour/plate.nc:9:4: warning[dwell-very-long] dwell of 1667 minutes

@@ -48,7 +48,7 @@ impl PathRule for BarJustLongEnough {
             return;
         };
         let Some(told) = lengths(event) else { return };
-        if told.part <= Mm::ZERO || told.clamping < Mm::ZERO || !(told.initial > Mm::ZERO) {
+        if told.part <= Mm::ZERO || told.clamping < Mm::ZERO || told.initial <= Mm::ZERO {
             return;
         }
         // Behind the first push there must be a whole number of parts, and the clamping.

@@ -291,7 +291,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "T101\nG97 S900 M3\nG1 X1. F.01\nG0 X3.\nG105 J1.75 R90.\nG1 X0.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | G1 X0.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`G105`)
+            "#]],
         );
     }
 
