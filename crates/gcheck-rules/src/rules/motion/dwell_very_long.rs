@@ -162,10 +162,15 @@ mod tests {
 
     #[test]
     fn seconds_that_may_be_least_increments_are_not_judged() {
-        check_rule(&RULE, "generic-mill", "G4 X10000\nG4 X500.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G4 X10000\nG4 X500.\nM30\n",
+            &expect![[r#"
             2 | G4 X500.
               |    ^^^^^ warning[dwell-very-long] dwell of 8.3 minutes
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
