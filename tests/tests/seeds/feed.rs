@@ -599,6 +599,7 @@ fn holds() {
 /// What is said of every mistake with `F` and the words of a dwell: missing, doubled, negative, zero, huge, no number,
 /// computed from what nobody knows, in a subprogram, behind a block skip, in a loop.
 #[test]
+#[expect(clippy::too_many_lines, reason = "one table of mistakes and of what is said of them")]
 fn bad_input() {
     let head = "G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\n";
     let cuts = [
