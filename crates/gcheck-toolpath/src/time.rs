@@ -20,6 +20,10 @@ pub const DEFAULT_TOOL_CHANGE: Seconds = Seconds(5.0);
 
 /// What the machine takes for what a program does not time.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "three figures that may be assumed, each by itself, and a choice of the control"
+)]
 pub struct Timing {
     /// By axis: millimetres or degrees a minute.
     rapid: [f64; 9],

@@ -219,6 +219,10 @@ pub(crate) const SYSTEM: System = System {
         Sentence {
             says: "At power-on the feed is per minute.",
             proofs: &[
+                Proof::Assumes {
+                    program: mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n"),
+                    says: "in effect at the start, as at power-on: G0 G80 G17 G90 G94",
+                },
                 Proof::Run {
                     program: mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n"),
                     prints: &["feed 100.0000 0.0000 0.0000 300 20.000"],
@@ -535,6 +539,10 @@ pub(crate) const SYSTEM: System = System {
         Sentence {
             says: "The same number is another time on another control, and a decimal point may decide it.",
             proofs: &[
+                Proof::Assumes {
+                    program: mill("G4 X500\nM30\n"),
+                    says: "numbers without a decimal point count as the control usually reads them",
+                },
                 Proof::Run { program: mill("G4 P500\nM30\n"), prints: &["dwell 0.500"] },
                 Proof::Run {
                     program: haas("G4 P500\nG4 P0.5\nM30\n"),
@@ -591,6 +599,7 @@ fn holds() {
 /// What is said of every mistake with `F` and the words of a dwell: missing, doubled, negative, zero, huge, no number,
 /// computed from what nobody knows, in a subprogram, behind a block skip, in a loop.
 #[test]
+#[expect(clippy::too_many_lines, reason = "one table of mistakes and of what is said of them")]
 fn bad_input() {
     let head = "G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\n";
     let cuts = [

@@ -61,12 +61,12 @@ impl PathRule for FeedOfAnotherMode {
         else {
             return;
         };
-        let (Some(means), Some(meant)) = (counts(cx.model.effect(now)), counts(cx.model.effect(given)))
+        let (Some(means), Some(before)) = (counts(cx.model.effect(now)), counts(cx.model.effect(given)))
         else {
             return;
         };
         // Under inverse time every cut has its own `F`, or a rule of its own.
-        if means == meant || cx.model.effect(now) == Effect::FeedInverseTime {
+        if means == before || cx.model.effect(now) == Effect::FeedInverseTime {
             return;
         }
         if !goes_by_feed(event) || Abstract::known(state.feed()) == Some(0.0) {
@@ -89,7 +89,7 @@ impl PathRule for FeedOfAnotherMode {
             .note("as far as is known, this control keeps the number of `F` when its meaning changes")
             .help(format!("give `F` anew with `{now}`"));
         if let Some(range) = feed {
-            finding = finding.also(range, format!("given as {meant} (`{given}`)"));
+            finding = finding.also(range, format!("given as {before} (`{given}`)"));
         }
         report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{now}`")));
     }

@@ -59,13 +59,13 @@ impl PathRule for MaybeFeedOfAnotherMode {
             return;
         }
         let other = given.alternatives().iter().find_map(|code| {
-            let meant = counts(cx.model.effect(*code)).filter(|meant| *meant != means)?;
-            Some((*code, meant))
+            let before = counts(cx.model.effect(*code)).filter(|before| *before != means)?;
+            Some((*code, before))
         });
         if !goes_by_feed(event) || Abstract::known(state.feed()) == Some(0.0) {
             return;
         }
-        let (Some((other, meant)), Some(changed)) = (other, cx.trace().set_by(Fact::Mode(Role::FeedMode)))
+        let (Some((other, before)), Some(changed)) = (other, cx.trace().set_by(Fact::Mode(Role::FeedMode)))
         else {
             return;
         };
@@ -75,7 +75,7 @@ impl PathRule for MaybeFeedOfAnotherMode {
         let (name, from) = (cx.name_of(now), cx.name_of(other));
         let finding = cx
             .finding(&META, cx.range(), format!("the feed may have been given under another mode (`{from}`)"))
-            .label(format!("a number given as {meant} is read as {means} here"))
+            .label(format!("a number given as {before} is read as {means} here"))
             .help(format!("give `F` anew with `{name}`"));
         let finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         report.add(cx.with_path(finding));

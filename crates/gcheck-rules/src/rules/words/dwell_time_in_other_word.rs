@@ -84,7 +84,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let confidence = entry.words.iter().filter(of_times).filter_map(|w| w.confidence).min();
     let letter = word.letter;
     let own = choice(times);
-    let units = cx.control().semantics().dwell.values().map(unit).next().unwrap_or_default();
+    let units = cx.control().semantics().dwell.values().copied().map(unit).next().unwrap_or_default();
     Finding::new(
         &META,
         cx.range(word),
@@ -99,7 +99,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     .at_most(limit(entry.confidence.min(confidence.unwrap_or(Confidence::Manual))))
 }
 
-fn unit(word: &DwellWord) -> &'static str {
+fn unit(word: DwellWord) -> &'static str {
     match word {
         DwellWord::Seconds => "in seconds",
         DwellWord::Milliseconds => "in milliseconds",
