@@ -923,8 +923,10 @@ fn cycles_across_the_axis_peck_tap_and_bore() {
             feed x25 z-20 c0
             dwell 0.5
             rapid x30 z-20 c0
+            override off
             feed x20 z-20 c0
             feed x30 z-20 c0
+            override on
             rapid x29 z-20 c0
             feed x24 z-20 c0
             feed x29 z-20 c0
@@ -954,8 +956,10 @@ fn cycles_of_the_side_count_r_from_the_start() {
             rapid x23 z-20 c0
             feed x20 z-20 c0
             rapid x30 z-20 c0
+            override off
             feed x20 z-20 c0
             feed x30 z-20 c0
+            override on
             rapid x30 z-5 c0
             feed x20 z-5 c0
             dwell 0.2

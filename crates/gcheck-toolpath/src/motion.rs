@@ -58,7 +58,7 @@ impl Tracker {
         self.machine = step.machine;
         match step.event {
             Event::WorkOffset { rotation, .. } | Event::Rotation(rotation) => {
-                self.rotation = Degrees(*rotation)
+                self.rotation = Degrees(*rotation);
             }
             Event::Cylinder(cylinder) => self.still = cylinder.map(|cylinder| cylinder.linear),
             _ => {}

@@ -78,7 +78,7 @@ impl Statistics {
             },
             x_is_diameter: view.has_diameters(),
             total: figures(&total),
-            bar: self.bar().is_used().then(|| json::Bar::of(self.bar(), total.times.total(), units)),
+            bar: self.bar().is_used().then(|| json::BarJob::of(self.bar(), total.times.total(), units)),
             tools: self
                 .sections()
                 .iter()
@@ -490,13 +490,13 @@ mod json {
         pub(super) total: Figures,
         /// Only with a bar feeder.
         #[serde(skip_serializing_if = "Option::is_none")]
-        pub(super) bar: Option<Bar>,
+        pub(super) bar: Option<BarJob>,
         pub(super) tools: Vec<Tool<'a>>,
         pub(super) assumptions: Vec<Assumed>,
     }
 
     #[derive(Serialize)]
-    pub(super) struct Bar {
+    pub(super) struct BarJob {
         parts: u64,
         bars_used_up: u64,
         parts_by_bar: Vec<u64>,
@@ -506,7 +506,7 @@ mod json {
         seconds_per_part: Option<f64>,
     }
 
-    impl Bar {
+    impl BarJob {
         pub(super) fn of(bar: &BarFigures, time: Seconds, units: Units) -> Self {
             Self {
                 parts: bar.parts(),

@@ -702,7 +702,7 @@ fn bad_input() {
         both modes, fanuc-mill: warning[two-codes-of-one-group]
         helix without centre, generic-mill: warning[arc-without-centre]
         helix without centre, haas-mill: error[arc-without-centre]
-        helix without centre, fanuc-mill: error[arc-without-centre]
+        helix without centre, fanuc-mill: warning[arc-without-centre]
         helix of a zero radius, generic-mill: warning[zero-radius-arc]
         helix of a zero radius, haas-mill: warning[zero-radius-arc]
         helix of a zero radius, fanuc-mill: warning[zero-radius-arc]

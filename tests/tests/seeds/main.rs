@@ -6,7 +6,11 @@
 //!
 //! The page `docs/seeds.md` is written from the same tables (`UPDATE_EXPECT=1 cargo test -p gcheck-tests --test seeds`).
 
-#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
 
 mod bar_feeder;
 mod cutter_3d;

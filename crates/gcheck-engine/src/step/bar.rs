@@ -276,7 +276,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 state.bar.waiting -= 1.0;
                 self.add_to_variable(rules.bars, 1.0, state)?;
                 if let Some(angle) = orient {
-                    self.emit(state, Event::OrientSpindle { angle: angle, way: 0 });
+                    self.emit(state, Event::OrientSpindle { angle, way: 0 });
                 }
                 self.emit(state, Event::BarLoad);
                 state.bar.length = feeder.new_bar.map_or(f64::NAN, |bar| bar.0 - initial);

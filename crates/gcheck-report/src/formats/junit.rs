@@ -1,6 +1,6 @@
 //! `junit`: test results, which nearly every CI server shows.
 //!
-//! Knows: suites, cases and failures of the JUnit format. Must not know: exit codes.
+//! Knows: suites, cases and failures of that format. Must not know: exit codes.
 //!
 //! A file is a suite and a finding a case of it. Errors and warnings fail; milder findings are cases that pass and say what
 //! was found, and a file without findings is a case that passes, since servers take a suite without cases for a mistake.

@@ -53,7 +53,7 @@ fn a_difference_changes_nothing() {
         ! 1 finding would be mended in 1 file
         exit 1
     "#]]
-    .assert_eq(&shop.gcheck(&format!("{CHECK} --diff")).to_string());
+    .assert_eq(&shop.gcheck(&format!("{CHECK} --diff")).to_string().replace('\r', ""));
     assert_eq!(shop.read("part.nc"), MENDABLE);
     let run = shop.gcheck(&format!("{CHECK} --diff good.nc"));
     assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{run}");

@@ -57,7 +57,7 @@ impl PathRule for BarJustLongEnough {
         if !(whole >= 1.0 && (parts - whole).abs() * told.part.0 < 1e-6) {
             return;
         }
-        let made = if whole == 1.0 { "1 part".to_owned() } else { format!("{whole} parts") };
+        let made = if whole < 1.5 { "1 part".to_owned() } else { format!("{whole} parts") };
         report.add(
             cx.finding(
                 &META,

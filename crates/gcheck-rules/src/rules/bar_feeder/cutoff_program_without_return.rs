@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::At;
+use gcheck_program::Word;
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -54,7 +55,7 @@ impl PathRule for CutoffProgramWithoutReturn {
         }
         let Some(place) = cx.place() else { return };
         let is_program = |word: &&gcheck_program::Word| word.letter == Letter::of('P');
-        let number = place.table.words(place.block()).iter().find(is_program).and_then(|word| word.integer());
+        let number = place.table.words(place.block()).iter().find(is_program).and_then(Word::integer);
         let Some(entry) = number.and_then(|number| cx.program.find_number(number, 0)) else { return };
         if entry.file == 0 {
             return;

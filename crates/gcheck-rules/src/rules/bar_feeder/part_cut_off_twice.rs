@@ -1,6 +1,6 @@
 //! A part that is cut off, and then cut off again by the bar feed.
 
-use gcheck_engine::Event;
+use gcheck_engine::{Event, Frame};
 
 use crate::bar_feeder::lengths;
 use crate::meta::declare_rule;
@@ -66,7 +66,7 @@ impl PathRule for PartCutOffTwice {
             return;
         }
         let Some(parting) = Parting::of(cx, event) else { return };
-        if !cx.state().frames().iter().any(|frame| frame.is_cutoff()) {
+        if !cx.state().frames().iter().any(Frame::is_cutoff) {
             self.before = Some(parting);
             return;
         }

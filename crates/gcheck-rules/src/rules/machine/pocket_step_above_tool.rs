@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, Domain as _, Units};
+use gcheck_program::Word;
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -57,8 +58,7 @@ impl PathRule for PocketStepAboveTool {
         };
         for letter in ['I', 'J'] {
             // Without a point the number counts what a setting says.
-            let Some(step) = word(letter).filter(|word| word.shape.point).and_then(|word| word.number())
-            else {
+            let Some(step) = word(letter).filter(|word| word.shape.point).and_then(Word::number) else {
                 continue;
             };
             if step * unit <= diameter * 1.000_001 {
