@@ -52,7 +52,7 @@ pub fn drilling(holes: usize) -> String {
     const CYCLES: [&str; 3] = [
         "G98 G81 X0. Y0. Z-5. R2. F300.",
         "G99 G83 X0. Y0. Z-25. R2. Q3. F250.",
-        "G99 G82 X0. Y0. Z-8. R2. P500 F200.",
+        "G99 G82 X0. Y0. Z-8. R2. P.5 F200.",
     ];
     let mut program = String::with_capacity(holes * 20);
     program.push_str(HEAD);
@@ -61,7 +61,7 @@ pub fn drilling(holes: usize) -> String {
         let cycle = CYCLES.get(batch % CYCLES.len()).copied().unwrap_or_default();
         if place == 0 {
             let tool = batch % 20 + 1;
-            line(&mut program, format_args!("G80\nT{tool} M6\nG43 H{tool} Z50.\n{cycle}"));
+            line(&mut program, format_args!("G80\nT{tool} M6\nS12000 M3\nG0 G43 H{tool} Z50.\n{cycle}"));
         } else {
             line(
                 &mut program,

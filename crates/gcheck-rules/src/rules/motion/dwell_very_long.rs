@@ -53,6 +53,10 @@ impl PathRule for DwellVeryLong {
         let is_time = |word: &gcheck_program::Word| {
             dwell.keys().any(|letter| gcheck_controls::Letter::parse(letter) == Some(word.letter))
         };
+        // A cycle dwells in every hole; its time is judged where it stands.
+        if cx.find_word(cx.origin().at, is_time).is_none() {
+            return;
+        }
         // A number without a point may be least increments there: nobody knows.
         let by_parameter = cx.scene.control().numbers().unpointed == Unpointed::ByParameter;
         let is_unsure = |word: &gcheck_program::Word| {
@@ -131,6 +135,19 @@ mod tests {
     use super::RULE;
     use crate::Selection;
     use crate::testing::{World, check_rule, findings, words};
+
+    #[test]
+    fn a_cycle_is_told_once() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z9\nG82 X1 Y1 Z-1 R2 P500 F99\nX2\nX3\nM2\n",
+            &expect![[r#"
+                2 | G82 X1 Y1 Z-1 R2 P500 F99
+                  |                  ^^^^ warning[dwell-very-long] dwell of 8.3 minutes
+            "#]],
+        );
+    }
 
     #[test]
     fn the_time_is_marked() {
