@@ -237,7 +237,7 @@ const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
 const MOST_VISITS: u32 = 200;
 /// Turns of a loop that are executed exactly; from there on it is widened, so that a loop that counts past its end is seen to.
-pub const MOST_EXACT_TURNS: u32 = 12_000;
+pub const MOST_EXACT_TURNS: u32 = 10_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
