@@ -11,7 +11,7 @@ use std::{env, fs};
 
 use gcheck_program::Dialect;
 use gcheck_rules::{
-    Execution, FixKinds, Job, MachineFacts, NoPrograms, Scene, Selection, apply_fixes, check,
+    Execution, Finding, FixKinds, Job, MachineFacts, NoPrograms, Scene, Selection, check, mend,
 };
 use gcheck_syntax::SourceText;
 use gcheck_testkit::corpus;
@@ -24,25 +24,21 @@ fn mended(program: &[u8], control: &str) -> Option<Vec<u8>> {
     let machine = MachineFacts::default();
     let mut selection = Selection::default();
     selection.enable("all").unwrap();
-    let mut source = SourceText::from_bytes(program.to_vec()).unwrap();
-    let mut changed = false;
-    for _ in 0..10 {
+    let source = SourceText::from_bytes(program.to_vec()).unwrap();
+    let mended = mend(source, FixKinds::Safe, |source| {
         let scene =
             Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
-        let outcome = check(&Job {
-            source: &source,
+        check(&Job {
+            source,
             scene,
             selection: &selection,
             suppressions: true,
             execution: Execution { fuel: 100_000, block_skip: None },
-        });
-        let Some(fixed) = apply_fixes(&source, &outcome.findings, FixKinds::Safe) else {
-            return changed.then(|| source.to_bytes());
-        };
-        source = SourceText::from_bytes(fixed.bytes).unwrap();
-        changed = true;
-    }
-    panic!("fixes of a program never end");
+        })
+    });
+    let is_mendable = |finding: &Finding| finding.fixes.iter().any(|fix| fix.safe);
+    assert!(!mended.outcome.findings.iter().any(is_mendable), "fixes of a program never end");
+    (mended.count > 0).then(|| mended.source.to_bytes())
 }
 
 /// The moves of a program, and whether it came to its end.

@@ -8,6 +8,7 @@
 use gcheck_geometry::Mm;
 use gcheck_geometry::cylinder::angle_of_unrolled;
 
+use crate::number::{either, stands_for};
 use crate::position::{Axis, Position};
 
 /// A linear axis wrapped around a cylinder on a rotary axis. NaN is unknown.
@@ -114,15 +115,12 @@ impl Wrapped {
     pub(crate) fn join(&self, other: &Self) -> Self {
         match (self, other) {
             (Self::No, Self::No) => Self::No,
-            (Self::On(a), Self::On(b)) if a.same_axes(b) => {
-                let number = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
-                Self::On(Cylinder {
-                    diameter: number(a.diameter, b.diameter),
-                    stands: number(a.stands, b.stands),
-                    zero: number(a.zero, b.zero),
-                    ..*a
-                })
-            }
+            (Self::On(a), Self::On(b)) if a.same_axes(b) => Self::On(Cylinder {
+                diameter: either(a.diameter, b.diameter),
+                stands: either(a.stands, b.stands),
+                zero: either(a.zero, b.zero),
+                ..*a
+            }),
             _ => Self::Unknown,
         }
     }
@@ -132,8 +130,7 @@ impl Wrapped {
         match (self, inner) {
             (Self::Unknown, _) | (Self::No, Self::No) => true,
             (Self::On(a), Self::On(b)) => {
-                let same = |(a, b): (f64, f64)| a.is_nan() || a.to_bits() == b.to_bits();
-                a.same_axes(b) && a.numbers().into_iter().zip(b.numbers()).all(same)
+                a.same_axes(b) && a.numbers().into_iter().zip(b.numbers()).all(|(a, b)| stands_for(a, b))
             }
             _ => false,
         }

@@ -12,6 +12,7 @@ mod flow;
 mod machine;
 mod modal;
 mod model;
+mod number;
 mod observer;
 mod position;
 mod program;

@@ -13,6 +13,7 @@ use crate::event::{FeedMode, Spindle, Units};
 use crate::machine::WorkOffset;
 use crate::modal::ModeSet;
 use crate::model::{Model, Role};
+use crate::number::{either, stands_for};
 use crate::position::{Axis, Position};
 use crate::step::bar::{Bar, BarCommand};
 use crate::step::compensation::Compensation;
@@ -219,21 +220,20 @@ impl CycleWords {
     }
 
     fn join(&self, other: &Self) -> Self {
-        let pick = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
         let [i, j, k] = self.ijk;
         let [i2, j2, k2] = other.ijk;
         Self {
             may_have: self.may_have.or(other.may_have),
-            r: pick(self.r, other.r),
-            z: pick(self.z, other.z),
-            q: pick(self.q, other.q),
-            p: pick(self.p, other.p),
-            given: [pick(self.given[0], other.given[0]), pick(self.given[1], other.given[1])],
-            last_dwell: pick(self.last_dwell, other.last_dwell),
+            r: either(self.r, other.r),
+            z: either(self.z, other.z),
+            q: either(self.q, other.q),
+            p: either(self.p, other.p),
+            given: [either(self.given[0], other.given[0]), either(self.given[1], other.given[1])],
+            last_dwell: either(self.last_dwell, other.last_dwell),
             feed_override_on: self.feed_override_on && other.feed_override_on,
-            ijk: [pick(i, i2), pick(j, j2), pick(k, k2)],
-            e: pick(self.e, other.e),
-            initial: pick(self.initial, other.initial),
+            ijk: [either(i, i2), either(j, j2), either(k, k2)],
+            e: either(self.e, other.e),
+            initial: either(self.initial, other.initial),
         }
     }
 }
@@ -773,17 +773,23 @@ impl<D: Domain> State<D> {
         self.without_mapped(work, machine, model)
     }
 
+    /// Does the tool's length lie along Z? Under tool centre point control it does so only while no axis is turned; `machine`
+    /// tells where the rotary axes stand.
+    pub(crate) fn tool_is_upright(&self, machine: &Position, model: &Model<'_>) -> bool {
+        let mode = self.mode(Role::Length);
+        !mode.alternatives().iter().any(|code| model.effect(*code) == Effect::ToolCentrePoint)
+            || model.axes.iter().all(|axis| !axis.is_rotary() || machine.raw(*axis) == 0.0)
+    }
+
     /// A position without the coordinates in which modes part the machine's axes from the work's. `machine` tells where the
     /// rotary axes stand.
     fn without_mapped(&self, mut position: Position, machine: &Position, model: &Model<'_>) -> Position {
         let may_be = |role: Role, on: Effect| {
             self.mode(role).alternatives().iter().any(|code| model.effect(*code) == on)
         };
-        let turned = || model.axes.iter().any(|axis| axis.is_rotary() && machine.raw(*axis) != 0.0);
         if may_be(Role::TiltedPlane, Effect::TiltedPlaneOn)
             || may_be(Role::DynamicOffset, Effect::DynamicOffsetOn)
-            // The length lies along the tool, which stands upright only while no axis is turned.
-            || may_be(Role::Length, Effect::ToolCentrePoint) && turned()
+            || !self.tool_is_upright(machine, model)
         {
             position = position.with_xyz([Mm::UNKNOWN; 3]);
         }
@@ -800,7 +806,6 @@ impl<D: Domain> State<D> {
     #[must_use]
     pub(crate) fn join(&self, other: &Self, widen: bool) -> Self {
         let value = |a: &D::Value, b: &D::Value| if widen { D::widen(a, b) } else { D::join(a, b) };
-        let number = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
         let truth = |a: Truth, b: Truth| if a == b { a } else { Truth::Unknown };
         let mut joined = self.clone();
         for (mode, with) in joined.modes.iter_mut().zip(&other.modes) {
@@ -811,7 +816,7 @@ impl<D: Domain> State<D> {
         joined.tables = join_tables(&self.tables, &other.tables);
         joined.work = if self.work == other.work { self.work } else { None };
         joined.in_effect.origin = self.in_effect.origin.join(&other.in_effect.origin);
-        joined.in_effect.rotation = number(self.in_effect.rotation, other.in_effect.rotation);
+        joined.in_effect.rotation = either(self.in_effect.rotation, other.in_effect.rotation);
         joined.shift = self.shift.join(&other.shift);
         if self.shift_on != other.shift_on {
             joined.shift_on = true;
@@ -826,7 +831,7 @@ impl<D: Domain> State<D> {
         joined.feed_word = value(&self.feed_word, &other.feed_word);
         joined.feed_given_under = self.feed_given_under.join(&other.feed_given_under);
         joined.speed = value(&self.speed, &other.speed);
-        joined.speed_limit = number(self.speed_limit, other.speed_limit);
+        joined.speed_limit = either(self.speed_limit, other.speed_limit);
         joined.spindle = if self.spindle == other.spindle { self.spindle } else { None };
         joined.live_tool = truth(self.live_tool, other.live_tool);
         joined.mist = truth(self.mist, other.mist);
@@ -856,7 +861,7 @@ impl<D: Domain> State<D> {
         joined.probe_result = truth(self.probe_result, other.probe_result);
         joined.touched = self.touched.join(other.touched);
         joined.kept_touch = self.kept_touch.join(other.kept_touch);
-        joined.polar = [number(self.polar[0], other.polar[0]), number(self.polar[1], other.polar[1])];
+        joined.polar = [either(self.polar[0], other.polar[0]), either(self.polar[1], other.polar[1])];
         joined.variables = self.variables.join(&other.variables, widen);
         for (frame, with) in joined.frames.iter_mut().zip(&other.frames) {
             frame.join(with, widen);
@@ -878,13 +883,12 @@ impl<D: Domain> State<D> {
 
     /// Is every state that `inner` stands for one that this stands for?
     pub fn contains(&self, inner: &Self) -> bool {
-        let same = |a: f64, b: f64| a.is_nan() || a.to_bits() == b.to_bits();
         let truth = |a: Truth, b: Truth| a == Truth::Unknown || a == b;
         self.modes.iter().zip(&inner.modes).all(|(a, b)| a.contains(b))
             && Axis::ALL.into_iter().all(|axis| {
-                same(self.position.raw(axis), inner.position.raw(axis))
-                    && same(self.actual.raw(axis), inner.actual.raw(axis))
-                    && same(self.length.raw(axis), inner.length.raw(axis))
+                stands_for(self.position.raw(axis), inner.position.raw(axis))
+                    && stands_for(self.actual.raw(axis), inner.actual.raw(axis))
+                    && stands_for(self.length.raw(axis), inner.length.raw(axis))
             })
             && self.tool_shift.contains(&inner.tool_shift)
             && (self.work.is_none() || self.work == inner.work)
@@ -980,8 +984,7 @@ fn join_tables(a: &Rc<Tables>, b: &Rc<Tables>) -> Rc<Tables> {
     let numbers: Vec<u16> = a.offsets.iter().chain(&b.offsets).map(|(n, _)| *n).collect();
     for number in numbers {
         let (left, right) = (a.offset(number), b.offset(number));
-        let rotation =
-            if left.rotation.to_bits() == right.rotation.to_bits() { left.rotation } else { f64::NAN };
+        let rotation = either(left.rotation, right.rotation);
         joined.set_offset(number, WorkOffset { origin: left.origin.join(&right.origin), rotation });
     }
     for (slot, with) in joined.references.iter_mut().zip(&b.references) {

@@ -3,6 +3,8 @@
 //!
 //! Knows: the amounts in effect, how two of them join. Must not know: which codes set them, how a vector comes about.
 
+use crate::number::{either, stands_for};
+
 /// Shifts between the programmed point and the axes. All off by default.
 #[derive(Debug, Clone, Copy)]
 pub struct ToolShift {
@@ -41,31 +43,29 @@ impl ToolShift {
     }
 
     pub(crate) fn join(&self, other: &Self) -> Self {
-        let number = |a: f64, b: f64| if a.to_bits() == b.to_bits() { a } else { f64::NAN };
         let amount = |a: Option<f64>, b: Option<f64>| match (a, b) {
             (None, None) => None,
-            (Some(a), Some(b)) => Some(number(a, b)),
+            (Some(a), Some(b)) => Some(either(a, b)),
             // On or off: a length that nobody knows.
             _ => Some(f64::NAN),
         };
         let mut beside = self.beside;
         for (slot, with) in beside.iter_mut().zip(other.beside) {
-            *slot = number(*slot, with);
+            *slot = either(*slot, with);
         }
         Self { along: amount(self.along, other.along), cutter: amount(self.cutter, other.cutter), beside }
     }
 
     pub(crate) fn contains(&self, inner: &Self) -> bool {
-        let same = |a: f64, b: f64| a.is_nan() || a.to_bits() == b.to_bits();
         let amount = |a: Option<f64>, b: Option<f64>| match (a, b) {
             (None, None) => true,
-            (Some(a), Some(b)) => same(a, b),
+            (Some(a), Some(b)) => stands_for(a, b),
             (Some(a), None) => a.is_nan(),
             (None, Some(_)) => false,
         };
         amount(self.along, inner.along)
             && amount(self.cutter, inner.cutter)
-            && self.beside.into_iter().zip(inner.beside).all(|(a, b)| same(a, b))
+            && self.beside.into_iter().zip(inner.beside).all(|(a, b)| stands_for(a, b))
     }
 }
 

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use gcheck_controls::{BarFeederRules, Effect, Letter};
-use gcheck_engine::{Abstract, BarLengths, Domain, Event, Fact, Role, Units};
+use gcheck_engine::{Abstract, BarLengths, Domain, Event, Fact, Role};
 use gcheck_geometry::Mm;
 
 use crate::{Finding, PathCx, Severity};
@@ -125,15 +125,6 @@ impl<'a> PathCx<'a> {
     /// A variable's number, if it is exactly known.
     pub(crate) fn known_variable(&self, number: u32) -> Option<f64> {
         Abstract::known(&self.state().variables().get(number))
-    }
-
-    /// A length as the program writes lengths: `1.75 in`.
-    pub(crate) fn shown(&self, length: Mm) -> String {
-        let (number, unit) = match self.state().units(self.model) {
-            Some(Units::Inch) => (format!("{:.4}", length.inch()), "in"),
-            _ => (format!("{:.3}", length.0), "mm"),
-        };
-        format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
     }
 }
 

@@ -88,9 +88,16 @@ impl PathCx<'_> {
 
     /// A mode that is on before this block, which itself says nothing of it.
     pub(crate) fn left_on(&self, role: Role, is_on: impl Fn(Effect) -> bool) -> Option<LeftOn> {
-        if self.codes().iter().copied().any(|code| self.model.role(code) == Some(role)) {
-            return None;
-        }
+        if self.code_of_role(role).is_some() { None } else { self.on_before(role, is_on) }
+    }
+
+    /// The code of the block that sets the mode of a role; the last one, as controls take it.
+    pub(crate) fn code_of_role(&self, role: Role) -> Option<CodeIx> {
+        self.codes().iter().copied().rfind(|code| self.model.role(*code) == Some(role))
+    }
+
+    /// A mode that is on before this block, whatever the block says.
+    pub(crate) fn on_before(&self, role: Role, is_on: impl Fn(Effect) -> bool) -> Option<LeftOn> {
         let mode = self.state().mode(role);
         let on = |code: &CodeIx| code.is_some() && is_on(self.model.effect(*code));
         match mode.only() {

@@ -2,7 +2,7 @@
 //!
 //! Knows: which of them a block is executed under, what people call them. Must not know: any rule.
 
-use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Fact, Role};
 use gcheck_program::{BlockFlags, Word};
 
@@ -22,24 +22,18 @@ pub(crate) fn is_along_vectors(effect: Effect) -> bool {
 impl PathCx<'_> {
     /// The code that holds while the block under way moves: its own, or the one in effect.
     pub(crate) fn in_effect(&self, role: Role, is_on: impl Fn(Effect) -> bool) -> Option<LeftOn> {
-        let own = self.codes().iter().copied().rfind(|code| self.model.role(*code) == Some(role));
-        let on = |code: CodeIx| code.is_some() && is_on(self.model.effect(code));
-        if let Some(code) = own {
-            return on(code).then_some(LeftOn::Surely(code));
+        if let Some(code) = self.code_of_role(role) {
+            return is_on(self.model.effect(code)).then_some(LeftOn::Surely(code));
         }
         if role == Role::Length && self.has_word(|word| is_word(word, 'H') && word.number() == Some(0.0)) {
             return None;
         }
-        let mode = self.state().mode(role);
-        match mode.only() {
-            Some(code) => on(code).then_some(LeftOn::Surely(code)),
-            None => mode.alternatives().iter().copied().find(|code| on(*code)).map(LeftOn::Maybe),
-        }
+        self.on_before(role, is_on)
     }
 
     /// Adds where a mode was switched on, unless the block itself did.
     pub(crate) fn resting_on_mode(&self, finding: Finding, role: Role) -> Finding {
-        if self.codes().iter().any(|code| self.model.role(*code) == Some(role)) {
+        if self.code_of_role(role).is_some() {
             return finding;
         }
         match self.code_name(role) {

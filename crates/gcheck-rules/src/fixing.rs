@@ -1,4 +1,4 @@
-//! Fixes applied to a program's bytes.
+//! Fixes applied to a program's bytes, again and again until nothing is left to mend.
 //!
 //! Knows: edits, which of them may stand beside each other. Must not know: rules, files on disk.
 
@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use gcheck_syntax::SourceText;
 
-use crate::{Finding, Fix};
+use crate::{Finding, Fix, Outcome};
 
 /// Which fixes are applied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,18 +25,45 @@ impl FixKinds {
 
 /// A program with fixes in it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Fixed {
-    /// The program.
-    pub bytes: Vec<u8>,
+struct Fixed {
+    bytes: Vec<u8>,
+    /// Findings that were mended.
+    count: usize,
+}
+
+/// Rounds of fixing. A fix that makes another possible needs one more each; fixes that undo each other never end.
+const MOST_ROUNDS: usize = 10;
+
+/// A program that was mended as far as its fixes go.
+#[derive(Debug)]
+pub struct Mended {
+    /// The program; that of before when there was nothing to mend.
+    pub source: SourceText,
+    /// What was found in it last.
+    pub outcome: Outcome,
     /// Findings that were mended.
     pub count: usize,
+}
+
+/// Checks a program, applies its fixes and checks the result, until there are none left.
+pub fn mend(source: SourceText, kinds: FixKinds, check: impl Fn(&SourceText) -> Outcome) -> Mended {
+    let outcome = check(&source);
+    let mut mended = Mended { source, outcome, count: 0 };
+    for _ in 0..MOST_ROUNDS {
+        let Some(fixed) = apply_fixes(&mended.source, &mended.outcome.findings, kinds) else { break };
+        // Fixes that make a program longer than any file may be are not made.
+        let Ok(source) = SourceText::from_bytes(fixed.bytes) else { break };
+        let outcome = check(&source);
+        mended = Mended { source, outcome, count: mended.count + fixed.count };
+    }
+    mended
 }
 
 /// Applies one fix of each finding, where it has one of these kinds; `None` when there is nothing to apply.
 ///
 /// A fix is applied whole or not at all. One that overlaps or touches another waits: what it says may no longer hold behind
-/// the other, so the caller checks the result and comes again.
-pub fn apply_fixes(source: &SourceText, findings: &[Finding], kinds: FixKinds) -> Option<Fixed> {
+/// the other, so the result is checked and fixed again.
+fn apply_fixes(source: &SourceText, findings: &[Finding], kinds: FixKinds) -> Option<Fixed> {
     let mut edits: Vec<(Range<usize>, Vec<u8>)> = Vec::new();
     let mut count = 0;
     for finding in findings {

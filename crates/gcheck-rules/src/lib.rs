@@ -36,7 +36,7 @@ pub use context::{
 };
 pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
-pub use fixing::{FixKinds, Fixed, apply_fixes};
+pub use fixing::{FixKinds, Mended, mend};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};

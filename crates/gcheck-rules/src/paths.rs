@@ -12,8 +12,9 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{
     Abstract, Assumption, At, Ending, Event, Fact, Fault, FlowCx, FlowObserver, FlowResult, FrameKind,
-    Library, Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind,
+    Library, Model, Origin, Program, Role, SourceFile, State, Trace, TravelKind, Units,
 };
+use gcheck_geometry::Mm;
 use gcheck_program::{BlockTable, ExprIx, Place, Survey, Word};
 
 use rustc_hash::FxHashMap;
@@ -258,6 +259,16 @@ impl<'a> PathCx<'a> {
     pub fn code_name(&self, role: Role) -> Option<String> {
         let code = self.state().mode(role).only()?;
         self.scene.control().code_at(code).map(|code| code.number().to_string())
+    }
+
+    /// A length as the program counts, rounded to what controls resolve: `1.75 in`.
+    pub fn shown(&self, length: Mm) -> String {
+        let (value, digits, unit) = match self.state().units(self.model) {
+            Some(Units::Inch) => (length.inch(), 4, "in"),
+            _ => (length.0, 3, "mm"),
+        };
+        let text = format!("{value:.digits$}");
+        format!("{} {unit}", text.trim_end_matches('0').trim_end_matches('.'))
     }
 
     /// A finding at bytes of this block, with the calls that led here.

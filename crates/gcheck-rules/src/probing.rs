@@ -40,8 +40,7 @@ impl PathCx<'_> {
 
     /// The mode of a role while the block moves: modes act before the move, wherever they stand in the block.
     pub(crate) fn mode_in_block(&self, role: Role) -> ModeInBlock {
-        let written = self.codes().iter().copied().rfind(|code| self.model.role(*code) == Some(role));
-        if let Some(code) = written {
+        if let Some(code) = self.code_of_role(role) {
             return ModeInBlock::Written(code);
         }
         let mode = self.state().mode(role);

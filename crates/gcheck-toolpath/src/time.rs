@@ -1,7 +1,7 @@
 //! How long movements take.
 //!
-//! Knows: feeds in their modes and their override, rapid rates, leads, surface speed, dwells, tool changes. Must not know: acceleration, which no
-//! program tells: real times are longer.
+//! Knows: feeds in their modes and their override, rapid rates, leads, surface speed, dwells, tool changes. Must not know:
+//! acceleration, which no program tells: real times are longer.
 
 use std::f64::consts::PI;
 

@@ -147,8 +147,8 @@ fn write_mended(
 ) -> Vec<FileReport> {
     let mut reports = Vec::with_capacity(checked.len());
     for (target, checked) in targets.iter().zip(checked) {
-        let written = checked.and_then(|Checked { report, mended }| match mended {
-            Some(mended) => mending::write(&target.path, &mended).map(|()| report),
+        let written = checked.and_then(|Checked { report, change }| match change {
+            Some(change) => mending::write(&target.path, &change).map(|()| report),
             None => Ok(report),
         });
         match written {
@@ -168,10 +168,10 @@ fn show_differences(
     let (mut findings, mut files, mut text) = (0, 0, String::new());
     for checked in checked {
         match checked {
-            Ok(Checked { report, mended: Some(mended) }) => {
+            Ok(Checked { report, change: Some(change) }) => {
                 findings += report.fixed;
                 files += 1;
-                text.push_str(&mending::difference(&report.path, &mended));
+                text.push_str(&mending::difference(&report.path, &change));
             }
             Ok(_) => {}
             Err(problem) => problems.push(problem),

@@ -22,7 +22,7 @@ pub use layer::{ExecutionFacts, Layer};
 pub use pattern::PathPattern;
 pub use placed::Placed;
 pub use settings::{FileSettings, RuleWishes};
-pub(crate) use validate::{unknown_rule, validate_control};
+pub(crate) use validate::{rotary_axis, unknown_rule, validate_control};
 
 use crate::{Problem, paths};
 

@@ -64,16 +64,13 @@ pub(crate) fn to_file(
             .and_then(|mut out| write(&mut out))
             .map_err(|e| problem(&e));
     }
-    let temporary = beside(&target);
-    let written = File::create(&temporary).and_then(|mut file| {
-        write(&mut file)?;
-        file.sync_all()
-    });
-    written.and_then(|()| fs::rename(&temporary, &target)).map_err(|error| {
-        // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
-        let _ = fs::remove_file(&temporary);
-        problem(&error)
+    rename_over(&target, |file| {
+        write(file)?;
+        file.sync_all()?;
+        Ok(true)
     })
+    .map(|_| ())
+    .map_err(|error| problem(&error))
 }
 
 /// Replaces a file whole or not at all, with the permissions that it had, and only if it still holds what `is_same` wants.
@@ -87,23 +84,31 @@ pub(crate) fn replace(
 ) -> Result<(), Problem> {
     let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
     let target = fs::canonicalize(path).map_err(|error| problem(&error))?;
-    let temporary = beside(&target);
-    let written = File::create(&temporary).and_then(|mut file| {
+    let is_replaced = rename_over(&target, |file| {
         file.write_all(bytes)?;
         file.set_permissions(permissions.clone())?;
         file.sync_all()?;
         // As late as can be: between this look and the new name there is room for hardly anybody.
         Ok(is_same(&fs::read(&target)?))
-    });
-    let done = match written {
-        Ok(true) => fs::rename(&temporary, &target).map_err(|error| problem(&error)),
-        Ok(false) => {
-            Err(Problem::with_file(path, "was changed by somebody else meanwhile, and is left alone")
-                .help("run gcheck again"))
+    })
+    .map_err(|error| problem(&error))?;
+    if is_replaced {
+        return Ok(());
+    }
+    Err(Problem::with_file(path, "was changed by somebody else meanwhile, and is left alone")
+        .help("run gcheck again"))
+}
+
+/// Fills a temporary file, which then takes the target's name if `fill` says so; tells whether it did.
+fn rename_over(target: &Path, fill: impl FnOnce(&mut File) -> io::Result<bool>) -> io::Result<bool> {
+    let temporary = beside(target);
+    let done = File::create(&temporary).and_then(|mut file| fill(&mut file)).and_then(|wanted| {
+        if wanted {
+            fs::rename(&temporary, target)?;
         }
-        Err(error) => Err(problem(&error)),
-    };
-    if done.is_err() {
+        Ok(wanted)
+    });
+    if !matches!(done, Ok(true)) {
         // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
         let _ = fs::remove_file(&temporary);
     }

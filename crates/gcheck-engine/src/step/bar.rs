@@ -16,6 +16,7 @@ use crate::event::{BarLengths, Event, Spindle, Units};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
+use crate::number::{either, stands_for};
 use crate::observer::{Observer, Origin};
 use crate::position::Axis;
 use crate::state::{At, State};
@@ -94,9 +95,8 @@ impl Bar {
 
     /// Is what `inner` stands for something that this stands for?
     pub(crate) fn contains(&self, inner: &Self) -> bool {
-        let same = |a: f64, b: f64| a.is_nan() || a.to_bits() == b.to_bits();
-        (self.length.is_nan() || same(self.length, inner.length) && self.is_whole == inner.is_whole)
-            && same(self.waiting, inner.waiting)
+        (self.length.is_nan() || stands_for(self.length, inner.length) && self.is_whole == inner.is_whole)
+            && stands_for(self.waiting, inner.waiting)
             && (self.clamped == Truth::Unknown || self.clamped == inner.clamped)
     }
 }
@@ -132,10 +132,6 @@ impl PartialEq for BarCommand {
     fn eq(&self, other: &Self) -> bool {
         self.bits() == other.bits()
     }
-}
-
-fn either(a: f64, b: f64) -> f64 {
-    if a.to_bits() == b.to_bits() { a } else { f64::NAN }
 }
 
 /// A run begins with its first bar: the counters of the feeder start with it, unless they were told.

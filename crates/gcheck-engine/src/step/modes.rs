@@ -32,7 +32,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if code.role == Some(Role::Motion) && !code.modal {
             return self.motion_of_block(code.effect, state);
         }
-        let followed = code.role != Some(Role::Length) || self.tool_is_upright(state);
+        let is_upright = |state: &State<D>| state.tool_is_upright(&state.machine(self.model), self.model);
+        let followed = code.role != Some(Role::Length) || is_upright(state);
         if let Some(role) = code.role {
             self.guard_frozen(role, ix, state)?;
             // Whether a cylinder's code switches anything depends on its words.
@@ -41,20 +42,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         self.effect(code.effect, ix, place, words, state)?;
-        if code.role == Some(Role::Length) && !(followed && self.tool_is_upright(state)) {
+        if code.role == Some(Role::Length) && !(followed && is_upright(state)) {
             // The tip moved against the axes by the length along a turned tool.
             state.actual = state.actual.with_xyz([Mm::UNKNOWN; 3]);
             state.position = state.position.with_xyz([Mm::UNKNOWN; 3]);
         }
         Ok(())
-    }
-
-    /// Does the tool's length lie along Z? Under tool centre point control it does so only while no axis is turned.
-    fn tool_is_upright(&self, state: &State<D>) -> bool {
-        let machine = state.machine(self.model);
-        let mode = state.mode(Role::Length);
-        !mode.alternatives().iter().any(|code| self.model.effect(*code) == Effect::ToolCentrePoint)
-            || self.model.axes.iter().all(|axis| !axis.is_rotary() || machine.raw(*axis) == 0.0)
     }
 
     /// Planes, units, offsets and tools must not change under cutter compensation on some controls.

@@ -11,7 +11,7 @@ use gcheck_controls::{Control, UserCode};
 use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_rules::{Execution, FixKinds, Fixed, Job, Scene, Selection, apply_fixes, check, describe_all};
+use gcheck_rules::{Execution, FixKinds, Job, Mended, Scene, Selection, check, describe_all, mend};
 use gcheck_syntax::SourceText;
 
 use super::read;
@@ -104,17 +104,14 @@ pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Pr
 pub(super) struct Checked {
     pub(super) report: FileReport,
     /// The program before and after its fixes, if there were any.
-    pub(super) mended: Option<Mended>,
+    pub(super) change: Option<Change>,
 }
 
 /// A program before and after its fixes.
-pub(super) struct Mended {
+pub(super) struct Change {
     pub(super) before: Vec<u8>,
     pub(super) after: Vec<u8>,
 }
-
-/// Rounds of fixing. A fix that makes another possible needs one more each; fixes that undo each other never end.
-const MOST_ROUNDS: usize = 10;
 
 /// Checks a file; a panic is contained, so that the other files are still checked.
 pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
@@ -123,7 +120,7 @@ pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Pro
 }
 
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
-    let Prepared { mut source, mut settings, choice, selection } = prepare(bench, target)?;
+    let Prepared { source, mut settings, choice, selection } = prepare(bench, target)?;
     let control = bench.control_of(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
@@ -147,22 +144,19 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
             execution: bench.execution,
         })
     };
-    let mut outcome = run(&source);
-    let mut mended = None;
-    let mut fixed = 0;
-    if let Some(kinds) = bench.fixes {
-        let before = source.to_bytes();
-        for _ in 0..MOST_ROUNDS {
-            let Some(Fixed { bytes, count }) = apply_fixes(&source, &outcome.findings, kinds) else { break };
-            // Fixes that make a program longer than any file may be are not made.
-            let Ok(longer) = SourceText::from_bytes(bytes) else { break };
-            source = longer;
-            fixed += count;
-            outcome = run(&source);
+    let (Mended { source, outcome, count: fixed }, change) = match bench.fixes {
+        None => {
+            let outcome = run(&source);
+            (Mended { source, outcome, count: 0 }, None)
         }
-        let after = source.to_bytes();
-        mended = (after != before).then_some(Mended { before, after });
-    }
+        Some(kinds) => {
+            let before = source.to_bytes();
+            let mended = mend(source, kinds, run);
+            let after = mended.source.to_bytes();
+            let change = (after != before).then_some(Change { before, after });
+            (mended, change)
+        }
+    };
     // A program without findings is never shown: let go of its text before the last file is read.
     let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
     let report = FileReport {
@@ -178,5 +172,5 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         out_of_fuel: outcome.out_of_fuel,
         assumptions: describe_all(&outcome.ledger, &model),
     };
-    Ok(Checked { report, mended })
+    Ok(Checked { report, change })
 }

@@ -52,7 +52,9 @@ impl KnownFindings {
             stale.extend(self.baseline.apply(&name, report));
             checked.insert(name);
         }
-        for file in self.baseline.files().filter(|file| !checked.contains(*file) && self.is_gone(file)) {
+        for file in
+            self.baseline.files().filter(|file| !checked.contains(*file) && is_gone(&self.folder, file))
+        {
             stale.extend(self.baseline.entries_of(file));
         }
         (!stale.is_empty()).then(|| self.words(&stale))
@@ -65,7 +67,7 @@ impl KnownFindings {
             self.baseline.record(&name, report);
         }
         let folder = &self.folder;
-        self.baseline.forget(|file| !folder.join(file).exists());
+        self.baseline.forget(|file| is_gone(folder, file));
         let text = self.baseline.to_text();
         output::to_file(&self.path, |out| out.write_all(text.as_bytes()))?;
         let known = self.baseline.len();
@@ -77,10 +79,6 @@ impl KnownFindings {
     fn name_of(&self, shown: &str) -> String {
         let path = paths::absolute(Path::new(shown));
         paths::shown(path.strip_prefix(&self.folder).unwrap_or(&path))
-    }
-
-    fn is_gone(&self, file: &str) -> bool {
-        !self.folder.join(file).exists()
     }
 
     fn words(&self, stale: &[StaleEntry]) -> String {
@@ -98,6 +96,10 @@ impl KnownFindings {
             named.join(", ")
         )
     }
+}
+
+fn is_gone(folder: &Path, file: &str) -> bool {
+    !folder.join(file).exists()
 }
 
 fn parse(path: &Path, text: &str) -> Result<Baseline, Problem> {

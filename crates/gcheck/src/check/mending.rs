@@ -7,24 +7,24 @@ use std::path::Path;
 
 use similar::TextDiff;
 
-use super::job::Mended;
+use super::job::Change;
 use crate::problem::io_reason;
 use crate::{Problem, output};
 
 /// Replaces a program on disk by its mended form: whole or not at all, and only if it is still what was checked.
-pub(super) fn write(path: &Path, mended: &Mended) -> Result<(), Problem> {
+pub(super) fn write(path: &Path, change: &Change) -> Result<(), Problem> {
     let problem =
         |error: &std::io::Error| Problem::with_file(path, format!("cannot mend: {}", io_reason(error)));
     let permissions = fs::metadata(path).map_err(|error| problem(&error))?.permissions();
     if permissions.readonly() {
         return Err(Problem::with_file(path, "cannot mend: the file is read-only"));
     }
-    output::replace(path, &permissions, &mended.after, |now| now == mended.before)
+    output::replace(path, &permissions, &change.after, |now| now == change.before)
 }
 
 /// The change as a unified difference. Bytes that are no UTF-8 are shown as such.
-pub(super) fn difference(shown: &str, mended: &Mended) -> String {
-    let (before, after) = (String::from_utf8_lossy(&mended.before), String::from_utf8_lossy(&mended.after));
+pub(super) fn difference(shown: &str, change: &Change) -> String {
+    let (before, after) = (String::from_utf8_lossy(&change.before), String::from_utf8_lossy(&change.after));
     TextDiff::from_lines(&*before, &*after)
         .unified_diff()
         .context_radius(3)

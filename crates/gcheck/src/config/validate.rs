@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Control, Letter, UserCode};
+use gcheck_geometry::RotaryAxis;
 use gcheck_rules::Selection;
 
 use super::Placed;
@@ -17,8 +18,15 @@ use crate::nearest::did_you_mean;
 /// Axis addresses of RS-274, which bound what a machine can have when its control is not known.
 const AXES: &str = "XYZABCUVW";
 
-/// Those that turn.
-const ROTARY_AXES: [&str; 3] = ["A", "B", "C"];
+/// The rotary axis of a name.
+pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
+    match name.to_ascii_uppercase().as_str() {
+        "A" => Some(RotaryAxis::A),
+        "B" => Some(RotaryAxis::B),
+        "C" => Some(RotaryAxis::C),
+        _ => None,
+    }
+}
 
 /// Values that stand for a kind of value in the list of a setting's values.
 const KINDS_OF_VALUES: [&str; 3] = ["length", "number", "on/off"];
@@ -51,13 +59,11 @@ impl<'t> Checked<'t> {
             }
         }
         if let Some(order) = &table.rotary_order {
-            let turns =
-                |name: &&Placed<String>| ROTARY_AXES.contains(&name.value.to_ascii_uppercase().as_str());
-            if let Some(name) = order.iter().find(|name| !turns(name)) {
+            let axes: Vec<Option<RotaryAxis>> = order.iter().map(|name| rotary_axis(&name.value)).collect();
+            if let Some((name, _)) = order.iter().zip(&axes).find(|(_, axis)| axis.is_none()) {
                 return Err(self.text.problem(name, format!("`{}` is no rotary axis", name.value)));
             }
-            let names: Vec<String> = order.iter().map(|name| name.value.to_ascii_uppercase()).collect();
-            if !matches!(names.as_slice(), [first, second] if first != second)
+            if !matches!(axes.as_slice(), [first, second] if first != second)
                 && let Some(name) = order.last()
             {
                 return Err(self.text.problem(name, "rotary_order names two different axes"));

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use gcheck_engine::Units;
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
-use crate::config::{MachineTable, Rotary};
+use crate::config::{MachineTable, Placed, Rotary, rotary_axis};
 
 /// What the layers of a configuration say, each over the one before.
 #[derive(Debug, Default)]
@@ -24,7 +24,7 @@ pub(super) struct RotaryAxes {
 impl RotaryAxes {
     /// Puts a layer over the others; `units` are those of its lengths.
     pub(super) fn put(&mut self, table: &MachineTable, units: Units) {
-        let axes = |names: &[crate::config::Placed<String>]| -> Vec<RotaryAxis> {
+        let axes = |names: &[Placed<String>]| -> Vec<RotaryAxis> {
             names.iter().filter_map(|name| rotary_axis(&name.value)).collect()
         };
         if let Some(names) = &table.axes {
@@ -67,14 +67,5 @@ impl RotaryAxes {
             sign: order.map(|axis| self.sign.get(&axis.index()).copied().unwrap_or(1.0)),
             pivot_length: self.pivot_length,
         })
-    }
-}
-
-pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
-    match name.to_ascii_uppercase().as_str() {
-        "A" => Some(RotaryAxis::A),
-        "B" => Some(RotaryAxis::B),
-        "C" => Some(RotaryAxis::C),
-        _ => None,
     }
 }

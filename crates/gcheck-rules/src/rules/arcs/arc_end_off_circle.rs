@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, Letter, Unpointed};
 use gcheck_engine::{ArcFault, Event, Fact, Fault, Position, Role, Units};
+use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
 use crate::meta::declare_rule;
@@ -77,8 +78,8 @@ impl PathRule for ArcEndOffCircle {
         if is_absolute && std::mem::replace(&mut self.absolute, true) {
             return;
         }
-        let (from, to) = (length(cx, start), length(cx, end));
-        let difference = length(cx, (end - start).abs());
+        let (from, to) = (cx.shown(Mm(start)), cx.shown(Mm(end)));
+        let difference = cx.shown(Mm((end - start).abs()));
         let is_centre = |word: &Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K');
         let mut finding = cx
             .finding(&META, cx.word_range(is_centre), format!("arc ends {difference} off its circle"))
@@ -131,17 +132,6 @@ pub(crate) fn counts_least_increments(cx: &PathCx<'_>) -> bool {
         let place = cx.place_of(gcheck_engine::At { block, ..at });
         place.is_some_and(|place| place.table.words(place.block()).iter().any(is_unpointed))
     })
-}
-
-/// A length as the program counts, rounded to what controls resolve.
-pub(crate) fn length(cx: &PathCx<'_>, mm: f64) -> String {
-    let (value, digits, unit) = match cx.state().units(cx.model) {
-        Some(Units::Inch) => (mm / 25.4, 4, "in"),
-        _ => (mm, 3, "mm"),
-    };
-    let text = format!("{value:.digits$}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    format!("{text} {unit}")
 }
 
 /// The finding no more severe than what an arc's geometry rests on: the control's tolerance, and modes that nobody set.

@@ -1,8 +1,9 @@
 //! An arc whose radius does not reach its end.
 
 use gcheck_engine::{ArcFault, Fault};
+use gcheck_geometry::Mm;
 
-use super::arc_end_off_circle::{counts_least_increments, judged, length};
+use super::arc_end_off_circle::{counts_least_increments, judged};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -44,8 +45,12 @@ impl PathRule for ArcRadiusTooSmall {
         }
         let finding = cx
             .finding(&META, cx.letter_range('R'), "arc radius (`R`) does not reach the end point")
-            .label(format!("{}, and the end is {} away", length(cx, radius), length(cx, 2.0 * half_chord)))
-            .note(format!("an arc to this end needs a radius of {} or more", length(cx, half_chord)))
+            .label(format!(
+                "{}, and the end is {} away",
+                cx.shown(Mm(radius)),
+                cx.shown(Mm(2.0 * half_chord))
+            ))
+            .note(format!("an arc to this end needs a radius of {} or more", cx.shown(Mm(half_chord))))
             .help("check the radius, the end point, and where the block before ends");
         report.add(judged(cx, finding));
     }

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
+use gcheck_geometry::Mm;
 
-use super::super::arcs::arc_end_off_circle::length;
 use super::cycle_words_lost::{cycle_range, is_cycle};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
@@ -97,7 +97,7 @@ fn finding(cx: &PathCx<'_>) -> Finding {
         )
         .help("check the signs of `R` and `Z`");
     if above.is_finite() {
-        finding.label(format!("the bottom is {} above the retract plane", length(cx, above)))
+        finding.label(format!("the bottom is {} above the retract plane", cx.shown(Mm(above))))
     } else {
         finding.label("the bottom is above the retract plane")
     }

@@ -138,7 +138,7 @@ pub(super) fn clashes(cx: &PathCx<'_>) -> Vec<Clash> {
 
 /// Motion, cycle and compensation that stay active in the block.
 fn still_active(cx: &PathCx<'_>, of: Role) -> Vec<(CodeIx, bool)> {
-    let chosen = |role: Role| cx.codes().iter().any(|code| cx.model.role(*code) == Some(role));
+    let chosen = |role: Role| cx.code_of_role(role).is_some();
     let mut active = Vec::new();
     for role in [Role::Motion, Role::Cycle, Role::Compensation] {
         // A motion ends a cycle.

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use gcheck_engine::{Abstract, Axis, Domain, Event, Position, Travel, TravelKind};
+use gcheck_geometry::Mm;
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -139,7 +140,7 @@ impl RapidInMaterial {
             if !inside || cuts.reach(rapid.before, at, rapid.z, rapid.clear.radius) {
                 return true;
             }
-            let depth = super::super::arcs::arc_end_off_circle::length(cx, -rapid.z);
+            let depth = cx.shown(Mm(-rapid.z));
             let mut finding = cx
                 .finding(&META, rapid.bytes.clone(), "rapid move through what is cut only later")
                 .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))

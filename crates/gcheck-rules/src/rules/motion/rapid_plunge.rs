@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use gcheck_engine::{Event, Travel, TravelKind};
+use gcheck_geometry::Mm;
 
 use super::rapid_in_material::{Clear, Cuts, point};
 use crate::meta::declare_rule;
@@ -109,7 +110,7 @@ fn feeds_on_down(travel: &Travel, [x, y, z]: [f64; 3]) -> bool {
 }
 
 fn tell(cx: &PathCx<'_>, plunge: &Plunge, report: &mut Report<'_>) {
-    let depth = super::super::arcs::arc_end_off_circle::length(cx, -plunge.to[2]);
+    let depth = cx.shown(Mm(-plunge.to[2]));
     let mut finding = cx
         .finding(&META, plunge.bytes.clone(), "rapid move down into the part")
         .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))

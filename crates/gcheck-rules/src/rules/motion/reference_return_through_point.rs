@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Travel};
+use gcheck_geometry::Mm;
 
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -135,7 +136,7 @@ fn across(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     if !cx.origin().letters.intersects(LetterSet::of("XY")) || stays(Axis::X) && stays(Axis::Y) {
         return None;
     }
-    let depth = super::super::arcs::arc_end_off_circle::length(cx, -depth);
+    let depth = cx.shown(Mm(-depth));
     Some(
         cx.finding(&META, cx.effect_range(returns), "reference return crosses the part at depth")
             .label(format!("the tool is {depth} below the zero of the part, and goes to this point at rapid"))
