@@ -1,0 +1,3 @@
+//! Formatting and renumbering, as edits of the text.
+//!
+//! Knows: how a program is written. Must not know: motion, files, terminals.
