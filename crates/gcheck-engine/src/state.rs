@@ -802,6 +802,12 @@ impl<D: Domain> State<D> {
         position
     }
 
+    /// What holds in this state or in the other.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        self.join(other, false)
+    }
+
     /// Either state.
     #[must_use]
     pub(crate) fn join(&self, other: &Self, widen: bool) -> Self {
