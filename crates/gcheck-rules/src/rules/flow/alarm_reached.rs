@@ -88,8 +88,7 @@ impl PathRule for AlarmReached {
 /// The comment of the block: what the control shows with the alarm.
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
-    let range = cx.range();
-    let block = file.loaded.text().get(range.start as usize..range.end as usize)?;
+    let block = file.loaded.slice(cx.range());
     let (_, behind) = block.split_once('(')?;
     let (text, _) = behind.split_once(')')?;
     let text = text.trim();
