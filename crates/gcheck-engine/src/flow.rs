@@ -150,11 +150,11 @@ impl FlowResult {
     }
 
     /// Takes in what a leg did but for what it reached.
-    pub fn add(&mut self, leg: &Leg) {
-        self.out_of_fuel |= leg.out_of_fuel;
-        self.blocks += leg.blocks;
-        if !self.assumptions.is_superset(&leg.assumptions) {
-            self.assumptions.extend(leg.assumptions.iter().cloned());
+    pub fn add_leg(&mut self, blocks: u64, out_of_fuel: bool, assumptions: &BTreeSet<Assumption>) {
+        self.blocks += blocks;
+        self.out_of_fuel |= out_of_fuel;
+        if !self.assumptions.is_superset(assumptions) {
+            self.assumptions.extend(assumptions.iter().cloned());
         }
     }
 

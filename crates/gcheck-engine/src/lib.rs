@@ -39,7 +39,7 @@ pub use modal::ModeSet;
 pub use model::{Model, Role};
 pub use observer::{Nobody, Observer, Origin};
 pub use position::{Axis, Position};
-pub use program::{Library, NoLibrary, Program, ProgramFile, SourceFile};
+pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
 pub use run::{RunResult, Stopped, run};
 pub use state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 pub use step::bar::Bar;
