@@ -7,6 +7,8 @@ mod chunk;
 mod kept;
 mod layout;
 mod paths;
+#[cfg(test)]
+mod tests;
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -190,9 +192,7 @@ impl Incremental {
             lines += facts.lines;
             directives.extend(facts.directives.iter().map(|range| range.start + base..range.end + base));
         })?;
-        directives.retain(|range: &Range<u32>| {
-            range.start < whole.starts.get(whole.chunks).copied().unwrap_or(0)
-        });
+        directives.retain(|range: &Range<u32>| range.start < whole.region_end);
         let mut collector = Collector::new(edited.scene.control());
         for (chunk, base) in (0..whole.chunks).zip(&whole.starts) {
             let end = whole.end_in(chunk);
@@ -300,6 +300,7 @@ impl Incremental {
         if old.is_empty() && new.is_empty() {
             return true;
         }
+        let (old, new) = self.widened(old, new);
         let before = self.layout.text_of(old.clone());
         let now: String = texts.get(new.clone()).unwrap_or_default().iter().map(AsRef::as_ref).collect();
         let is_cut = new.clone().any(|chunk| whole.end_in(chunk) != u32::MAX);
@@ -308,6 +309,21 @@ impl Incremental {
         self.paths.note_flags(flags.iter().fold(BlockFlags::empty(), |all, flags| all | *flags));
         self.layout.replace(old, shapes(texts, whole, new), left);
         true
+    }
+
+    /// The changed chunks with as many beside them as it takes to begin with one whose blocks were read: who came through the
+    /// place where something was put in read that.
+    fn widened(&self, mut old: Range<usize>, mut new: Range<usize>) -> (Range<usize>, Range<usize>) {
+        let is_read = |chunk: usize| !self.layout.has_blocks(chunk, 0);
+        while old.start > 0 && (old.is_empty() || !is_read(old.start)) {
+            old.start -= 1;
+            new.start -= 1;
+        }
+        while old.end < self.layout.len() && !old.clone().any(is_read) {
+            old.end += 1;
+            new.end += 1;
+        }
+        (old, new)
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
