@@ -11,7 +11,7 @@ fn main() {
 }
 
 fn measure(lines: usize) {
-    let text = gcheck_testkit::surfacing(lines);
+    let text = gcheck_testkit::inputs::surfacing(lines);
     let control = gcheck_controls::load("haas-mill").unwrap();
     let mut database = Database::new();
     let start = Instant::now();
