@@ -4,6 +4,8 @@
 //! their weights are data. The scan is lexical and reads only the head of a file, so that it can run before a control is
 //! chosen.
 
+use std::rc::Rc;
+
 use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet};
 use gcheck_syntax::SourceText;
 
@@ -12,7 +14,7 @@ use crate::ProgramText;
 /// Lines whose comments count: people name the machine at the top.
 const COMMENT_LINES: usize = 300;
 /// Bytes whose codes and forms count: a program uses early what it uses at all.
-const SCANNED_BYTES: usize = 256 << 10;
+pub(crate) const SCANNED_BYTES: usize = 256 << 10;
 
 /// Collects the evidence of a program for [`gcheck_controls::guess`].
 pub fn collect_evidence(source: &SourceText) -> Evidence {
@@ -20,8 +22,8 @@ pub fn collect_evidence(source: &SourceText) -> Evidence {
 }
 
 /// As [`collect_evidence`], from a text that may come in chunks.
-pub(crate) fn evidence_of(text: &ProgramText<'_>) -> Evidence {
-    collect_from(&text.head(SCANNED_BYTES as u32))
+pub(crate) fn evidence_of(text: &ProgramText<'_>) -> Rc<Evidence> {
+    Rc::clone(text.evidence(|text| collect_from(&text.head(SCANNED_BYTES as u32))))
 }
 
 fn collect_from(text: &str) -> Evidence {

@@ -150,8 +150,10 @@ impl Layout {
         let size = |chunks: &[ChunkShape]| chunks.iter().map(|chunk| chunk.text.len() as u32).sum::<u32>();
         // Of what was rewritten, as many blocks as were there before keep their names: who remembers one of them compares what
         // it says elsewhere.
-        let blocks = renamed(&blocks, count(&new), left.blocks_before, left.blocks_behind, true, &mut self.next_block);
-        let bytes = renamed(&bytes, size(&new), left.bytes_before, left.bytes_behind, false, &mut self.next_byte);
+        let blocks =
+            renamed(&blocks, count(&new), left.blocks_before, left.blocks_behind, true, &mut self.next_block);
+        let bytes =
+            renamed(&bytes, size(&new), left.bytes_before, left.bytes_behind, false, &mut self.next_byte);
         let (mut block, mut byte) = (0, 0);
         let mut chunks = Vec::with_capacity(new.len());
         for shape in new {
@@ -382,7 +384,9 @@ mod tests {
     fn chunks_that_are_cut_anew_keep_their_names() {
         let mut layout = layout(&["A\nB\n", "C\nD\n"]);
         let mut names: Vec<At> = (0..4).map(|block| At { file: 0, block }).collect();
-        names.iter_mut().for_each(|at| layout.name(at));
+        for at in &mut names {
+            layout.name(at);
+        }
         let left = Left { bytes_before: 8, bytes_behind: 0, blocks_before: 4, blocks_behind: 0 };
         layout.replace(0..2, vec![shape("A\n"), shape("B\nC\nD\n")], left);
         assert!(names.iter_mut().all(|at| layout.number_again(at)));

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use gcheck_program::Dialect;
@@ -55,7 +56,7 @@ fn cut(text: &str, lines: usize) -> Vec<Arc<str>> {
         chunk.push_str(line);
         rest = behind;
         let sum: usize = line.bytes().map(usize::from).sum();
-        if sum % lines == 0 {
+        if sum.is_multiple_of(lines) {
             chunks.push(Arc::from(std::mem::take(&mut chunk)));
         }
     }
@@ -67,7 +68,8 @@ fn cut(text: &str, lines: usize) -> Vec<Arc<str>> {
 
 fn shown(outcome: &Outcome) -> String {
     let line = |finding: &Finding| {
-        let Finding { rule, severity, certainty, message, range, label, labels, notes, help, alarm, .. } = finding;
+        let Finding { rule, severity, certainty, message, range, label, labels, notes, help, alarm, .. } =
+            finding;
         let place = format!("{} {severity} {} {range:?} {message} | {label}", rule.id, certainty.name());
         let Finding { assumptions, fixes, .. } = finding;
         format!("{place} | {labels:?} {notes:?} {help:?} {alarm:?} {assumptions:?} {fixes:?}")
@@ -93,7 +95,7 @@ struct Bench<'a> {
     execution: Execution,
 }
 
-impl<'a> Bench<'a> {
+impl Bench<'_> {
     fn check(&mut self, text: &str, lines: usize) -> (Outcome, Work) {
         let chunks = cut(text, lines);
         let source = Fresh { chunks: &chunks, scene: self.scene, selection: self.selection };
@@ -153,10 +155,14 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
             lines.insert(at, other);
         }
         3 if !lines.is_empty() => {
-            let words = ["G01 ", "G0 ", "G91 ", "G90 ", "X1. ", "Z-1. ", "F100. ", "(A) ", "M3 S500 ", "T1 M6 ", "G41 D1 "];
+            let words = [
+                "G01 ", "G0 ", "G91 ", "G90 ", "X1. ", "Z-1. ", "F100. ", "(A) ", "M3 S500 ", "T1 M6 ",
+                "G41 D1 ",
+            ];
             let word = words[dice.roll(words.len())];
             let line = &mut lines[at];
-            let places: Vec<usize> = (0..=line.trim_end().len()).filter(|i| line.is_char_boundary(*i)).collect();
+            let places: Vec<usize> =
+                (0..=line.trim_end().len()).filter(|i| line.is_char_boundary(*i)).collect();
             let place = places[dice.roll(places.len())];
             line.insert_str(place, word);
             told = format!("put {word:?} in line {at} at {place}");
@@ -169,10 +175,11 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
         5 | 6 if !lines.is_empty() => {
             // A digit becomes another.
             let line = &mut lines[at];
-            let digits: Vec<usize> = line.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
+            let digits: Vec<usize> =
+                line.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
             if let Some(place) = digits.get(dice.roll(digits.len())) {
                 let digit = dice.roll(10).to_string();
-                line.replace_range(*place..place + 1, &digit);
+                line.replace_range(*place..=*place, &digit);
             }
             told = format!("another digit in line {at}");
         }
@@ -247,7 +254,8 @@ fn edited_examples_of_every_rule_are_checked_as_fresh_ones() {
             // Longer programs keep more: three examples one behind the other.
             let mut start = example.code.clone();
             if seed % 3 == 0 {
-                start = format!("{}{}{start}", others[seed * 7 % others.len()], others[seed * 13 % others.len()]);
+                start =
+                    format!("{}{}{start}", others[seed * 7 % others.len()], others[seed * 13 % others.len()]);
             }
             let done = soak(seed as u64, &example.control, &world, &start, &others, 8);
             work.kept += done.kept;
@@ -275,9 +283,9 @@ fn every_rule_says_what_it_remembers() {
 fn long_program(tools: usize) -> String {
     let mut text = "%\nO1\nG90 G54 G17 G40 G49 G80\n".to_owned();
     for tool in 1..=tools {
-        text += &format!("T{tool} M6\nG43 H{tool} Z50.\nM3 S1000\nG0 X0. Y0.\nG1 Z-1. F100.\n");
+        let _ = write!(text, "T{tool} M6\nG43 H{tool} Z50.\nM3 S1000\nG0 X0. Y0.\nG1 Z-1. F100.\n");
         for step in 0..90 {
-            text += &format!("X{step}.5 Y{}.25\n", step % 7);
+            let _ = writeln!(text, "X{step}.5 Y{}.25", step % 7);
         }
         text += "G0 Z50.\nM5\n";
     }
