@@ -240,12 +240,16 @@ impl Cuts {
             || !cx.is_on_every_path()
         {
             // Cuts of another frame, in another file, or on another path: where they were is not known here.
-            self.blind = true;
-            self.list = SharedList::default();
+            self.give_up();
             return false;
         }
         self.frame = frame;
         true
+    }
+
+    /// From here on nothing is said: what was known is of no use, and would tell one edit of the program from another.
+    fn give_up(&mut self) {
+        *self = Self { blind: true, ..Self::default() };
     }
 
     /// Keeps what a move cuts.
@@ -268,8 +272,7 @@ impl Cuts {
         };
         let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
         let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
-            self.blind = true;
-            self.list = SharedList::default();
+            self.give_up();
             return;
         };
         match event {
@@ -284,8 +287,7 @@ impl Cuts {
             _ => self.list.push(Cut { from: a, to: b, z }),
         }
         if self.list.len() > MOST_CUTS {
-            self.blind = true;
-            self.list = SharedList::default();
+            self.give_up();
         }
     }
 
