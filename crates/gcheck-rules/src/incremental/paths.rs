@@ -381,7 +381,8 @@ fn advance(
         let fuel = ground.fuel.saturating_sub(spent);
         let leg = flow_from(ground.program, ground.model, machine, options, fuel, checkpoint, &mut recorder);
         let joined = recorder.joined.take();
-        if joined.is_none() && !leg.stopped {
+        let stopped = leg.stopped;
+        if joined.is_none() && !stopped {
             recorder.close(leg);
         }
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
@@ -391,7 +392,7 @@ fn advance(
             carried = Some((facts, trace)).filter(|(facts, _)| !facts.is_empty());
             continue;
         }
-        if chain.segments.last().is_none_or(|last| last.is_stale) || entry.is_some() {
+        if stopped {
             // Given up on the way: what follows here is to be executed, and what was known may be met behind it.
             chain.segments.push(Segment::gap(entry));
             chain.segments.extend(old.into_iter().skip(at).flatten());
