@@ -2,6 +2,8 @@
 //!
 //! Knows: the steps and their tools. Must not know: what is tested.
 
+mod editors;
+
 use std::env;
 use std::fs;
 use std::path::Path;
@@ -14,14 +16,21 @@ use crate::workspace;
 /// Tools of tests that are no crates, git-ignored. Tests find them there, and skip themselves where they are missing.
 const TOOLS: &str = ".test-tools";
 
+/// Asks the editor tests for the editors of the system.
+const ALL_EDITORS: &str = "GCHECK_ALL_EDITORS";
+
 /// The SARIF validator, as an npm package with its own runtime.
 const SARIF_VALIDATOR: &str = "@microsoft/sarif-multitool-linux";
 const SARIF_VALIDATOR_VERSION: &str = "5.7.0";
 
 /// Runs every step, and all of them whatever fails.
+///
+/// `--quick` leaves out what takes long; `--editors` runs the editors of the system as well. The rest is for the tests.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    let quick = arguments.first().is_some_and(|a| a == "--quick");
-    let for_tests = if quick { arguments.get(1..).unwrap_or_default() } else { arguments };
+    let own = arguments.iter().take_while(|a| matches!(a.as_str(), "--quick" | "--editors")).count();
+    let (own, for_tests) = arguments.split_at(own);
+    let quick = own.iter().any(|a| a == "--quick");
+    let all_editors = own.iter().any(|a| a == "--editors");
     let mut failed = Vec::new();
     if !quick {
         install_tools()?;
@@ -61,7 +70,11 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         test.push("--");
         test.extend(for_tests.iter().map(String::as_str));
     }
-    let passed = cargo(&test)?;
+    let mut tests = cargo_command();
+    if all_editors {
+        tests.env(ALL_EDITORS, "1");
+    }
+    let passed = succeeds(tests.args(&test))?;
     if !failed.is_empty() {
         say(&format!("failed before the tests: {}", failed.join(", ")));
     }
@@ -74,8 +87,14 @@ fn say(message: &str) {
 
 /// Runs cargo on the workspace; true if it succeeds.
 fn cargo(arguments: &[&str]) -> anyhow::Result<bool> {
+    succeeds(cargo_command().args(arguments))
+}
+
+fn succeeds(command: &mut Command) -> anyhow::Result<bool> {
+    let arguments: Vec<_> =
+        command.get_args().map(|argument| argument.to_string_lossy().into_owned()).collect();
     say(&format!("cargo {}", arguments.join(" ")));
-    let status = cargo_command().args(arguments).status().context("cargo does not start")?;
+    let status = command.status().context("cargo does not start")?;
     Ok(status.success())
 }
 
@@ -94,6 +113,7 @@ fn has_cargo_command(name: &str) -> bool {
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
     install_interpreter();
+    editors::install(&workspace::root().join(TOOLS));
     install_validator()
 }
 
@@ -105,11 +125,17 @@ fn install_interpreter() {
         return;
     }
     let without = "the engine is not compared with the LinuxCNC interpreter";
-    if !is_in_path("apt-get") {
-        say(&format!("rs274 (Debian's {INTERPRETER}) is not installed and there is no apt-get: {without}"));
-        return;
+    if !install_debian_package(INTERPRETER) || !is_in_path("rs274") {
+        say(&format!("apt-get could not install {INTERPRETER}: {without}"));
     }
-    say(&format!("installing {INTERPRETER}"));
+}
+
+/// Installs a package of the system where there is an apt-get and it may.
+fn install_debian_package(package: &str) -> bool {
+    if !cfg!(target_os = "linux") || !is_in_path("apt-get") {
+        return false;
+    }
+    say(&format!("installing {package}"));
     let apt = |arguments: &[&str]| {
         let mut command = Command::new("apt-get");
         command
@@ -120,10 +146,7 @@ fn install_interpreter() {
         command.status().is_ok_and(|status| status.success())
     };
     // Only root may; the package's name is looked up in lists that may be old or missing.
-    let is_installed = apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", INTERPRETER]);
-    if !is_installed || !is_in_path("rs274") {
-        say(&format!("apt-get could not install {INTERPRETER} (root may): {without}"));
-    }
+    apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", package])
 }
 
 fn is_in_path(program: &str) -> bool {
