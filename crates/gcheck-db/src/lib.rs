@@ -18,6 +18,7 @@
 //! ```
 
 mod database;
+mod looking;
 mod settings;
 mod snapshot;
 mod states;

@@ -9,8 +9,8 @@ use gcheck_syntax::SourceText;
 
 /// Lines whose comments count: people name the machine at the top.
 const COMMENT_LINES: usize = 300;
-/// Bytes whose codes and forms count: a program uses early what it uses at all.
-const SCANNED_BYTES: usize = 256 << 10;
+/// Bytes whose codes and forms count, and the rest of their last line: a program uses early what it uses at all.
+pub const EVIDENCE_BYTES: usize = 256 << 10;
 
 /// Collects the evidence of a program for [`gcheck_controls::guess`].
 pub fn collect_evidence(source: &SourceText) -> Evidence {
@@ -18,7 +18,7 @@ pub fn collect_evidence(source: &SourceText) -> Evidence {
     let text = source.text();
     for (number, line) in text.split(['\n', '\r']).enumerate() {
         let offset = line.as_ptr() as usize - text.as_ptr() as usize;
-        if offset > SCANNED_BYTES {
+        if offset > EVIDENCE_BYTES {
             break;
         }
         scan.keeps_comments = number < COMMENT_LINES;

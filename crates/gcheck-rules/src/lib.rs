@@ -34,7 +34,7 @@ pub use check::{Execution, Job, MAX_FINDINGS, Outcome, check};
 pub use context::{
     BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit,
 };
-pub use evidence::collect_evidence;
+pub use evidence::{EVIDENCE_BYTES, collect_evidence};
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use fixing::{FixKinds, Mended, mend};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
