@@ -100,8 +100,8 @@ impl Prepared {
     pub(crate) fn session<R>(&self, with: impl FnOnce(&Session<'_>) -> R) -> R {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
-        let folders = ProgramFolders::default();
-        let library = Reachable::new(&folders, &self.path, &self.search);
+        let folders = Arc::new(ProgramFolders::default());
+        let library = Reachable::new(folders, &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
         let mut tools = ToolNames::new(&model);
         let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {
