@@ -236,7 +236,7 @@ mod tests {
     fn blocks_called_by_their_number() {
         check(
             "haas-mill",
-            "O1\nM97 P10$00\nM30\nN1000 G0 X1.\nM98 P2\nM99\nO2\nM99\n",
+            "O1\nM97 P1000$0\nM30\nN1000 G0 X1.\nM98 P2\nM99\nO2\nM99\n",
             &expect![[r#"
             O1 of main.nc
             to O2 of main.nc: 5: P2

@@ -55,7 +55,7 @@ pub fn document_symbols(snapshot: &Snapshot) -> Vec<Symbol> {
     let parts = parts(snapshot);
     for tool in parts.tools {
         let name = match tool.tool {
-            Some(_) if tool.word != tool.change => snapshot.slice(tool.word.clone()).trim().to_owned(),
+            Some(_) if tool.is_named => snapshot.slice(tool.word.clone()).trim().to_owned(),
             Some(number) => format!("T{number}"),
             None => "tool change".to_owned(),
         };

@@ -35,6 +35,9 @@ impl Fixture {
                 None => files.last_mut().unwrap().1.push_str(line),
             }
         }
+        if files.is_empty() {
+            files.push(("main.nc".to_owned(), String::new()));
+        }
         let mut database = Database::new();
         let mut workspace = Workspace::default();
         let mut cursor = None;

@@ -23,6 +23,8 @@ pub(crate) struct ToolPart {
     pub(crate) change: Range<u32>,
     /// Bytes of the word that names it, or of the change.
     pub(crate) word: Range<u32>,
+    /// The block that changes the tool names it too.
+    pub(crate) is_named: bool,
     /// What the program calls it; may be empty.
     pub(crate) name: String,
 }
@@ -167,10 +169,10 @@ impl Finder<'_> {
         if !changes || cancels {
             return;
         }
-        let (tool, word) = match &self.called {
-            Some((tool, word)) if range.start <= word.start => (*tool, word.clone()),
-            Some((tool, _)) => (*tool, range.clone()),
-            None => (None, range.clone()),
+        let (tool, word, is_named) = match &self.called {
+            Some((tool, word)) if range.start <= word.start => (*tool, word.clone(), true),
+            Some((tool, _)) => (*tool, range.clone(), false),
+            None => (None, range.clone(), false),
         };
         let start = above.map_or(range.start, |above| above.start);
         self.parts.tools.push(ToolPart {
@@ -178,6 +180,7 @@ impl Finder<'_> {
             range: start..range.end,
             change: range.clone(),
             word,
+            is_named,
             name: String::new(),
         });
     }
