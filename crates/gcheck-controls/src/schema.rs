@@ -34,6 +34,8 @@ pub(crate) struct ControlFile {
     pub(crate) code_list: Option<CodeList>,
     #[serde(default)]
     pub(crate) block: Option<BlockRules>,
+    #[serde(default)]
+    pub(crate) format: Option<FormatCustoms>,
     /// Order in which the parts of one block take effect; identifiers used by `phase` of the codes.
     #[serde(default)]
     pub(crate) phases: Vec<String>,
@@ -271,6 +273,35 @@ pub enum Handling {
     Ignored,
     /// It means what it says.
     Accepted,
+}
+
+/// How programs of the control are written where nobody wishes otherwise; for the formatter.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FormatCustoms {
+    /// Which letters addresses and keywords have.
+    pub letter_case: LetterCase,
+    /// Where this stands.
+    pub source: String,
+}
+
+impl Default for FormatCustoms {
+    /// Nothing is known: what is written stays.
+    fn default() -> Self {
+        Self { letter_case: LetterCase::Keep, source: "general knowledge".to_owned() }
+    }
+}
+
+/// Which letters addresses and keywords have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LetterCase {
+    /// Those that are written.
+    Keep,
+    /// `G1 X1.`
+    Upper,
+    /// `g1 x1.`
+    Lower,
 }
 
 /// One hint that a program is written for this control.

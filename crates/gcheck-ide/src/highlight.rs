@@ -1,12 +1,13 @@
 //! The other places of a file that name what the cursor stands at.
 //!
-//! Knows: files one at a time. Must not know: other files.
+//! Knows: one file at a time. Must not know: other files.
 
 use std::ops::Range;
 
 use gcheck_db::Snapshot;
 
 use crate::ReferenceKind;
+use crate::things::{namings_in, thing_at};
 
 /// A place to be marked.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,6 +20,7 @@ pub struct Highlight {
 
 /// Places of the file that name what stands at `offset`, in text order.
 pub fn highlights(snapshot: &Snapshot, offset: u32) -> Vec<Highlight> {
-    let _ = (snapshot, offset);
-    Vec::new()
+    let Some(naming) = thing_at(snapshot, offset) else { return Vec::new() };
+    let places = namings_in(snapshot, &naming.thing).into_iter();
+    places.map(|naming| Highlight { range: naming.range, kind: naming.kind }).collect()
 }

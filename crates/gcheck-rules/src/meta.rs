@@ -77,6 +77,11 @@ pub struct DocExample {
 }
 
 impl RuleMeta {
+    /// Address of the rule's page.
+    pub fn page(&self) -> String {
+        format!("{}/blob/main/docs/rules/{}.md", env!("CARGO_PKG_REPOSITORY"), self.id)
+    }
+
     /// Markdown: meaning, why it matters, examples.
     pub fn docs(&self) -> String {
         let mut docs = String::with_capacity(self.raw_docs.len());

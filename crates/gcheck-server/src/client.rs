@@ -37,13 +37,11 @@ pub(crate) struct Abilities {
     pub(crate) versioned_edits: bool,
     pub(crate) shows_documents: bool,
     pub(crate) folds_lines_only: bool,
-    pub(crate) knows_status: bool,
 }
 
 impl Abilities {
     pub(crate) fn read(params: &InitializeParams) -> Self {
-        let ClientCapabilities { workspace, text_document, window, general, experimental, .. } =
-            &params.capabilities;
+        let ClientCapabilities { workspace, text_document, window, general, .. } = &params.capabilities;
         let workspace = workspace.clone().unwrap_or_default();
         let text = text_document.clone().unwrap_or_default();
         let window = window.clone().unwrap_or_default();
@@ -52,9 +50,6 @@ impl Abilities {
         let is = |flag: Option<bool>| flag.unwrap_or(false);
         let item = text.completion.and_then(|completion| completion.completion_item).unwrap_or_default();
         let hover = text.hover.and_then(|hover| hover.content_format);
-        let own = |name: &str| {
-            experimental.as_ref().and_then(|all| all.get(name)).and_then(Value::as_bool).unwrap_or(false)
-        };
         Self {
             encoding: Encoding::choose(encodings),
             pulls: text.diagnostic.is_some(),
@@ -79,7 +74,6 @@ impl Abilities {
             versioned_edits: is(workspace.workspace_edit.and_then(|edit| edit.document_changes)),
             shows_documents: window.show_document.is_some_and(|show| show.support),
             folds_lines_only: is(text.folding_range.and_then(|folding| folding.line_folding_only)),
-            knows_status: own("gcheckStatus"),
         }
     }
 }

@@ -9,7 +9,7 @@ use gcheck_report::Format;
 use gcheck_rules::Severity;
 
 /// Blocks that may be executed when nobody says otherwise.
-const FUEL: u64 = 50_000_000;
+pub(crate) const FUEL: u64 = 50_000_000;
 
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
@@ -76,6 +76,8 @@ pub enum Command {
     Init,
     /// Print the JSON schema of `gcheck.toml`
     Schema,
+    /// Serve an editor: the language server on standard input and output
+    Lsp(LspOptions),
     /// Print completions for a shell
     Completions {
         /// The shell
@@ -288,6 +290,14 @@ pub enum VariableName {
 /// Levels of block delete that are switched on: bit 0 is a plain `/` and level 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BlockSkip(pub u16);
+
+/// Options of `gcheck lsp`.
+#[derive(Debug, Args)]
+pub struct LspOptions {
+    /// Taken for editors that say so; there is no other way to talk to the server
+    #[arg(long, hide = true)]
+    pub stdio: bool,
+}
 
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]

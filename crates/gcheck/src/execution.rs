@@ -6,7 +6,6 @@ mod bridge;
 mod closing;
 mod equipment;
 mod rotary;
-mod tool_names;
 mod tool_table;
 
 use std::path::PathBuf;
@@ -14,7 +13,7 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_engine::{Axis, Model, Options, Program, Role, RunResult, Stopped};
-use gcheck_program::{Dialect, Loaded};
+use gcheck_program::{Dialect, Loaded, ToolNames};
 use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
 use gcheck_toolpath::View;
@@ -30,7 +29,6 @@ use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, paths, reading};
 use bridge::Bridge;
 use equipment::{AxesMoved, AxesSeen};
-use tool_names::ToolNames;
 
 /// Standard input as a file name.
 const STANDARD_INPUT: &str = "-";
@@ -100,10 +98,10 @@ impl Prepared {
     pub(crate) fn session<R>(&self, with: impl FnOnce(&Session<'_>) -> R) -> R {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
-        let folders = ProgramFolders::default();
-        let library = Reachable::new(&folders, &self.path, &self.search);
+        let folders = Arc::new(ProgramFolders::default());
+        let library = Reachable::new(folders, &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
-        let mut tools = ToolNames::new(&model);
+        let mut tools = ToolNames::new(&self.control);
         let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {
             axes.look(table);
             tools.look(table, text);

@@ -14,6 +14,8 @@ mod control_choice;
 mod discovery;
 mod execution;
 mod fault_words;
+mod in_force;
+mod lsp;
 mod nearest;
 mod output;
 mod paths;
@@ -63,6 +65,7 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Controls(options) => commands::controls::run(options),
         Command::Init => commands::init::run(&arguments.global),
         Command::Schema => output::print(&config::schema()),
+        Command::Lsp(_) => lsp::run(&arguments.global),
         Command::Completions { shell } => commands::completions::run(*shell),
     }
 }
