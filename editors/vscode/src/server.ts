@@ -21,11 +21,14 @@ export interface Status {
 export class Server implements vscode.Disposable {
   private readonly output = vscode.window.createOutputChannel("gcheck");
   private readonly statusEmitter = new vscode.EventEmitter<Status>();
+  private readonly startedEmitter = new vscode.EventEmitter<void>();
   private client: LanguageClient | undefined;
   private program: string | undefined;
 
   /** The server says which control reads a program. */
   readonly onStatus = this.statusEmitter.event;
+  /** The server runs, for the first time or again. */
+  readonly onStarted = this.startedEmitter.event;
 
   constructor(private readonly context: vscode.ExtensionContext) {
     context.subscriptions.push(
@@ -41,6 +44,7 @@ export class Server implements vscode.Disposable {
   dispose(): void {
     void this.client?.stop();
     this.statusEmitter.dispose();
+    this.startedEmitter.dispose();
     this.output.dispose();
   }
 
@@ -72,6 +76,7 @@ export class Server implements vscode.Disposable {
     this.client = client;
     try {
       await client.start();
+      this.startedEmitter.fire();
     } catch (error) {
       this.output.appendLine(`${program} does not start: ${String(error)}`);
       void vscode.window.showErrorMessage(`gcheck does not start: ${String(error)}`);

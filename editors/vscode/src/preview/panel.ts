@@ -27,6 +27,7 @@ export class ToolpathPreview implements vscode.Disposable {
   ) {
     this.subscriptions = [
       this.drawnEmitter,
+      server.onStarted(() => void this.refresh()),
       vscode.workspace.onDidChangeTextDocument((change) => {
         if (change.document === this.document) {
           this.refreshSoon();
