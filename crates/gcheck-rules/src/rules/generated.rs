@@ -216,6 +216,25 @@ pub(crate) mod spindle {
     pub(crate) mod surface_speed_without_limit;
 }
 
+pub(crate) mod style {
+    pub(crate) mod blank_lines_in_a_row;
+    pub(crate) mod blanks_between_words_mixed;
+    pub(crate) mod decimal_points_mixed;
+    pub(crate) mod last_line_without_end;
+    pub(crate) mod leading_zeros_mixed;
+    pub(crate) mod letter_case_mixed;
+    pub(crate) mod line_ends_mixed;
+    pub(crate) mod minus_zero;
+    pub(crate) mod plus_signs_mixed;
+    pub(crate) mod program_without_name;
+    pub(crate) mod sequence_numbers_not_rising;
+    pub(crate) mod tab_in_code;
+    pub(crate) mod tool_change_without_comment;
+    pub(crate) mod trailing_blanks;
+    pub(crate) mod zero_before_point_mixed;
+    pub(crate) mod zero_behind_point_mixed;
+}
+
 pub(crate) mod suppressions {
     pub(crate) mod malformed_suppression;
     pub(crate) mod suppression_without_reason;
@@ -455,6 +474,22 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &spindle::speed_missing::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
+    &style::blank_lines_in_a_row::RULE,
+    &style::blanks_between_words_mixed::RULE,
+    &style::decimal_points_mixed::RULE,
+    &style::last_line_without_end::RULE,
+    &style::leading_zeros_mixed::RULE,
+    &style::letter_case_mixed::RULE,
+    &style::line_ends_mixed::RULE,
+    &style::minus_zero::RULE,
+    &style::plus_signs_mixed::RULE,
+    &style::program_without_name::RULE,
+    &style::sequence_numbers_not_rising::RULE,
+    &style::tab_in_code::RULE,
+    &style::tool_change_without_comment::RULE,
+    &style::trailing_blanks::RULE,
+    &style::zero_before_point_mixed::RULE,
+    &style::zero_behind_point_mixed::RULE,
     &suppressions::malformed_suppression::RULE,
     &suppressions::suppression_without_reason::RULE,
     &suppressions::unused_suppression::RULE,

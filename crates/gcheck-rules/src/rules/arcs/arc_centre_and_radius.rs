@@ -3,7 +3,7 @@
 use gcheck_engine::{ArcFault, Fault};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{Fix, PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// A block under an arc mode gives a centre and a radius, on a control that takes one of them.
@@ -31,6 +31,7 @@ declare_rule! {
         summary: "arc with a centre and a radius",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcCentreAndRadius) },
     }
@@ -49,6 +50,7 @@ impl PathRule for ArcCentreAndRadius {
                 .label("one of the two is enough")
                 .also(cx.word_range(is_centre), "the centre is given here")
                 .help("take out the centre or the radius")
+                .fix(Fix::risky("take the radius out", cx.letter_range('R'), ""))
                 .at_most(limit(cx.model.semantics().confidence)),
         );
     }

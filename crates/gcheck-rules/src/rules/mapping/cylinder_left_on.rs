@@ -53,6 +53,7 @@ declare_rule! {
         summary: "cylindrical mapping left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -121,7 +122,8 @@ impl CylinderLeftOn {
                 Place::Boundary(_) => format!("a word for {linear} still turns {rotary}"),
                 Place::Reference => format!("{rotary} turns away from the drawing"),
             })
-            .help(format!("end mapping before, with `{name}` alone in its block"));
+            .help(format!("end mapping before, with `{name}` alone in its block"))
+            .fix_if(cx.block_before(Some(&name)));
         let finding = cx.resting_on(finding, Fact::Mode(Role::Cylinder), &format!("`{name}`"));
         let Some(finding) = limited(cx, place, &name, finding) else { return };
         self.told = set_by;

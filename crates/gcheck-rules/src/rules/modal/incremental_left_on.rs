@@ -47,6 +47,7 @@ declare_rule! {
         summary: "increments left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS).union(Watch::ENDS),
@@ -158,6 +159,7 @@ fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
     cx.finding(&META, range, format!("{what} (`{incremental}`)"))
         .help(format!("state `{absolute}` before the move"))
+        .fix_if(cx.block_before(Some(&absolute)))
 }
 
 #[cfg(test)]

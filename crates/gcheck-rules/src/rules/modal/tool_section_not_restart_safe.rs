@@ -42,6 +42,7 @@ declare_rule! {
         severity: Hint,
         tier: Path,
         recommended: false,
+        sets: [RestartSafe],
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::CUTS),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `%` stands inside the program, shares its line with code, or has code behind it.
@@ -36,6 +36,7 @@ declare_rule! {
         summary: "tape mark cuts off code",
         severity: Info,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -74,9 +75,11 @@ fn first_code(text: &str) -> Option<Range<u32>> {
 }
 
 fn inside(at: Range<u32>) -> Finding {
+    let mark = at.clone();
     Finding::new(&META, at, "tape mark `%` stands inside a block")
         .label("only a line of its own makes it a tape mark")
         .help("remove it, or put it in a line of its own at the end of the program")
+        .fix(Fix::risky("remove the `%`", mark, ""))
 }
 
 fn behind(closing: Range<u32>, code: Range<u32>) -> Finding {
