@@ -192,6 +192,7 @@ mod tests {
               here: the next tool begins with it
               there: `G41` set here
               help: leave the contour on a straight move with `G40` before the tool goes away
+              fix (unsafe): put `G40` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

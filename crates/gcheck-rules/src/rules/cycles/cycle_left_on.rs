@@ -205,6 +205,7 @@ mod tests {
               here: the next block with a position drills a hole
               there: `G81` set here
               help: end the cycle with `G80` before
+              fix (unsafe): put `G80` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -280,6 +280,7 @@ mod tests {
               here: a word for Y still turns A
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
         expect![[r#"
@@ -287,6 +288,7 @@ mod tests {
               here: A turns away from the drawing
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
         expect![[r#"
@@ -296,6 +298,7 @@ mod tests {
               note: setting 56 decides whether the end of the program ends `G107`
               assuming: setting 56 (M30 restores default G codes) is on
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));
     }

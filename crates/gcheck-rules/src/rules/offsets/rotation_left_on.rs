@@ -115,6 +115,7 @@ mod tests {
               there: `G68` set here
               assuming: the end of the program keeps it, as the control's book leaves to a parameter
               help: switch the rotation off with `G69` before the program ends
+              fix (unsafe): put `G69` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

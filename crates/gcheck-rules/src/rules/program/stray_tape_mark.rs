@@ -23,6 +23,13 @@ declare_rule! {
     /// M99
     /// %
     /// ```
+    /// ```nc,reported,haas-mill
+    /// %
+    /// O00001
+    /// G0 X1. %
+    /// M30
+    /// %
+    /// ```
     /// ## Not reported
     /// A comment beside the mark, and blank lines or notes behind the closing one.
     /// ```nc,quiet,haas-mill

@@ -104,6 +104,7 @@ mod tests {
             closing tape mark `%` is missing
               here: opens the tape
               help: put a line with `%` at the end of the file; see that nothing else is missing there
+              fix (unsafe): put `%` at the end
         "#]]
         .assert_eq(&words(&found[0]));
     }

@@ -72,7 +72,12 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G0 X1.\nM03 S100\nG1 Y1. F100.\nM05\nG01 X2. M8\nG54.1 P1\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | G01 X2. M8
+                  | ^^^ hint[leading-zeros-mixed] `G01` among codes without a leading zero
+                5 | G01 X2. M8
+                  |         ^^ hint[leading-zeros-mixed] `M8` among codes with a leading zero
+            "#]],
         );
     }
 

@@ -55,7 +55,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         }
     }
     // Numbers that go up and down all the time are names of places.
-    let Some((before, label)) = first.filter(|_| falling * 4 <= rising) else { return };
+    let Some((before, label)) = first.filter(|_| falling * 3 <= rising) else { return };
     let finding = Finding::new(
         &META,
         label.range.clone(),

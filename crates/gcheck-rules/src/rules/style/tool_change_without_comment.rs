@@ -104,7 +104,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "; drill\nT1 M6\nG0 X1\n\nT2 M6\n(tap)\nG0 X2\nG0 X3\nT3 M6\nG0 X4\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                9 | T3 M6
+                  |    ^^ hint[tool-change-without-comment] no comment says which tool this is (`T3`)
+            "#]],
         );
     }
 
@@ -114,7 +117,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "(TURN)\nT0101\nG0 X1.\nX2.\nT0111\nX3.\nX4.\nT0202\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                8 | T0202
+                  | ^^^^^ hint[tool-change-without-comment] no comment says which tool this is (`T0202`)
+            "#]],
         );
     }
 }

@@ -139,6 +139,7 @@ mod tests {
               here: the digit names a switch
               note: this control has one block-delete switch and no levels
               help: write `/` alone
+              fix (unsafe): write `/` alone
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

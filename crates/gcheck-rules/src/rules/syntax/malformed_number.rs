@@ -18,6 +18,9 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// G1 X[#1 + 1]5 F10
     /// ```
+    /// ```nc,reported,haas-mill
+    /// G1 X1..5 F10.
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G1 X1.25 F10.

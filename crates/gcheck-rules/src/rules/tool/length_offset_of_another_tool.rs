@@ -199,6 +199,7 @@ mod tests {
               there: tool 2 comes into the spindle here
               note: the program's other tool has the length offset of the tool's own number (H = T)
               help: use offset 2, or tell why not in a suppression
+              fix (unsafe): write `H2`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }
