@@ -28,6 +28,7 @@ mod selection;
 mod suppression;
 #[cfg(test)]
 mod testing;
+mod turning;
 mod usage;
 mod writing;
 

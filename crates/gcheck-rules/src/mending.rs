@@ -4,6 +4,7 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Letter;
 use gcheck_engine::At;
 use gcheck_program::Word;
 
@@ -21,10 +22,14 @@ impl Finding {
 impl BlockCx<'_> {
     /// The word with the blanks in front of it: what goes when the word goes.
     pub(crate) fn with_blanks(&self, word: &Word) -> Range<u32> {
-        let range = word.range();
+        self.in_file(self.with_blanks_before(word.range()))
+    }
+
+    /// Bytes of the chunk with the blanks in front of them.
+    pub(crate) fn with_blanks_before(&self, range: Range<u32>) -> Range<u32> {
         let before = self.slice(0..range.start);
         let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
-        self.in_file(range.start - blanks as u32..range.end)
+        range.start - blanks as u32..range.end
     }
 
     /// Takes a word away; whether it was meant, only the programmer knows.
@@ -34,6 +39,18 @@ impl BlockCx<'_> {
 }
 
 impl PathCx<'_> {
+    /// The word with an address, and the blanks in front of it, taken away.
+    pub(crate) fn taking_away(&self, letter: char, title: &str) -> Option<Fix> {
+        let place = self.place()?;
+        let is_it = |word: &&Word| word.letter == Letter::of(letter) && !word.letter.is_corner();
+        let word = place.table.words(place.block()).iter().find(is_it)?.range();
+        let file = self.program.file(self.origin().at.file)?;
+        let before = file.loaded.chunk_text(place.chunk).get(..word.start as usize)?;
+        let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
+        let range = place.base + word.start - blanks as u32..place.base + word.end;
+        Some(Fix::risky(title, range, ""))
+    }
+
     /// Puts a code in a block of its own in front of this one.
     pub(crate) fn block_before(&self, code: Option<&str>) -> Option<Fix> {
         self.block_before_at(self.origin().at, code)

@@ -62,7 +62,10 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
     pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod turning_profile_first_block;
     pub(crate) mod turning_profile_not_usable;
+    pub(crate) mod turning_profile_turns_back;
+    pub(crate) mod turning_start_inside_profile;
 }
 
 pub(crate) mod five_axis {
@@ -371,7 +374,10 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::turning_profile_first_block::RULE,
     &cycles::turning_profile_not_usable::RULE,
+    &cycles::turning_profile_turns_back::RULE,
+    &cycles::turning_start_inside_profile::RULE,
     &five_axis::cutter_vector_incomplete::RULE,
     &five_axis::cutter_vector_not_unit::RULE,
     &five_axis::cutter_vector_without_size::RULE,

@@ -3,7 +3,7 @@
 use gcheck_engine::{ArcFault, Fault};
 
 use crate::meta::declare_rule;
-use crate::{Fix, PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// A block under an arc mode gives a centre and a radius, on a control that takes one of them.
@@ -50,7 +50,7 @@ impl PathRule for ArcCentreAndRadius {
                 .label("one of the two is enough")
                 .also(cx.word_range(is_centre), "the centre is given here")
                 .help("take out the centre or the radius")
-                .fix(Fix::risky("take the radius out", cx.letter_range('R'), ""))
+                .fix_if(cx.taking_away('R', "take the radius out"))
                 .at_most(limit(cx.model.semantics().confidence)),
         );
     }

@@ -56,7 +56,8 @@ impl PathRule for CycleRepeatedInPlace {
             Some(code) => cx.model.effect(code) == Effect::Absolute,
             None => cx.state().is_incremental(cx.model) == Some(false),
         };
-        let reads = cx.scene.control().code_at(cycle).is_some_and(|code| code.reads().contains(Letter::of(letter)));
+        let reads =
+            cx.scene.control().code_at(cycle).is_some_and(|code| code.reads().contains(Letter::of(letter)));
         // A cycle that reads the letter as something of its own has no repeats.
         let Some(place) = cx.place().filter(|_| is_absolute && reads) else { return };
         let word = place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter));
@@ -108,7 +109,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G91 G0 X0 Y0\nG90 G81 X10 Z-5 R2 L3 F100\nG80\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                2 | G90 G81 X10 Z-5 R2 L3 F100
+                  |                    ^^ warning[cycle-repeated-in-place] the cycle runs 3 times at one place (`G81` under `G90`)
+            "#]],
         );
     }
 }

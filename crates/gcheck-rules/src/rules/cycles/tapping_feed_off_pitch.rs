@@ -104,7 +104,10 @@ impl PathRule for TappingFeedOffPitch {
         );
         let mut finding = cx
             .finding(&META, cx.letter_range('F'), message)
-            .label(format!("`F{right}` for this pitch{}", if by_turns { String::new() } else { format!(" at `S{}`", trimmed(speed)) }))
+            .label(format!(
+                "`F{right}` for this pitch{}",
+                if by_turns { String::new() } else { format!(" at `S{}`", trimmed(speed)) }
+            ))
             .help("give the feed that belongs to speed and pitch, or correct the comment");
         if let Some(range) = cx.range_of(thread.at) {
             finding = finding.also(range, format!("names the thread: {}", thread.name));
@@ -148,7 +151,9 @@ fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
         let Some(file) = cx.program.file(0) else { continue };
         let text = file.loaded.chunk_text(place.chunk);
         let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
-        let Some((name, pitch)) = text.find(['(', ';']).and_then(|open| thread_in(text.get(open..)?)) else { continue };
+        let Some((name, pitch)) = text.find(['(', ';']).and_then(|open| thread_in(text.get(open..)?)) else {
+            continue;
+        };
         if found.is_none() {
             found = Some(Thread { name, pitch, at });
         }
@@ -301,7 +306,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "(1/4-20 TAP)\nT5 M6\nG20 G90 G54 G0 X0. Y0.\nG94 S500 M3\nG84 Z-1. R.1 F.05\nG80\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                5 | G84 Z-1. R.1 F.05
+                  |              ^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0001 in a turn, the pitch is 0.05 in
+            "#]],
         );
     }
 

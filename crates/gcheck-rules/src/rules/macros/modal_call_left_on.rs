@@ -120,7 +120,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             &format!("O1\nG66 P9010 A1.\nX10.\nT2 M6\nX20.\nT3 M6\nM30\n{MACRO}"),
-            &expect![[r#""#]],
+            &expect![[r#"
+                4 | T2 M6
+                  |    ^^ warning[modal-call-left-on] the modal macro call is still on at the tool change (`G66`)
+            "#]],
         );
     }
 

@@ -88,7 +88,8 @@ impl PathRule for IncrementalLeftOn {
         let switches_on = cx.has_effect(|effect| effect == Effect::Incremental);
         let was_absolute = cx.state().is_incremental(cx.model) == Some(false);
         // `G91 G28 Z0.`: the increments were for the return alone.
-        if switches_on && was_absolute && cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_))) {
+        if switches_on && was_absolute && cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_)))
+        {
             self.at_return = Some(cx.origin().at);
         }
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
@@ -142,7 +143,8 @@ impl IncrementalLeftOn {
             let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if at_return == set_by {
-            let finding = tell(cx, cx.range(), "the first move after the reference return goes by increments");
+            let finding =
+                tell(cx, cx.range(), "the first move after the reference return goes by increments");
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram

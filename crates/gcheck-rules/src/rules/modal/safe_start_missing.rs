@@ -130,7 +130,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G17 G90\nG0 X1\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                2 | G0 X1
+                  | ^^^^^ hint[safe-start-missing] moves before a safe start is stated (`G40`, `G49`, `G80`)
+            "#]],
         );
     }
 
@@ -138,7 +141,15 @@ mod tests {
     fn the_fix_states_it() {
         let program = "O1\nG90 G17\nG28 G91 Z0.\nN10 G0 G90 X1.\nM30\n";
         let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
-        expect![[r#""#]].assert_eq(&found.iter().map(|f| fixed(program, f)).collect::<String>());
+        expect![[r#"
+            O1
+            G90 G17
+            G28 G91 Z0.
+            G40 G49 G80
+            N10 G0 G90 X1.
+            M30
+        "#]]
+        .assert_eq(&found.iter().map(|f| fixed(program, f)).collect::<String>());
     }
 
     #[test]

@@ -123,9 +123,7 @@ impl PathRule for ToolSectionNotRestartSafe {
         let Some(section) = self.section.take() else { return };
         let start = section.finding.range.start;
         let in_section = |at: At| cx.range_of(at).is_some_and(|range| range.start >= start);
-        let set_now = |role: Role| {
-            cx.trace().set_by(Fact::Mode(role)).is_some_and(in_section)
-        };
+        let set_now = |role: Role| cx.trace().set_by(Fact::Mode(role)).is_some_and(in_section);
         let mut missing = Vec::new();
         let by_turret = cx.model.semantics().tools.change_by_t;
         for (needed, role, word) in [
@@ -206,7 +204,7 @@ mod tests {
             "G20 G90 G54\nT1 M6\nS500 M3\nG1 X1. F5.\nT2 M6\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T2 M6
-                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G90`, `G54`, `F`, `S`, `M3`)
+                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G20`, `G90`, `G54`, `F`, `S`, `M3`)
             "#]],
         );
     }
@@ -224,7 +222,7 @@ mod tests {
             "G21\nT0101\nG97 S500 M3\nG1 X1. F.1\nT0202\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T0202
-                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`F`, `S`, `M3`)
+                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G21`, `F`, `S`, `M3`)
             "#]],
         );
     }

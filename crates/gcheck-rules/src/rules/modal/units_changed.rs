@@ -105,7 +105,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G20\nG0 X1\nG21\nG0 X10\nG20\nG0 X1\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                3 | G21
+                  | ^^^ warning[units-changed] the program goes over from inches to millimetres
+            "#]],
         );
     }
 

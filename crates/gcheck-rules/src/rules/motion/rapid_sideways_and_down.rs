@@ -78,7 +78,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90\nG0 X0 Y0 Z50\nX10 Z5\nX0 Z50\nX10 Z5\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                3 | X10 Z5
+                  | ^^^^^^ info[rapid-sideways-and-down] rapid move sideways and down in one block (`G0`)
+            "#]],
         );
     }
 }

@@ -83,7 +83,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G17 G90 G54\nG68 X0. Y0. R30.\nG17\nG19\nG69\nG18\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                4 | G19
+                  | ^^^ warning[plane-changed-under-rotation] another plane while the coordinates are rotated (`G19` under `G68`)
+            "#]],
         );
     }
 }

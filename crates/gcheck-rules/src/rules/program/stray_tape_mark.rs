@@ -54,7 +54,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for mark in &cx.survey.tape_marks {
         if !crate::sections::is_tape_mark_line(text, mark) {
             let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
-            report.add(inside(at..at + 1));
+            let before = cx.slice(mark.start..at);
+            let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
+            report.add(inside(at..at + 1).fix(Fix::risky("remove the `%`", at - blanks as u32..at + 1, "")));
         }
     }
     let rest = text.get(cx.region.end as usize..).unwrap_or_default();
@@ -82,11 +84,9 @@ fn first_code(text: &str) -> Option<Range<u32>> {
 }
 
 fn inside(at: Range<u32>) -> Finding {
-    let mark = at.clone();
     Finding::new(&META, at, "tape mark `%` stands inside a block")
         .label("only a line of its own makes it a tape mark")
         .help("remove it, or put it in a line of its own at the end of the program")
-        .fix(Fix::risky("remove the `%`", mark, ""))
 }
 
 fn behind(closing: Range<u32>, code: Range<u32>) -> Finding {

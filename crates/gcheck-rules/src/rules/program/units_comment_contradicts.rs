@@ -109,7 +109,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "; units are inches\nG21\nG0 X1\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                1 | ; units are inches
+                  |   ^^^^^^^^^^^^^^^^ warning[units-comment-contradicts] the comment says inches, the code chooses millimetres (`G21`)
+            "#]],
         );
     }
 

@@ -96,7 +96,10 @@ mod tests {
             &RULE,
             "haas-lathe",
             "T101\nG50 S2000\nG96 S400 M3\nG0 X1. Z.2\nG76 X.9 Z-1. K.05 D.01 F.0625\nG76 X.9 Z-1. K.05 D.01 F.0625\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                5 | G76 X.9 Z-1. K.05 D.01 F.0625
+                  | ^^^ warning[thread-at-surface-speed] the thread is cut at constant surface speed (`G96`)
+            "#]],
         );
     }
 

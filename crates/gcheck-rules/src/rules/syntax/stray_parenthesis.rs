@@ -43,7 +43,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         .label("no `(` before it")
         .note("a comment stands between `(` and `)` on one line")
         .help("add the `(` where the comment begins, or remove the `)`")
-        .fix(Fix::risky("remove the `)`", cx.in_file(error.range.clone()), ""))
+        .fix(Fix::risky("remove the `)`", cx.in_file(cx.with_blanks_before(error.range.clone())), ""))
 }
 
 #[cfg(test)]

@@ -95,7 +95,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "T0101\nG97 S500 M3\nG1 X1. F.1\nG0 X50. Z50.\nT0202\nG1 X2.\nM01\nT0303\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                5 | T0202
+                  | ^^^^^ hint[tool-change-without-stop] tool change without an optional stop before it (`M1`)
+            "#]],
         );
     }
 

@@ -69,7 +69,8 @@ fn named_tool(text: &str) -> Option<(u32, Range<usize>)> {
     let digits = rest.get(if head == "T" { 0 } else { gap }..)?;
     let gap = if head == "T" { 0 } else { gap };
     let length = digits.bytes().take_while(u8::is_ascii_digit).count();
-    let ends = digits.get(length..)?.starts_with(|c: char| !c.is_ascii_alphanumeric() && c != '.' && c != '/');
+    let ends =
+        digits.get(length..)?.starts_with(|c: char| !c.is_ascii_alphanumeric() && c != '.' && c != '/');
     let number = digits.get(..length)?.parse().ok().filter(|_| ends && length <= 4)?;
     let start = open + blanks;
     Some((number, start..start + head.len() + gap + length))
@@ -97,7 +98,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "T0303 (T3 BORING BAR)\nT0404 (T0404)\nT0505 (TOOL 6 - GROOVE)\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                3 | T0505 (TOOL 6 - GROOVE)
+                  |        ^^^^^^ info[tool-comment-of-another-tool] the comment names `TOOL 6`, the block calls `T0505`
+            "#]],
         );
     }
 

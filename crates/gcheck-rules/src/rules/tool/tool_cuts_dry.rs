@@ -67,9 +67,7 @@ struct ToolCutsDry {
 
 impl PathRule for ToolCutsDry {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| {
-            matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn)
-        })
+        program.may(|effect| matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn))
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -98,10 +96,9 @@ impl PathRule for ToolCutsDry {
         }
         let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}`)");
-        let mut finding = cx
-            .finding(&META, cx.range(), message)
-            .label("its first cut")
-            .help(format!("switch the coolant on with `{on}`, or say in a suppression why the tool cuts dry"));
+        let mut finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
+            "switch the coolant on with `{on}`, or say in a suppression why the tool cuts dry"
+        ));
         if let Some(range) = cx.trace().set_by(gcheck_engine::Fact::Tool).and_then(|at| cx.range_of(at)) {
             finding = finding.also(range, "the tool comes here");
         }
