@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use gcheck_controls::{Effect, Letter, LetterSet};
-use gcheck_engine::{At, Axis};
+use gcheck_engine::{At, Axis, Role};
 use gcheck_program::{BlockFlags, Place};
 
 use crate::PathCx;
@@ -29,6 +29,8 @@ pub(crate) struct Point {
     pub(crate) x: f64,
     /// Along the spindle.
     pub(crate) z: f64,
+    /// Reached in rapid: the way out of a profile is no part of it.
+    pub(crate) is_rapid: bool,
     /// The block that leads there.
     pub(crate) range: Range<u32>,
 }
@@ -68,9 +70,10 @@ impl PathCx<'_> {
         let half = if self.state().is_diameter(self.model)? { 2.0 } else { 1.0 };
         let at = self.state().position();
         let (x, z) = (at.get(Axis::X)? * half / units, at.get(Axis::Z)? / units);
-        let start = Point { x, z, range: self.range() };
+        let start = Point { x, z, is_rapid: true, range: self.range() };
         let (mut x, mut z) = (x, z);
         let mut points = Vec::new();
+        let mut is_rapid = self.state().effect(Role::Motion, self.model)? == Effect::Rapid;
         let mut first_axes = LetterSet::EMPTY;
         for block in first.block..=last.block {
             let place = self.place_of(At { block, ..first })?;
@@ -84,6 +87,11 @@ impl PathCx<'_> {
                 first_axes = letters.and(LetterSet::of("XZUW"));
             }
             for word in place.table.words(place.block()) {
+                match self.model.effect(word.code) {
+                    Effect::Rapid => is_rapid = true,
+                    Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise => is_rapid = false,
+                    _ => {}
+                }
                 let Some(number) = word.number() else { continue };
                 if word.letter.is_corner() {
                     continue;
@@ -97,7 +105,7 @@ impl PathCx<'_> {
                 }
             }
             if letters.intersects(LetterSet::of("XZUW")) {
-                points.push(Point { x, z, range: place.range() });
+                points.push(Point { x, z, is_rapid, range: place.range() });
             }
         }
         (!points.is_empty()).then_some(Profile { start, points, first_axes })

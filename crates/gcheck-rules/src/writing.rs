@@ -264,6 +264,10 @@ pub(crate) fn word_around<'t>(text: &'t str, place: &Range<u32>) -> (Range<u32>,
     let is_word = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '.' | '+' | '-');
     let before = text.get(..place.start as usize).unwrap_or_default();
     let mut start = place.start as usize;
+    // Where the place begins with an address, the word does.
+    let is_head =
+        text.get(start..place.end as usize).is_some_and(|t| t.starts_with(|c: char| c.is_ascii_alphabetic()));
+    let before = if is_head { "" } else { before };
     for c in before.chars().rev().take(32).take_while(is_word) {
         start -= c.len_utf8();
         if c.is_ascii_alphabetic() {
@@ -271,7 +275,7 @@ pub(crate) fn word_around<'t>(text: &'t str, place: &Range<u32>) -> (Range<u32>,
         }
     }
     let behind = text.get(place.end as usize..).unwrap_or_default();
-    let number = |c: &char| c.is_ascii_digit() || *c == '.';
+    let number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
     let end = place.end as usize + behind.chars().take(32).take_while(number).count();
     (start as u32..end as u32, text.get(start..end).unwrap_or_default())
 }
@@ -297,6 +301,7 @@ mod tests {
     fn a_word_is_found_around_a_place_in_it() {
         assert_eq!(word_around("N10 G01X-.5", &(5..6)), (4..7, "G01"));
         assert_eq!(word_around("N10 G01X-.5", &(9..9)), (7..11, "X-.5"));
+        assert_eq!(word_around("S100M3", &(4..5)), (4..6, "M3"));
         assert_eq!(word_around("", &(0..0)), (0..0, ""));
     }
 }

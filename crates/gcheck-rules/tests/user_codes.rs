@@ -79,7 +79,7 @@ const BLOCKS: [&str; 10] = [
     "G81",
     "M8 P99",
     "G4",
-    "G4 X-1. P.5",
+    "G4 X-1. P0.5",
 ];
 
 #[test]

@@ -56,7 +56,8 @@ impl PathRule for CompensationInThread {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_thread) {
+        let is_broken = cx.origin().flags.contains(gcheck_program::BlockFlags::ERROR);
+        if is_broken || !cx.has_effect(is_thread) {
             return;
         }
         let Some(LeftOn::Surely(code)) = cx.left_on(Role::Compensation, is_on) else { return };

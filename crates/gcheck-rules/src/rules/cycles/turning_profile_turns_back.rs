@@ -61,29 +61,45 @@ impl PathRule for TurningProfileTurnsBack {
         // A first block that names both axes chooses the form of the cycle that takes pockets.
         let has_pockets = profile.first_axes.intersects(LetterSet::of("XU"))
             && profile.first_axes.intersects(LetterSet::of("ZW"));
-        let (Some(first), Some(last)) = (profile.points.first(), profile.points.last()) else { return };
         if has_pockets {
             return;
         }
-        for (axis, way, ends) in [
-            ('X', profile.points.iter().map(|point| point.x).collect::<Vec<_>>(), (first.x, last.x)),
-            ('Z', profile.points.iter().map(|point| point.z).collect(), (first.z, last.z)),
+        // The way out, in rapid, is no part of the profile.
+        let count = profile.points.iter().rposition(|point| !point.is_rapid).map_or(0, |last| last + 1);
+        let points = profile.points.get(..count).unwrap_or_default();
+        for (axis, way) in [
+            ('X', points.iter().map(|point| point.x).collect::<Vec<_>>()),
+            ('Z', points.iter().map(|point| point.z).collect()),
         ] {
-            let sign = if ends.1 >= ends.0 { 1.0 } else { -1.0 };
-            let mut steps = way.windows(2).zip(profile.points.iter().skip(1));
-            let back = steps.find(|(pair, _)| matches!(pair, [from, to] if (to - from) * sign < -SLACK));
-            if let Some((_, point)) = back {
-                report.add(
-                    cx.finding(&META, point.range.clone(), format!("the profile of the turning cycle turns back in {axis}"))
-                        .label(format!("{axis} goes the other way than from the first block to the last"))
-                        .also(cx.range(), "the cycle that follows the profile")
-                        .note("passes follow a profile whose X and Z only rise or only fall")
-                        .help("check the sign and value of the word, or begin the profile with both axes where the control has pockets"),
-                );
-                return;
-            }
+            let Some(at) = turn(&way) else { continue };
+            let Some(point) = points.get(at) else { continue };
+            let message = format!("the profile of the turning cycle turns back in {axis}");
+            report.add(
+                cx.finding(&META, point.range.clone(), message)
+                    .label(format!("{axis} goes the other way than before"))
+                    .also(cx.range(), "the cycle that follows the profile")
+                    .note("passes follow a profile whose X and Z only rise or only fall")
+                    .help("check the sign and value of the word, or begin the profile with both axes where the control takes pockets"),
+            );
+            return;
         }
     }
+}
+
+/// The first of some positions that lies the other way than those before it.
+fn turn(way: &[f64]) -> Option<usize> {
+    let mut sign = 0.0;
+    way.windows(2)
+        .position(|pair| {
+            let step = pair.last().copied().unwrap_or_default() - pair.first().copied().unwrap_or_default();
+            if step.abs() <= SLACK {
+                return false;
+            }
+            let turns = step * sign < 0.0;
+            sign = step.signum();
+            turns
+        })
+        .map(|before| before + 1)
 }
 
 /// In units of the program: controls let a profile turn back by this much.
@@ -102,7 +118,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "G21 T0101\nG97 S500 M3\nG0 X60. Z5.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20.\nZ20.\nN20 X50.\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                7 | G1 Z-20.
+                  | ^^^^^^^^ warning[turning-profile-turns-back] the profile of the turning cycle turns back in Z
+            "#]],
         );
     }
 

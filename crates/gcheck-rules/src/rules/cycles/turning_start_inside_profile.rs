@@ -57,12 +57,13 @@ impl PathRule for TurningStartInsideProfile {
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
         let Some(profile) = cx.profile() else { return };
         let level = |point: &crate::turning::Point| if along_x { point.z } else { point.x };
-        let (Some(first), Some(last)) = (profile.points.first(), profile.points.last()) else { return };
+        let mut cut = profile.points.iter().skip(1).filter(|point| !point.is_rapid);
+        let (Some(first), Some(last)) = (profile.points.first(), cut.clone().next_back()) else { return };
         // Outward from the first block: the tool must stand where the profile ends, or beyond.
         let start = level(&profile.start);
         let outward = if level(first) <= start { 1.0 } else { -1.0 };
         let beyond = |point: &crate::turning::Point| (level(point) - start) * outward;
-        let Some(worst) = profile.points.iter().find(|point| beyond(point) > SLACK) else { return };
+        let Some(worst) = cut.find(|point| beyond(point) > SLACK) else { return };
         // A profile that begins outside the tool, or runs the other way, is of another kind.
         if beyond(first) > 0.0 || beyond(last) <= 0.0 {
             return;
@@ -99,7 +100,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "G21 T0101\nG97 S500 M3\nG0 X60. Z-5.\nG72 W2. R1.\nG72 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 Z-20.\nG1 X30.\nN20 Z0.\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                5 | G72 P10 Q20 U0.5 W0.1 F0.25
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside its profile (`Z-5.`)
+            "#]],
         );
     }
 

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
+use gcheck_program::BlockFlags;
 
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::{Boundary, LeftOn};
@@ -142,7 +143,8 @@ impl IncrementalLeftOn {
             let finding = tell(cx, cx.range(), "the first move after the tool change goes by increments");
             let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
-        } else if at_return == set_by {
+        } else if at_return == set_by && !cx.origin().flags.contains(BlockFlags::EXPRESSION) {
+            // Who computes a way from where the axes stand wants increments.
             let finding =
                 tell(cx, cx.range(), "the first move after the reference return goes by increments");
             let finding = finding.label("by this much, not to this point");

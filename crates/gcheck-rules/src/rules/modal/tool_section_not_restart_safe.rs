@@ -144,8 +144,12 @@ impl PathRule for ToolSectionNotRestartSafe {
                 Needed::WorkOffset => !by_turret,
                 // What the program never states is a matter of its head.
                 Needed::Plane | Needed::Units => {
-                    role.is_some_and(|role| cx.trace().set_by(Fact::Mode(role)).is_some())
-                        && !(needed == Needed::Units && cx.scene.machine.units_are_told)
+                    // Turning knows one plane.
+                    let is_known = match needed {
+                        Needed::Plane => by_turret,
+                        _ => cx.scene.machine.units_are_told,
+                    };
+                    !is_known && role.is_some_and(|role| cx.trace().set_by(Fact::Mode(role)).is_some())
                 }
                 // A length left over from the tool before; none at all has a rule of its own.
                 Needed::Length => {

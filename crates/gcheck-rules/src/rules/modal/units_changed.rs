@@ -31,7 +31,7 @@ declare_rule! {
     /// ```
     rule "units-changed" in "modal" {
         summary: "units changed within a program",
-        severity: Warning,
+        severity: Info,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -107,7 +107,7 @@ mod tests {
             "G20\nG0 X1\nG21\nG0 X10\nG20\nG0 X1\nM2\n",
             &expect![[r#"
                 3 | G21
-                  | ^^^ warning[units-changed] the program goes over from inches to millimetres
+                  | ^^^ info[units-changed] the program goes over from inches to millimetres
             "#]],
         );
     }

@@ -52,7 +52,8 @@ impl PathRule for ThreadAtSurfaceSpeed {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !cx.has_effect(is_thread) || cx.code_of_role(Role::SpindleMode).is_some() {
+        let is_broken = cx.origin().flags.contains(gcheck_program::BlockFlags::ERROR);
+        if is_broken || !cx.has_effect(is_thread) || cx.code_of_role(Role::SpindleMode).is_some() {
             return;
         }
         let Some(Effect::SurfaceSpeed) = cx.state().effect(Role::SpindleMode, cx.model) else { return };
