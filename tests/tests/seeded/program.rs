@@ -117,8 +117,11 @@ impl Program {
         Self { name: name.to_owned(), control: control.to_owned(), text, blocks, facts }
     }
 
+    /// A turning centre, or a control for both that is told to work in ZX.
     pub(crate) fn is_lathe(&self) -> bool {
+        let plane = self.blocks.iter().find_map(|block| block.code(&[Effect::PlaneXy, Effect::PlaneZx]));
         self.facts.machine() == gcheck_controls::Machine::Lathe
+            || plane.is_some_and(|word| word.effect == Some(Effect::PlaneZx))
     }
 
     /// A number without a point counts smallest steps.

@@ -99,12 +99,11 @@ pub(super) const KINDS: &[Kind] = &[
         &["full-circle-by-radius", "motion-without-axis-words", "arc-radius-too-small"],
         |p| {
             p.each(|block| {
-                let code = arc(p, block).filter(|_| by_centre(block) && !p.is_lathe() && !block.has(b"Z"))?;
+                arc(p, block).filter(|_| by_centre(block) && !p.is_lathe() && !block.has(b"Z"))?;
                 let above = p.previous(block)?;
                 let same = |letter| matches!((block.word(letter), above.word(letter)), (Some(a), Some(b)) if a.number == b.number);
                 let closed = !block.has(b"XYZ") || same(b'X') && same(b'Y');
                 let radius = block.words.iter().filter(|word| matches!(word.letter, b'I' | b'J')).filter_map(|word| word.number).map(f64::abs).fold(0.0, f64::max);
-                let _ = code;
                 if !closed {
                     return None;
                 }
@@ -132,7 +131,7 @@ pub(super) const KINDS: &[Kind] = &[
         "arc-centre-and-radius",
         Fear::Alarm,
         "an arc has both a centre and a radius",
-        &["arc-centre-and-radius", "words-exclude-each-other"],
+        &["arc-centre-and-radius", "words-exclude-each-other", "arc-radius-too-small", "full-circle-by-radius", "arc-end-off-circle"],
         |p| p.each(|block| arc(p, block).filter(|_| by_centre(block)).map(|_| p.behind_words(block, "R5."))),
     ),
     Kind::new(
@@ -156,8 +155,7 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::Linear]).filter(|_| block.moves(&[Effect::Linear]))?;
-                let above = p.previous(block).filter(|above| above.moves(&ARCS) && above.is_plain())?;
-                let _ = above;
+                p.previous(block).filter(|above| above.moves(&ARCS) && above.is_plain())?;
                 (!block.has(b"IJKR")).then(|| p.without(word))
             })
         },

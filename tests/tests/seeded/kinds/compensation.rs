@@ -52,7 +52,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["compensation-on-in-arc"],
         |p| {
             p.each(|block| {
-                let code = block.code(&ON).filter(|_| !block.before.is_compensating && !p.is_lathe())?;
+                let code = block.code(&ON).filter(|_| !block.before.is_compensating && !p.is_lathe() && !p.is_for(&["linuxcnc"]))?;
                 let arc = p.behind(block).iter().take(6).find(|next| next.moves(&ARCS) && next.code(&ARCS).is_some())?;
                 let size = block.word(b'D');
                 let both = format!("{}{}", p.words_of(code), size.map(|d| format!(" {}", p.words_of(d))).unwrap_or_default());
@@ -87,9 +87,9 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "reference-under-compensation",
         Fear::Crash,
-        "`G28` while compensation is on",
+        "`G28` while compensation is on, on a control that refuses it",
         &["refused-under-compensation", "compensation-left-on", "reference-return-through-point"],
-        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe() && !p.is_for(&["generic"])).then(|| p.line_above(block, "G28 G91 Z0."))),
+        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc"])).then(|| p.line_above(block, "G28 Z5"))),
     )
     .anywhere(),
     Kind::new(
@@ -107,7 +107,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["lead-in-too-short", "compensation-gouge"],
         |p| {
             p.each(|block| {
-                block.code(&ON).filter(|_| !p.is_lathe() && block.moves(&[Effect::Linear]) && block.has(b"X") && block.has(b"Y"))?;
+                block.code(&ON).filter(|_| !p.is_lathe() && !block.before.is_subprogram && block.moves(&[Effect::Linear]) && block.has(b"X") && block.has(b"Y"))?;
                 let above = p.blocks[..block.ix].iter().rev().find(|b| b.has(b"X") && b.has(b"Y"))?;
                 let (x, y) = (block.word(b'X')?, block.word(b'Y')?);
                 let (from_x, from_y) = (above.word(b'X')?.number?, above.word(b'Y')?.number?);
@@ -120,18 +120,18 @@ pub(super) const KINDS: &[Kind] = &[
     )
     .with_machine(),
     Kind::new(
-        "corner-too-tight",
+        "bore-smaller-than-tool",
         Fear::Scrap,
-        "an inside arc is smaller than the tool",
-        &["compensation-gouge"],
+        "a bore is smaller than the tool that goes round in it",
+        &["compensation-gouge", "lead-in-too-short"],
         |p| {
             p.each(|block| {
-                block.code(&ON).filter(|_| !p.is_lathe() && !block.before.is_subprogram)?;
-                let code = block.code(&ON)?;
-                // The other side of the contour: its outside corners are inside corners then.
-                let other = if code.effect == Some(Effect::CompensationLeft) { "G42" } else { "G41" };
-                let arcs = p.behind(block).iter().take_while(|next| next.before.is_compensating).any(|next| next.moves(&ARCS));
-                (arcs && matches!(code.effect, Some(Effect::CompensationLeft | Effect::CompensationRight))).then(|| p.instead(code, other))
+                let circle = block.before.is_compensating && block.moves(&ARCS) && !p.is_lathe();
+                let (x, i) = (block.word(b'X').filter(|_| circle)?, block.word(b'I')?);
+                let above = p.previous(block).filter(|above| above.code(&ON).is_some())?;
+                let start = above.word(b'X').filter(|word| word.number == x.number && i.number == x.number.map(|x| -x))?;
+                let small = |word: &Word| p.value(word, format!("{:.3}", word.number.unwrap() / 5.0));
+                Some(vec![small(start), small(x), small(i)])
             })
         },
     )

@@ -14,7 +14,7 @@ const MISSING: &[&str] = &["cycle-word-missing", "required-word-missing", "lasti
 
 /// A cycle that begins here, with a word of it.
 fn word_of<'b>(block: &'b Block, cycles: &[Effect], letter: u8) -> Option<&'b Word> {
-    block.code(cycles).filter(|_| !block.before.is_incremental)?;
+    block.code(cycles).filter(|_| !block.before.is_incremental && block.before.spindle_turns)?;
     block.word(letter)
 }
 
@@ -56,7 +56,7 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "a peck cycle without the depth of a peck",
         MISSING,
-        |p| p.each(|block| word_of(block, &PECKING, b'Q').filter(|_| first(p, block, b'Q')).map(|word| p.without(word))),
+        |p| p.each(|block| word_of(block, &PECKING, b'Q').filter(|_| first(p, block, b'Q') && !p.is_lathe()).map(|word| p.without(word))),
     ),
     Kind::new(
         "peck-of-zero",
@@ -86,10 +86,10 @@ pub(super) const KINDS: &[Kind] = &[
         &["cycle-left-on", "maybe-cycle-left-on", "cycle-r-below-bottom", "cycle-under-compensation"],
         |p| {
             p.each(|block| {
-                let cancel = block.code(&[Effect::CycleCancel]).filter(|_| block.before.motion.is_some_and(|m| DRILLING.contains(&m)))?;
-                (block.words.len() == 1).then_some(())?;
-                let _ = cancel;
-                let next = p.next(block)?;
+                let in_cycle = block.before.motion.is_some_and(|motion| DRILLING.contains(&motion));
+                block.code(&[Effect::CycleCancel]).filter(|_| in_cycle && block.words.len() == 1 && !block.before.is_subprogram)?;
+                let next = p.next(block).filter(|next| next.is_plain() && next.has(b"XYZ") && !next.is_skippable && next.words.len() < 4)?;
+                next.code(&[Effect::Rapid])?;
                 let rapid = next.code(&[Effect::Rapid]).map(|word| p.without(word));
                 Some([p.without_line(block)].into_iter().chain(rapid).collect::<Vec<_>>())
             })

@@ -163,8 +163,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["fall-into-subprogram", "program-end-missing", "return-outside-subroutine"],
         |p| {
             p.each(|block| {
-                let end = block.code(&ENDS).filter(|_| !block.before.is_subprogram && block.words.len() == 1 && !block.is_skippable)?;
-                let _ = end;
+                block.code(&ENDS).filter(|_| !block.before.is_subprogram && block.words.len() == 1 && !block.is_skippable)?;
                 let behind = p.behind(block).iter().any(|next| next.code(&[Effect::Return]).is_some());
                 behind.then(|| p.without_line(block))
             })

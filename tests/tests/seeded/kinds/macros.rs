@@ -152,7 +152,7 @@ pub(super) const KINDS: &[Kind] = &[
             assignments(p, |_, range, text| {
                 let name = text.split('=').next()?.trim_end();
                 let number: u32 = name.strip_prefix('#')?.parse().ok()?;
-                let fits = (100..200).contains(&number);
+                let fits = (100..200).contains(&number) && !p.is_for(&["fanuc"]);
                 fits.then(|| vec![Edit { range: range.start..range.start + name.len(), text: format!("#{number}99") }])
             })
         },
@@ -164,9 +164,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["expression-without-value", "computed-value-out-of-range"],
         |p| {
             assignments(p, |block, range, text| {
-                let fits = block.before.section == 0 || !block.before.is_subprogram;
-                let _ = text;
-                fits.then(|| vec![Edit { range: range.end..range.end, text: "/[5.-5.]".to_owned() }])
+                let value = text.find('=')? + range.start + 1;
+                let zero = format!("[{}/[5.-5.]]", p.text[value..range.end].trim());
+                (!block.before.is_subprogram).then(|| vec![Edit { range: value..range.end, text: zero }])
             })
         },
     )

@@ -118,7 +118,7 @@ pub(super) const KINDS: &[Kind] = &[
         "wrong-plane",
         Fear::Scrap,
         "`G18` is active where arcs are meant in XY",
-        &["arc-wrong-plane-word", "arc-without-centre", "arc-end-off-circle", "arc-radius-too-small", "zero-radius-arc", "full-circle-by-radius", "refused-under-compensation", "compensation-gouge"],
+        &["arc-wrong-plane-word", "arc-without-centre", "arc-end-off-circle", "arc-radius-too-small", "cycle-r-below-bottom", "zero-radius-arc", "full-circle-by-radius", "refused-under-compensation", "compensation-gouge"],
         |p| {
             let arcs = p.blocks.iter().any(|b| b.moves(&[Effect::ArcClockwise, Effect::ArcCounterClockwise]) && !p.is_lathe());
             p.each(|block| block.code(&[Effect::PlaneXy]).filter(|_| arcs).map(|word| p.instead(word, "G18")))
@@ -140,7 +140,7 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "inverse time (`G93`) is on and blocks have no `F` of their own",
         &["inverse-time-feed-missing", "feed-of-another-mode"],
-        |p| before_a_cut(p, "G93").into_iter().filter(|_| !p.is_lathe()).collect(),
+        |p| if p.is_lathe() || p.text.contains("G93") { Vec::new() } else { before_a_cut(p, "G93") },
     )
     .anywhere(),
     Kind::new(
@@ -210,7 +210,7 @@ pub(super) const KINDS: &[Kind] = &[
         "mode-in-skipped-block",
         Fear::Crash,
         "a mode is set in a block that `/` skips",
-        &["modal-change-in-skipped-block", "incremental-left-on", "maybe-incremental-left-on", "tool-length-missing", "maybe-spindle-stopped-while-cutting", "maybe-compensation-left-on"],
+        &["modal-change-in-skipped-block", "incremental-left-on", "maybe-incremental-left-on", "tool-length-missing", "maybe-spindle-stopped-while-cutting", "maybe-compensation-left-on", "spindle-stopped-while-cutting", "length-offset-of-another-tool"],
         |p| {
             p.each(|block| {
                 let modes = [Effect::Absolute, Effect::LengthPlus, Effect::CompensationOff, Effect::SpindleClockwise];
@@ -227,7 +227,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["required-word-missing", "lasting-word-never-given"],
         |p| {
             p.each(|block| {
-                let fits = block.code(&[Effect::ToolChange]).is_some() && !p.is_lathe();
+                let fits = block.code(&[Effect::ToolChange]).is_some() && p.is_for(&["haas-mill", "linuxcnc"]);
                 fits.then(|| p.line_above(block, "G10 L2 X0. Y0."))
             })
         },

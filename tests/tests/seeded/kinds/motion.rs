@@ -16,6 +16,7 @@ fn plunge(p: &Program, block: &Block) -> bool {
         && block.moves(&[Effect::Linear])
         && block.code(&[Effect::Linear]).is_some()
         && !block.before.is_incremental
+        && !block.before.is_subprogram
         && !block.has(b"XY")
         && block.word(b'Z').and_then(|word| word.number).is_some_and(|z| z < 0.0)
 }
@@ -56,7 +57,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["rapid-in-material", "rapid-plunge", "refused-under-compensation"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::Linear]).filter(|_| cut(block) && block.has(b"XY") && !block.has(b"Z") && !p.is_lathe())?;
+                let word = block.code(&[Effect::Linear]).filter(|_| cut(block) && block.has(b"XY") && !block.has(b"ZFD") && !p.is_lathe())?;
                 let above = p.previous(block).filter(|above| above.moves(&CUTS))?;
                 (p.next(block)?.moves(&CUTS) && !above.before.is_incremental).then(|| p.instead(word, "G00"))
             })
@@ -84,7 +85,7 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-never-given",
         Fear::Alarm,
         "no feed in the whole program",
-        &["feed-missing", "maybe-feed-missing", "cycle-word-missing", "thread-without-lead", "required-word-missing"],
+        &["feed-missing", "maybe-feed-missing", "cycle-word-missing", "thread-without-lead", "required-word-missing", "inverse-time-feed-missing"],
         |p| {
             let cuts = p.blocks.iter().any(|block| block.moves(&[Effect::Linear]) && !block.before.is_subprogram);
             let words = p.blocks.iter().filter(|block| block.code(&[Effect::MacroCall]).is_none()).filter_map(|block| block.word(b'F'));
@@ -161,7 +162,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["speed-missing", "spindle-stopped-while-cutting", "number-out-of-range"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'S').filter(|_| block.code(&SPINDLE).is_some() && !block.before.is_subprogram)?;
+                let word = block.word(b'S').filter(|_| block.code(&SPINDLE).is_some() && !block.before.is_subprogram && !p.is_lathe())?;
                 let mut section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 section.any(|next| next.moves(&[Effect::Linear])).then(|| p.value(word, "0"))
             })
@@ -215,13 +216,12 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "spindle-left-for-tapping",
         Fear::Crash,
-        "the spindle turns left for right-hand tapping (`M04` with `G84`)",
+        "the spindle turns left for right-hand tapping (`M04` with `G84`), on a control that refuses it",
         &["cycle-numbers-contradict"],
         |p| {
             p.each(|block| {
-                let tap = block.code(&[Effect::CycleTap])?;
+                block.code(&[Effect::CycleTap]).filter(|_| p.is_for(&["linuxcnc"]))?;
                 let start = p.blocks[..block.ix].iter().rev().find_map(|before| before.code(&[Effect::SpindleClockwise]))?;
-                let _ = tap;
                 Some(p.instead(start, "M04"))
             })
         },
@@ -247,7 +247,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["required-word-missing", "word-choice-missing", "lasting-word-never-given"],
         |p| {
             p.each(|block| {
-                block.code(&[Effect::Dwell])?;
+                block.code(&[Effect::Dwell]).filter(|_| p.is_for(&["haas", "linuxcnc"]))?;
                 let word = block.words.iter().find(|word| matches!(word.letter, b'P' | b'X' | b'U'))?;
                 (block.words.len() == 2).then(|| p.without(word))
             })

@@ -14,8 +14,7 @@ fn tilts(block: &Block) -> bool {
 }
 
 /// Mapping that begins here.
-fn mapping(p: &Program, block: &Block) -> bool {
-    let _ = p;
+fn mapping(block: &Block) -> bool {
     block.code(&[Effect::CylinderMapping]).is_some() && block.has(b"AQR")
 }
 
@@ -125,14 +124,14 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "cylindrical mapping without its rotary axis",
         &["cylinder-without-rotary-axis"],
-        |p| p.each(|block| block.word(b'A').filter(|_| mapping(p, block)).map(|word| p.without(word))),
+        |p| p.each(|block| block.word(b'A').filter(|_| mapping(block)).map(|word| p.without(word))),
     ),
     Kind::new(
         "cylinder-without-diameter",
         Fear::Scrap,
         "cylindrical mapping without its radius",
         &["cylinder-without-diameter", "cylinder-diameter-from-setting"],
-        |p| p.each(|block| block.word(b'R').filter(|_| mapping(p, block)).map(|word| p.without(word))),
+        |p| p.each(|block| block.word(b'R').filter(|_| mapping(block)).map(|word| p.without(word))),
     ),
     Kind::new(
         "reference-in-cycle",

@@ -31,8 +31,8 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "length-forgotten",
         Fear::Crash,
-        "length compensation is forgotten after a tool change (no `G43`)",
-        &["tool-length-missing"],
+        "length compensation is forgotten after a tool change (no `G43`): the tool works without length, or with the one of the tool before",
+        &["tool-length-missing", "length-offset-of-another-tool"],
         |p| {
             p.each(|block| {
                 let (code, offset) = length(block).filter(|_| goes_down(p, block) && block.before.section > 0)?;
@@ -45,7 +45,7 @@ pub(super) const KINDS: &[Kind] = &[
         "length-after-approach",
         Fear::Crash,
         "the tool approaches in Z before length compensation is on",
-        &["tool-length-missing"],
+        &["tool-length-missing", "length-offset-of-another-tool"],
         |p| {
             p.each(|block| {
                 length(block)?;
@@ -67,7 +67,8 @@ pub(super) const KINDS: &[Kind] = &[
                 (!p.is_for(&["linuxcnc"])).then(|| p.without(offset))
             })
         },
-    ),
+    )
+    .anywhere(),
     Kind::new(
         "length-number-zero",
         Fear::Crash,
@@ -79,28 +80,47 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "length-of-another-tool",
         Fear::Crash,
-        "`H` of another tool",
+        "`H` of another tool of the program",
         &["length-offset-of-another-tool"],
         |p| {
             p.each(|block| {
                 let (_, offset) = length(block)?;
-                let other = offset.number? + 1.0;
+                let others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
+                let other = others.filter(|other| Some(*other) != offset.number).last()?;
                 Some(p.value(offset, format!("{other:02}")))
             })
         },
-    ),
+    )
+    .anywhere(),
+    Kind::new(
+        "length-of-no-tool",
+        Fear::Crash,
+        "a digit of `H` is mistyped, and no tool of the program has that offset",
+        &["length-offset-of-another-tool"],
+        |p| {
+            let tools = p.blocks.iter().filter(|block| length(block).is_some()).count();
+            p.each(|block| {
+                let (_, offset) = length(block).filter(|_| tools > 2)?;
+                Some(p.value(offset, format!("{:02}", offset.number? + 30.0)))
+            })
+        },
+    )
+    .anywhere(),
     Kind::new(
         "diameter-of-another-tool",
         Fear::Scrap,
-        "`D` of another tool",
+        "`D` of another tool of the program",
         &["diameter-offset-of-another-tool"],
         |p| {
             p.each(|block| {
                 let offset = diameter(p, block).filter(|word| word.number == block.before.tool.map(f64::from))?;
-                Some(p.value(offset, format!("{:02}", offset.number? + 1.0)))
+                let others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
+                let other = others.filter(|other| Some(*other) != offset.number).last()?;
+                Some(p.value(offset, format!("{other:02}")))
             })
         },
-    ),
+    )
+    .anywhere(),
     Kind::new(
         "diameter-left-out",
         Fear::Scrap,
@@ -129,7 +149,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let change = block.code(&[Effect::ToolChange]).filter(|_| block.word(b'T').is_some_and(|tool| tool.number != Some(0.0)))?;
-                (!p.is_lathe()).then(|| p.without(change))
+                let changes = p.blocks.iter().filter(|other| other.code(&[Effect::ToolChange]).is_some()).count();
+                (!p.is_lathe() && changes > 1).then(|| p.without(change))
             })
         },
     ),
@@ -155,7 +176,7 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let tool = block.word(b'T').filter(|_| block.code(&[Effect::ToolChange]).is_some())?;
-                Some(p.value(tool, "399"))
+                p.is_for(&["haas"]).then(|| p.value(tool, "399"))
             })
         },
     )

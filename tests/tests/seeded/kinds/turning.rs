@@ -97,7 +97,7 @@ pub(super) const KINDS: &[Kind] = &[
         "profile-turns-back",
         Fear::Scrap,
         "a diameter in the middle of a turning profile is mistyped and the profile turns back",
-        PROFILE,
+        &["turning-profile-not-usable", "arc-radius-too-small", "arc-end-off-circle"],
         |p| p.each(|block| {
             let first = profile(p, block)?;
             let inner = p.behind(first).iter().filter(|b| b.moves(&[Effect::Linear]) && b.has(b"X") && !b.has(b"N")).nth(1)?;
@@ -202,8 +202,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["turret-in-the-way-of-bar"],
         |p| p.each(|block| {
             let feed = p.behind(block).iter().take(4).any(|next| next.code(&[Effect::BarFeed]).is_some());
-            let first = block.moves(&[Effect::Rapid]) && feed;
-            first.then(|| p.without_line(block))
+            let next = p.next(block).filter(|next| next.moves(&[Effect::Rapid]) && block.moves(&[Effect::Rapid]) && feed)?;
+            Some(vec![p.without_line(block), p.without_line(next)])
         }),
     )
     .anywhere(),

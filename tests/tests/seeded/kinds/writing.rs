@@ -117,7 +117,7 @@ pub(super) const KINDS: &[Kind] = &[
         "letter-lost",
         Fear::Alarm,
         "the letter in front of a value is lost (`5.25` for `X5.25`)",
-        &["value-without-address", "malformed-number"],
+        &["value-without-address", "malformed-number", "decimal-point-on-integer", "unexpected-text", "unknown-code", "too-many-digits"],
         |p| literals(p, b"XYZF", |_, word| Some(p.instead(word, digits(p, word)).into())),
     ),
     Kind::new(
@@ -230,7 +230,7 @@ pub(super) const KINDS: &[Kind] = &[
         "remark-without-parentheses",
         Fear::Alarm,
         "a remark stands in the program without parentheses",
-        &["unexpected-text", "address-without-value", "unknown-address", "stray-keyword", "letter-o-for-zero", "malformed-number"],
+        &["unexpected-text", "address-without-value", "unknown-address", "stray-keyword", "letter-o-for-zero", "malformed-number", "value-without-address"],
         |p| {
             comments(p)
                 .into_iter()
@@ -270,12 +270,12 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "unknown-m-code",
         Fear::Alarm,
-        "an M code is mistyped (`M088` for `M08`)",
+        "an M code is mistyped (`M808` for `M08`)",
         &["unknown-code", "undeclared-m-code"],
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::FloodOn, Effect::CoolantOff])?;
-                Some(p.instead(word, format!("M4{}8", digits(p, word))))
+                Some(p.instead(word, format!("M8{}", digits(p, word))))
             })
         },
     ),
@@ -333,7 +333,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["lower-case-letter"],
         |p| {
             literals(p, b"XYZ", |_, word| {
-                let fits = p.is_for(&["fanuc", "haas", "generic"]);
+                let fits = p.is_for(&["fanuc"]);
                 fits.then(|| p.instead(word, p.words_of(word).to_lowercase()).into())
             })
         },
@@ -348,7 +348,8 @@ pub(super) const KINDS: &[Kind] = &[
             let marks = text.ends_with("\n%") && text.starts_with('%');
             marks.then(|| crate::kind::Edit { range: text.len() - 1..text.len(), text: String::new() }.into()).into_iter().collect()
         },
-    ),
+    )
+    .anywhere(),
     Kind::new(
         "line-too-long",
         Fear::Alarm,
