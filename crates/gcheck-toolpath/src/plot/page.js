@@ -12,7 +12,11 @@ const make = (name, properties = {}, ...children) => {
   return element;
 };
 
-const sources = page.sources.map((source) => ({ ...source, lines: source.text === null ? null : source.text.split(/\r\n|\r|\n/) }));
+const sources = page.sources.map(({ name, text }) => {
+  const lines = text === null ? null : text.split(/\r\n|\r|\n/);
+  if (lines?.at(-1) === "" && lines.length > 1) lines.pop();
+  return { name, lines };
+});
 const units = page.toolpath.units;
 const SEVERITIES = ["hint", "info", "warning", "error"];
 // By file and line: the findings there, the worst one first.
@@ -29,6 +33,8 @@ let shown = 0;            // the file in the list
 let chosen = null;        // { file, line }
 let now = null;           // where the tool is: { file, line }
 
+// On most lathes there is no Y.
+const AXES = [0, 1, 2].filter((axis) => axis !== 1 || !page.toolpath.lathe || page.toolpath.all?.some((end) => end[1] !== 0));
 const coordinate = (value, axis) => lengthText(axis === 0 && page.toolpath.diameter ? 2 * value : value, units);
 const timeText = (seconds) => {
   const whole = Math.round(seconds), pad = (n) => String(n).padStart(2, "0");
@@ -41,7 +47,7 @@ byId("summary").textContent = [
   page.control,
   `${page.moves.toLocaleString("en")} moves`,
   timeText(page.seconds),
-  ...(page.toolpath.cut ? [0, 1, 2].map((axis) => `${"XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
+  ...(page.toolpath.cut ? AXES.map((axis) => `${"XYZ"[axis]} ${coordinate(page.toolpath.cut[0][axis], axis)} to ${coordinate(page.toolpath.cut[1][axis], axis)}`) : []),
   units,
 ].join(" · ");
 if (page.notes.length) {
@@ -71,7 +77,7 @@ function drawLinesNow() {
   room.style.height = `${lines.length * LINE}px`;
   const first = Math.max(Math.floor(list.scrollTop / LINE) - 4, 0);
   const last = Math.min(first + Math.ceil(list.clientHeight / LINE) + 8, lines.length);
-  const width = `${String(lines.length).length + 3.5}ch`;
+  const width = `${Math.max(String(lines.length).length, 3) + 5}ch`;
   for (let i = first; i < last; i++) {
     const here = found.get(`${shown}:${i + 1}`);
     const row = make("div", { className: "line", id: `line-${i + 1}` },
@@ -186,7 +192,7 @@ function say(place) {
   byId("readout").replaceChildren(
     make("b", { textContent: `line ${place.line}` }),
     ` ${KINDS[place.kind]} to `,
-    make("b", { textContent: place.point.map((value, axis) => `${"XYZ"[axis]}${coordinate(value, axis)}`).join(" ") }),
+    make("b", { textContent: AXES.map((axis) => `${"XYZ"[axis]}${coordinate(place.point[axis], axis)}`).join(" ") }),
     `${tool} · ${timeText(place.seconds)}`,
   );
 }

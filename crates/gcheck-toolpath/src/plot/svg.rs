@@ -21,12 +21,13 @@ const GAP: f64 = 76.0;
 const MOST: [f64; 2] = [1_060.0, 760.0];
 
 const STYLE: &str = "\
-svg{background:#fff;font:12px system-ui,sans-serif;fill:#23282e;--line:#9aa3ad}\
+svg:not(.view){background:#fff;font:12px system-ui,sans-serif;fill:#23282e;--line:#9aa3ad}\
 path{fill:none;stroke-width:1.2;stroke-linecap:round;stroke-linejoin:round}\
 .rapid{stroke-dasharray:5 4;stroke-width:.8;opacity:.75}.probe{stroke-dasharray:1 3}\
 .box{fill:none;stroke:var(--line);stroke-width:.8;stroke-dasharray:2 3}\
+.axis{stroke:var(--line);stroke-dasharray:14 4 3 4;stroke-width:.8}\
 .zero{stroke-width:1.4}.h{font-size:15px;font-weight:600}.m{fill:#6b747e}\
-@media(prefers-color-scheme:dark){svg{background:#15181c;fill:#d6dbe1;--line:#5d6773}.m{fill:#98a2ad}}";
+@media(prefers-color-scheme:dark){svg:not(.view){background:#15181c;fill:#d6dbe1;--line:#5d6773}.m{fill:#98a2ad}}";
 
 /// From where one looks.
 #[derive(Debug, Clone, Copy)]
@@ -153,12 +154,11 @@ impl Drawing {
     }
 
     fn panels(&self) -> Vec<Panel> {
-        let Some([low, high]) = self.all else { return Vec::new() };
+        let Some(mut shown) = self.near() else { return Vec::new() };
         // The zero is drawn as well where it is near.
-        let mut shown = [low, high];
-        let sizes: Vec<f64> = low.iter().zip(high).map(|(low, high)| high - low).collect();
-        let largest = sizes.iter().copied().fold(1e-6, f64::max);
-        let is_near = low.iter().zip(high).all(|(low, high)| *low < largest && high > -largest);
+        let sides: Vec<f64> = three_halves(&mut shown).map(|(low, high)| *high - *low).collect();
+        let largest = sides.into_iter().fold(1e-6, f64::max);
+        let is_near = three_halves(&mut shown).all(|(low, high)| *low < largest && *high > -largest);
         if is_near {
             for (low, high) in three_halves(&mut shown) {
                 *low = low.min(0.0);
@@ -204,13 +204,42 @@ impl Drawing {
         ]
     }
 
+    /// What is cut, with as much of the way there as lies near: a retract to the end of the machine would leave a dot of the
+    /// part.
+    fn near(&self) -> Option<[[f64; 3]; 2]> {
+        let all = self.all?;
+        let Some(mut near) = self.cut else { return Some(all) };
+        let around = three_halves(&mut near).map(|(low, high)| *high - *low).fold(0.0, f64::max) / 4.0;
+        let [lowest, highest] = all;
+        for ((low, high), (lowest, highest)) in three_halves(&mut near).zip(lowest.into_iter().zip(highest)) {
+            *low = (*low - around).max(lowest);
+            *high = (*high + around).min(highest);
+        }
+        Some(near)
+    }
+
     fn panel(&self, svg: &mut String, panel: &Panel, points: &[Point]) {
         let [x, y] = panel.at;
+        let [width, height] = panel.size;
         text(svg, [x, y - 26.0], "m", panel.look.title);
         if let Some(cut) = self.cut {
             self.extents(svg, panel, cut);
         }
+        // A frame of its own for each view cuts off what goes far away.
+        let _ = writeln!(
+            svg,
+            "<svg class=\"view\" x=\"{0:.1}\" y=\"{1:.1}\" width=\"{2:.1}\" height=\"{3:.1}\" viewBox=\"{0:.1} {1:.1} {2:.1} {3:.1}\">",
+            x - 6.0,
+            y - 6.0,
+            width + 12.0,
+            height + 12.0
+        );
+        if self.lathe {
+            let [_, axis] = panel.on_paper([0.0, 0.0]);
+            let _ = writeln!(svg, "<path class=\"axis\" d=\"M{:.1} {axis:.1}h{:.1}\"/>", x - 6.0, width + 12.0);
+        }
         self.paths(svg, panel, points);
+        svg.push_str("</svg>\n");
         zero(svg, panel);
     }
 
