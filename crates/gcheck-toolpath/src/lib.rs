@@ -7,6 +7,7 @@
 
 mod bar;
 mod canonical;
+mod compare;
 mod csv;
 mod jsonl;
 mod motion;
@@ -20,9 +21,11 @@ mod step;
 mod summary;
 mod text;
 mod time;
+mod trail;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
+pub use compare::{Aspect, Difference, Differences, Parting, Place, Value, compare};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
 pub use placing::WorkCoordinates;
@@ -34,3 +37,4 @@ pub use step::{Beside, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};
+pub use trail::{Act, Doing, Driven, Feed, Move, Setting, Stand, Trail};

@@ -63,13 +63,7 @@ impl Placing {
     /// A point in the coordinates of the first system. One whose distance from it is unknown is taken to be the first.
     pub(crate) fn placed(&self, point: &Position) -> Position {
         let first = self.first.unwrap_or(self.work);
-        let mut placed = self.unshifted(point);
-        if !self.is_upright() {
-            let (sin, cos) = self.work.rotation.to_radians().sin_cos();
-            let (x, y) = (placed.raw(Axis::X), placed.raw(Axis::Y));
-            placed.set(Axis::X, x * cos - y * sin);
-            placed.set(Axis::Y, x * sin + y * cos);
-        }
+        let mut placed = self.in_work(point);
         for (axis, way) in LINEAR.into_iter().zip(self.away(&first)) {
             if !way.is_nan() {
                 placed.set(axis, placed.raw(axis) + way);
@@ -78,16 +72,22 @@ impl Placing {
         placed
     }
 
-    /// A point in the work coordinate system without its shifts; an unknown shift is taken to be none.
-    pub(crate) fn unshifted(&self, point: &Position) -> Position {
-        let mut unshifted = *point;
+    /// A point in its own work coordinate system without shifts and rotation; an unknown shift is taken to be none.
+    pub(crate) fn in_work(&self, point: &Position) -> Position {
+        let mut plain = *point;
         for axis in LINEAR {
             let shift = self.shift.raw(axis);
             if !shift.is_nan() {
-                unshifted.set(axis, point.raw(axis) + shift);
+                plain.set(axis, point.raw(axis) + shift);
             }
         }
-        unshifted
+        if !self.is_upright() {
+            let (sin, cos) = self.work.rotation.to_radians().sin_cos();
+            let (x, y) = (plain.raw(Axis::X), plain.raw(Axis::Y));
+            plain.set(Axis::X, x * cos - y * sin);
+            plain.set(Axis::Y, x * sin + y * cos);
+        }
+        plain
     }
 
     /// Was something placed whose place is not known?

@@ -5,6 +5,7 @@
 pub(crate) mod codes;
 pub(crate) mod completions;
 pub(crate) mod controls;
+pub(crate) mod diff;
 pub(crate) mod explain;
 pub(crate) mod init;
 pub(crate) mod plot;

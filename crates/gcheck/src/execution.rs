@@ -20,7 +20,7 @@ use gcheck_syntax::SourceText;
 use gcheck_toolpath::View;
 
 pub(crate) use bridge::Steps;
-pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, say};
+pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, problem_of, say};
 pub(crate) use equipment::{Equipment, Start};
 
 use crate::args::{ExecutionOptions, Global, Switch};

@@ -116,12 +116,12 @@ mod tests {
     use super::*;
 
     fn line(points: impl IntoIterator<Item = [f32; 3]>) -> Vec<Point> {
-        let points = points.into_iter().enumerate();
+        let points = points.into_iter().zip(0_u16..);
         points
             .map(|(ix, at)| Point {
                 at,
-                seconds: ix as f32,
-                line: ix as u32,
+                seconds: f32::from(ix),
+                line: ix.into(),
                 kind: if ix == 0 { Kind::Start } else { Kind::Feed },
                 tool: 0,
                 file: 0,
@@ -144,7 +144,7 @@ mod tests {
         let moved = to(&mut points, 300);
         assert!(points.len() <= 300 && moved < 1.0, "{} {moved}", points.len());
         for pair in points.windows(2) {
-            let middle = [0, 1].map(|axis| (pair[0].at[axis] + pair[1].at[axis]) / 2.0);
+            let middle = [0, 1].map(|axis| f32::midpoint(pair[0].at[axis], pair[1].at[axis]));
             assert!((f64::from(middle[0].hypot(middle[1])) - 100.0).abs() <= moved);
         }
     }
