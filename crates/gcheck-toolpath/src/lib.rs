@@ -7,10 +7,13 @@
 
 mod bar;
 mod canonical;
+mod compare;
 mod csv;
 mod jsonl;
 mod motion;
 mod number;
+mod placing;
+pub mod plot;
 mod record;
 mod sink;
 mod statistics;
@@ -18,11 +21,14 @@ mod step;
 mod summary;
 mod text;
 mod time;
+mod trail;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
+pub use compare::{Aspect, Difference, Differences, Parting, Place, Value, compare};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
+pub use placing::WorkCoordinates;
 pub use record::Kind;
 pub use statistics::{
     Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
@@ -31,3 +37,4 @@ pub use step::{Beside, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};
+pub use trail::{Act, Doing, Driven, Feed, Move, Setting, Stand, Trail};

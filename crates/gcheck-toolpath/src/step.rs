@@ -27,6 +27,10 @@ pub struct Step<'a> {
     pub machine: Position,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
+    /// Number of the tool length offset that was called last, 0 for none; `None` unknown.
+    pub h: Option<u32>,
+    /// Number of the cutter offset that was called last; `None` unknown.
+    pub d: Option<u32>,
     /// Why the axes stand beside the programmed point, where a reader is told both.
     pub beside: Option<Beside>,
     /// Name of the file that holds the block.

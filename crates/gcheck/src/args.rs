@@ -64,6 +64,10 @@ pub enum Command {
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
     Stats(StatsOptions),
+    /// Compare two programs by what they make the machine do
+    Diff(DiffOptions),
+    /// Draw the toolpath of a program: a picture (SVG), or a page with a view in three dimensions (HTML)
+    Plot(PlotOptions),
     /// Explain a rule, or a code as a control reads it
     Explain(ExplainOptions),
     /// List the rules
@@ -259,6 +263,55 @@ pub struct StatsOptions {
     pub output_file: Option<PathBuf>,
 }
 
+/// Options of `gcheck diff`.
+#[derive(Debug, Args)]
+pub struct DiffOptions {
+    /// A program; `-` reads standard input
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+    /// The program that it is compared with
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
+    /// Paths are the same while they stay this close on every axis: millimetres, or degrees on rotary axes
+    #[arg(long, value_name = "MM", value_parser = tolerance, default_value = "0.001")]
+    pub tolerance: f64,
+    /// The control that runs B, where it is another one than that of A
+    #[arg(long, value_name = "NAME")]
+    pub control_b: Option<String>,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// A variable's value before both programs start: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
+    pub set: Vec<Assignment>,
+    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
+    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
+    pub block_skip: BlockSkip,
+    /// The optional stop switch: whether `M1` stops
+    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
+    pub optional_stop: Switch,
+    /// Blocks of each program that may be executed
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    pub fuel: u64,
+    /// How differences are printed
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub output_format: ListFormat,
+    /// Write to this file instead of standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: Option<PathBuf>,
+}
+
+/// Options of `gcheck plot`.
+#[derive(Debug, Args)]
+pub struct PlotOptions {
+    /// What is executed, and how.
+    #[command(flatten)]
+    pub execution: ExecutionOptions,
+    /// Write to this file: `.svg` a picture, `.html` a page that needs nothing else
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: PathBuf,
+}
+
 /// A switch of the operator's panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Switch {
@@ -340,6 +393,13 @@ fn output_file(text: &str) -> Result<OutputFile, String> {
         Some((format, path)) => OutputFile { format: Some(format), path: PathBuf::from(path) },
         None => OutputFile { format: None, path: PathBuf::from(text) },
     })
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("write a length in millimetres, such as 0.001".to_owned()),
+    }
 }
 
 fn assignment(text: &str) -> Result<Assignment, String> {

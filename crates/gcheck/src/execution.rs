@@ -19,7 +19,7 @@ use gcheck_syntax::SourceText;
 use gcheck_toolpath::View;
 
 pub(crate) use bridge::Steps;
-pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, say};
+pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, problem_of, say};
 pub(crate) use equipment::{Equipment, Start};
 
 use crate::args::{ExecutionOptions, Global, Switch};
@@ -43,8 +43,8 @@ pub(crate) struct Prepared {
     pub(crate) equipment: Equipment,
     options: Options,
     fuel: u64,
-    path: PathBuf,
-    search: Vec<PathBuf>,
+    pub(crate) path: PathBuf,
+    pub(crate) search: Vec<PathBuf>,
 }
 
 /// Reads the program and what is in force for it.

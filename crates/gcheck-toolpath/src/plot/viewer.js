@@ -496,8 +496,18 @@ export function createViewer(canvas, data, callbacks = {}) {
     callbacks.onPlay?.(false);
   }
 
+  /** What is cut, with as much of the way there as lies near: a retract to the end of the machine would leave a dot of the part. */
+  function near() {
+    if (!d.all) return [[-10, -10, -10], [10, 10, 10]];
+    if (!d.cut) return d.all;
+    const around = Math.max(...d.cut[1].map((v, i) => v - d.cut[0][i])) / 4;
+    const box = [d.cut[0].map((v, i) => Math.max(v - around, d.all[0][i])), d.cut[1].map((v, i) => Math.min(v + around, d.all[1][i]))];
+    if (d.lathe) box[0][0] = Math.min(box[0][0], 0);
+    return box;
+  }
+
   function fit() {
-    const box = d.all ?? [[-10, -10, -10], [10, 10, 10]], [width, height] = size();
+    const box = near(), [width, height] = size();
     target = box[0].map((v, i) => (v + box[1][i]) / 2);
     const reach = [0, 0];
     for (let i = 0; i < 8; i++) {

@@ -158,6 +158,8 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
             rpm: turns(state),
             machine: machine(state, model, event),
             tool: tool(state.tool()),
+            h: tool(state.h()),
+            d: tool(state.d()),
             beside: self.beside(state, event),
             file: &file,
         };
