@@ -37,6 +37,9 @@ pub(crate) fn written_case(style: &Style, dialect: &Dialect<'_>) -> LetterCase {
     }
 }
 
+/// Blanks at the head of a line at most.
+const DEEPEST: usize = 100;
+
 /// Writes lines anew, one after the other.
 pub(crate) struct Writer<'s> {
     style: &'s Style,
@@ -262,7 +265,7 @@ impl<'s> Writer<'s> {
             Indentation::Keep => None,
             Indentation::None => Some(0),
             Indentation::Nested(_) if first == ItemKind::BlockDelete => Some(0),
-            Indentation::Nested(width) => Some(depth * usize::from(width)),
+            Indentation::Nested(width) => Some((depth * usize::from(width)).min(DEEPEST)),
         }
     }
 
@@ -283,7 +286,7 @@ impl<'s> Writer<'s> {
     }
 
     /// Blanks up to a column, one at least.
-    fn column(&self, column: u16) -> Option<usize> {
+    fn column(&self, column: u8) -> Option<usize> {
         let width = self.line.chars().count();
         (column > 0).then(|| usize::from(column - 1).saturating_sub(width).max(1))
     }

@@ -52,6 +52,8 @@ pub enum Refusal {
     SeveralBlocks(u32),
     /// The target may stand in another program, of this file or another one.
     OtherProgram,
+    /// This number names a program, and a block of its own program would get it.
+    TakenByProgram(u32),
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -86,6 +88,9 @@ impl fmt::Display for Refusal {
             }
             Self::OtherProgram => {
                 f.write_str("this may name a block of another program, which would not be renumbered with it")
+            }
+            Self::TakenByProgram(number) => {
+                write!(f, "this names program O{number}, and a block would get that number")
             }
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
@@ -174,7 +179,7 @@ fn follow<'l>(
                 let is_taken = numbers
                     .iter()
                     .any(|((of, _), new)| *of == program && matches!(new, New::One(new) if *new == number.value));
-                return if is_taken { Err(Refusal::OtherProgram) } else { Ok((number, number.value)) };
+                return if is_taken { Err(Refusal::TakenByProgram(number.value)) } else { Ok((number, number.value)) };
             }
             None => return Err(Refusal::NoSuchBlock(number.value)),
             Some(New::Several) => return Err(Refusal::SeveralBlocks(number.value)),

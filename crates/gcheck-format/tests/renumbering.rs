@@ -159,7 +159,7 @@ fn an_outline_is_a_block_or_a_program() {
     );
     // The twentieth block would be taken for the outline.
     check("haas-mill", "O1\nN1 G150 P20 Z-1. Q1. I1. D1 F100.\nN2 M30\n", &expect![[r#"
-        refused at `P20`: this may name a block of another program, which would not be renumbered with it
+        refused at `P20`: this names program O20, and a block would get that number
     "#]]);
 }
 
