@@ -202,9 +202,11 @@ impl<'s> Writer<'s> {
         let labels = self.labels.as_ref()?;
         let ix = self.items.iter().position(|item| item.kind != ItemKind::BlockDelete)?;
         let number = self.items.get(ix).filter(|item| item.kind == ItemKind::SequenceNumber)?;
-        // A number alone is a block, and a comment behind one speaks for its own line.
+        // A number alone is a block, and a comment behind one speaks for its own line. Of two numbers one may be the label.
         let next = self.items.get(ix + 1)?;
-        let has_code = next.kind.is_word() || next.kind == ItemKind::Statement;
+        let is_number = |item: &&Item| item.kind == ItemKind::SequenceNumber;
+        let has_code = self.items.iter().filter(is_number).count() == 1
+            && (next.kind.is_word() || next.kind == ItemKind::Statement);
         (has_code && labels.is_unnamed(base + number.range.start)).then_some(ix)
     }
 
