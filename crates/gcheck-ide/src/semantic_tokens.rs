@@ -126,7 +126,9 @@ impl Painter<'_> {
         let Some(first) = line.first() else { return };
         if first.range.start >= self.end {
             // Nobody reads what stands behind the tape but people.
-            let last = line.iter().rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
+            let last = line
+                .iter()
+                .rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
             self.list.extend(last.map(|last| SemanticToken {
                 range: first.range.start..last.range.end,
                 kind: Kind::Comment as u32,
@@ -223,7 +225,9 @@ fn word(control: &Control, text: &str, is_head: bool) -> (Kind, u32) {
 }
 
 fn code(control: &Control, number: CodeNumber) -> Kind {
-    let Some(code) = control.code(number).filter(|code| code.entry().ends.is_none()) else { return Kind::Code };
+    let Some(code) = control.code(number).filter(|code| code.entry().ends.is_none()) else {
+        return Kind::Code;
+    };
     match code.motion() {
         Motion::Rapid | Motion::Reference => Kind::Rapid,
         Motion::Feed | Motion::Thread | Motion::Probe => Kind::Feed,

@@ -4,15 +4,18 @@
 
 use std::ops::Range;
 
+use crate::memory::remembers;
 use crate::{Finding, Fix};
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
 }
 
-#[derive(Debug)]
+remembers!(Pairs: pairs);
+
+#[derive(Debug, Clone, PartialEq)]
 struct Pair {
     tool: u32,
     offset: u32,
@@ -20,6 +23,8 @@ struct Pair {
     /// The word that gives the offset by its number alone.
     word: Option<Range<u32>>,
 }
+
+remembers!(Pair: finding, word);
 
 /// What the other tools of the program do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

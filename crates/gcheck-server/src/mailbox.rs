@@ -83,7 +83,12 @@ pub(crate) fn mailbox() -> (Mailbox, Inbox) {
 
 impl Mailbox {
     /// Posts work. With the owner gone there is nobody left to do it.
-    pub(crate) fn post(&self, name: &'static str, kind: Kind, work: impl FnOnce(&mut Owner) + Send + 'static) {
+    pub(crate) fn post(
+        &self,
+        name: &'static str,
+        kind: Kind,
+        work: impl FnOnce(&mut Owner) + Send + 'static,
+    ) {
         if let Some(count) = self.waiting.of(kind) {
             count.fetch_add(1, Ordering::AcqRel);
         }

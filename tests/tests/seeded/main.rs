@@ -62,7 +62,11 @@ fn mistakes_in_our_programs_are_found() {
     let programs = cases::ours();
     let cases = cases::of_ours(&programs);
     for kind in kinds::all() {
-        assert!(cases.iter().any(|case| case.kind.id == kind.id), "{}: no program has a place for it", kind.id);
+        assert!(
+            cases.iter().any(|case| case.kind.id == kind.id),
+            "{}: no program has a place for it",
+            kind.id
+        );
     }
     let table = Table::count(&cases, &product::found(&cases));
     let corpus = Table::read(include_str!("../../recall-corpus.tsv"));
