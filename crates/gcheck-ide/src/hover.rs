@@ -273,8 +273,10 @@ impl Cx<'_> {
     /// The code that gives a word its meaning: one of the block, else the cycle or motion in effect.
     fn reader(&self, word: &Word, look: Option<&Look<'_, '_>>) -> Option<(Code<'_>, &WordEntry)> {
         let control = self.snapshot.control();
-        let words = self.place.table.words(self.place.block()).iter();
-        let in_block = words.filter_map(|word| control.code_at(word.code));
+        let words = || self.place.table.words(self.place.block()).iter();
+        let in_block = words().filter_map(|word| control.code_at(word.code));
+        // Behind a call words are arguments, whatever motion is in effect.
+        let look = look.filter(|_| !in_block.clone().any(|code| code.entry().any_words));
         let in_effect = look.zip(self.state).into_iter().flat_map(|(look, state)| {
             let cycle = state.before.active_cycle(look.model());
             let motion = state.before.mode(Role::Motion).only();
@@ -330,7 +332,7 @@ impl Cx<'_> {
         if let Some(naming) = target {
             let _ = write!(text, "\n\n{}", self.thing(&naming.thing, None));
         }
-        if let (Some(look), Some(axis)) = (look, self.axis(word.letter)) {
+        if let (Some(look), Some(axis), None) = (look, self.axis(word.letter), calls) {
             text.push_str(&self.coordinate(axis, look));
         }
         text
@@ -794,11 +796,11 @@ mod tests {
             "haas-mill",
             "O1\nG65 P9010 A$01.5\nM30\n",
             &expect![[r#"
-            [A1.5]
-            **A** A target (`G0`), optional, degrees
+                [A1.5]
+                **A** argument `#1` of the program that `G65` calls
 
-            `A1.5` is 1.5 degrees
-        "#]],
+                `A1.5` is 1.5 degrees
+            "#]],
         );
     }
 

@@ -40,6 +40,7 @@ mod state_at;
 mod syntax_tree;
 mod things;
 mod toolpath;
+mod typing;
 mod workspace;
 mod workspace_symbols;
 

@@ -50,8 +50,14 @@ pub struct StateSide {
     pub speed: Option<String>,
     /// What the spindle does.
     pub spindle: &'static str,
-    /// Tool in the spindle, tool called for, numbers of the offsets of length (`H`) and cutter (`D`).
-    pub numbers: BTreeMap<char, String>,
+    /// The tool in the spindle; `None` not known.
+    pub tool: Option<String>,
+    /// The tool called for.
+    pub selected_tool: Option<String>,
+    /// Number of the tool length offset (`H`); 0 for none.
+    pub length_offset: Option<String>,
+    /// Number of the cutter compensation offset (`D`); 0 for none.
+    pub cutter_offset: Option<String>,
     /// The active work coordinate system.
     pub work_offset: Option<String>,
     /// Its origin in machine coordinates.
@@ -135,13 +141,9 @@ fn side(
     let model = reading.model;
     let places = reading.places(state);
     let named = |point: &Position| axes(reading, state, point);
-    let mut numbers = BTreeMap::new();
-    for (letter, number) in [('T', state.tool()), ('t', state.selected()), ('H', state.h()), ('D', state.d())]
-    {
-        if !matches!(number, AbstractValue::Vacant | AbstractValue::Unknown) {
-            numbers.insert(letter, value(number));
-        }
-    }
+    let number = |held: &AbstractValue| {
+        (!matches!(held, AbstractValue::Vacant | AbstractValue::Unknown)).then(|| value(held))
+    };
     StateSide {
         units: unit(reading.units(state)),
         diameter: reading.diameter(state),
@@ -149,7 +151,10 @@ fn side(
         feed: reading.feed(state),
         speed: reading.speed(state),
         spindle: Reading::spindle(state),
-        numbers,
+        tool: number(state.tool()),
+        selected_tool: number(state.selected()),
+        length_offset: number(state.h()),
+        cutter_offset: number(state.d()),
         work_offset: state.work().map(|number| gcheck_rules::work_offset_name(number, model)),
         origin: named(&state.work_offset().origin),
         programmed: named(&places.programmed),
@@ -241,214 +246,25 @@ mod tests {
             "haas-mill",
             "%\nO1\nG20 G90 G54 G0 X1. Y2.\n#100=2.5\nG1 X$03. F20.\nM30\n%\n",
             &expect![[r##"
-            Some(
-                StateView {
-                    line: 4,
-                    start: 37,
-                    end: 48,
-                    on_every_path: true,
-                    visits: 1,
-                    before: StateSide {
-                        units: "inch",
-                        diameter: false,
-                        modes: [
-                            ModeView {
-                                group: "motion",
-                                codes: [
-                                    "G0",
-                                ],
-                                set_at: Some(
-                                    5,
-                                ),
-                            },
-                            ModeView {
-                                group: "canned cycle",
-                                codes: [
-                                    "G80",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "plane of arcs, rotation and compensation",
-                                codes: [
-                                    "G17",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "absolute or incremental",
-                                codes: [
-                                    "G90",
-                                ],
-                                set_at: Some(
-                                    5,
-                                ),
-                            },
-                            ModeView {
-                                group: "meaning of F",
-                                codes: [
-                                    "G94",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "inch or millimetre",
-                                codes: [
-                                    "G20",
-                                ],
-                                set_at: Some(
-                                    5,
-                                ),
-                            },
-                            ModeView {
-                                group: "cutter compensation",
-                                codes: [
-                                    "G40",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "tool length compensation, tool center point control",
-                                codes: [
-                                    "G49",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "height to return to in canned cycles",
-                                codes: [
-                                    "G98",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "work offset",
-                                codes: [
-                                    "G54",
-                                ],
-                                set_at: Some(
-                                    5,
-                                ),
-                            },
-                            ModeView {
-                                group: "exact stop",
-                                codes: [
-                                    "G64",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "scaling",
-                                codes: [
-                                    "G50",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "rotation",
-                                codes: [
-                                    "G69",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "mirror image, axis by axis",
-                                codes: [
-                                    "G100",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "dynamic work offset",
-                                codes: [
-                                    "G255",
-                                ],
-                                set_at: None,
-                            },
-                        ],
-                        feed: None,
-                        speed: None,
-                        spindle: "spindle stopped",
-                        numbers: {
-                            'D': "0",
-                            'H': "0",
-                        },
-                        work_offset: Some(
-                            "G54",
-                        ),
-                        origin: {
-                            'X': None,
-                            'Y': None,
-                            'Z': None,
-                        },
-                        programmed: {
-                            'X': Some(
-                                1.0,
-                            ),
-                            'Y': Some(
-                                2.0,
-                            ),
-                            'Z': None,
-                        },
-                        work: {
-                            'X': Some(
-                                1.0,
-                            ),
-                            'Y': Some(
-                                2.0,
-                            ),
-                            'Z': None,
-                        },
-                        machine: {
-                            'X': None,
-                            'Y': None,
-                            'Z': None,
-                        },
-                        tip: {
-                            'X': None,
-                            'Y': None,
-                            'Z': None,
-                        },
-                        length: {
-                            'X': Some(
-                                0.0,
-                            ),
-                            'Y': Some(
-                                0.0,
-                            ),
-                            'Z': Some(
-                                0.0,
-                            ),
-                        },
-                        shift: {
-                            'X': Some(
-                                0.0,
-                            ),
-                            'Y': Some(
-                                0.0,
-                            ),
-                            'Z': Some(
-                                0.0,
-                            ),
-                        },
-                        variables: [
-                            VariableView {
-                                name: "#100",
-                                value: "2.5",
-                            },
-                        ],
-                    },
-                    after: Some(
-                        StateSide {
+                Some(
+                    StateView {
+                        line: 4,
+                        start: 37,
+                        end: 48,
+                        on_every_path: true,
+                        visits: 1,
+                        before: StateSide {
                             units: "inch",
                             diameter: false,
                             modes: [
                                 ModeView {
                                     group: "motion",
                                     codes: [
-                                        "G1",
+                                        "G0",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        5,
+                                    ),
                                 },
                                 ModeView {
                                     group: "canned cycle",
@@ -469,7 +285,9 @@ mod tests {
                                     codes: [
                                         "G90",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        5,
+                                    ),
                                 },
                                 ModeView {
                                     group: "meaning of F",
@@ -483,7 +301,9 @@ mod tests {
                                     codes: [
                                         "G20",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        5,
+                                    ),
                                 },
                                 ModeView {
                                     group: "cutter compensation",
@@ -511,7 +331,9 @@ mod tests {
                                     codes: [
                                         "G54",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        5,
+                                    ),
                                 },
                                 ModeView {
                                     group: "exact stop",
@@ -549,15 +371,17 @@ mod tests {
                                     set_at: None,
                                 },
                             ],
-                            feed: Some(
-                                "F20 inch/min",
-                            ),
+                            feed: None,
                             speed: None,
                             spindle: "spindle stopped",
-                            numbers: {
-                                'D': "0",
-                                'H': "0",
-                            },
+                            tool: None,
+                            selected_tool: None,
+                            length_offset: Some(
+                                "0",
+                            ),
+                            cutter_offset: Some(
+                                "0",
+                            ),
                             work_offset: Some(
                                 "G54",
                             ),
@@ -568,7 +392,7 @@ mod tests {
                             },
                             programmed: {
                                 'X': Some(
-                                    3.0,
+                                    1.0,
                                 ),
                                 'Y': Some(
                                     2.0,
@@ -577,7 +401,7 @@ mod tests {
                             },
                             work: {
                                 'X': Some(
-                                    3.0,
+                                    1.0,
                                 ),
                                 'Y': Some(
                                     2.0,
@@ -623,10 +447,199 @@ mod tests {
                                 },
                             ],
                         },
-                    ),
-                },
-            )
-        "##]],
+                        after: Some(
+                            StateSide {
+                                units: "inch",
+                                diameter: false,
+                                modes: [
+                                    ModeView {
+                                        group: "motion",
+                                        codes: [
+                                            "G1",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "canned cycle",
+                                        codes: [
+                                            "G80",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "plane of arcs, rotation and compensation",
+                                        codes: [
+                                            "G17",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "absolute or incremental",
+                                        codes: [
+                                            "G90",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "meaning of F",
+                                        codes: [
+                                            "G94",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "inch or millimetre",
+                                        codes: [
+                                            "G20",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "cutter compensation",
+                                        codes: [
+                                            "G40",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool length compensation, tool center point control",
+                                        codes: [
+                                            "G49",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "height to return to in canned cycles",
+                                        codes: [
+                                            "G98",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "work offset",
+                                        codes: [
+                                            "G54",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "exact stop",
+                                        codes: [
+                                            "G64",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "scaling",
+                                        codes: [
+                                            "G50",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "rotation",
+                                        codes: [
+                                            "G69",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "mirror image, axis by axis",
+                                        codes: [
+                                            "G100",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "dynamic work offset",
+                                        codes: [
+                                            "G255",
+                                        ],
+                                        set_at: None,
+                                    },
+                                ],
+                                feed: Some(
+                                    "F20 inch/min",
+                                ),
+                                speed: None,
+                                spindle: "spindle stopped",
+                                tool: None,
+                                selected_tool: None,
+                                length_offset: Some(
+                                    "0",
+                                ),
+                                cutter_offset: Some(
+                                    "0",
+                                ),
+                                work_offset: Some(
+                                    "G54",
+                                ),
+                                origin: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                programmed: {
+                                    'X': Some(
+                                        3.0,
+                                    ),
+                                    'Y': Some(
+                                        2.0,
+                                    ),
+                                    'Z': None,
+                                },
+                                work: {
+                                    'X': Some(
+                                        3.0,
+                                    ),
+                                    'Y': Some(
+                                        2.0,
+                                    ),
+                                    'Z': None,
+                                },
+                                machine: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                tip: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                length: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Y': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                shift: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Y': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                variables: [
+                                    VariableView {
+                                        name: "#100",
+                                        value: "2.5",
+                                    },
+                                ],
+                            },
+                        ),
+                    },
+                )
+            "##]],
         );
     }
 
@@ -636,215 +649,25 @@ mod tests {
             "haas-lathe",
             "O1\nG20 G54 T0101\nG0 X2. Z.1\nG1 X1.$0 F.01\nM30\n",
             &expect![[r#"
-            Some(
-                StateView {
-                    line: 3,
-                    start: 28,
-                    end: 39,
-                    on_every_path: true,
-                    visits: 1,
-                    before: StateSide {
-                        units: "inch",
-                        diameter: true,
-                        modes: [
-                            ModeView {
-                                group: "motion, with the box cycles",
-                                codes: [
-                                    "G0",
-                                ],
-                                set_at: Some(
-                                    17,
-                                ),
-                            },
-                            ModeView {
-                                group: "drilling and tapping cycles",
-                                codes: [
-                                    "G80",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "plane of arcs and compensation",
-                                codes: [
-                                    "G18",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "absolute or incremental positions",
-                                codes: [
-                                    "G390",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "feed per minute or per revolution",
-                                codes: [
-                                    "G99",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "units",
-                                codes: [
-                                    "G20",
-                                ],
-                                set_at: Some(
-                                    3,
-                                ),
-                            },
-                            ModeView {
-                                group: "tool nose compensation",
-                                codes: [
-                                    "G40",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "tool length compensation",
-                                codes: [
-                                    "G49",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "work offset",
-                                codes: [
-                                    "G54",
-                                ],
-                                set_at: Some(
-                                    3,
-                                ),
-                            },
-                            ModeView {
-                                group: "exact stop",
-                                codes: [
-                                    "G64",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "surface speed or rpm",
-                                codes: [
-                                    "G97",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "X as radius or diameter",
-                                codes: [
-                                    "G170",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "scaling",
-                                codes: [
-                                    "G250",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "rotation",
-                                codes: [
-                                    "G69",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "mirror image, axis by axis",
-                                codes: [
-                                    "G100",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "XY to XC interpolation",
-                                codes: [
-                                    "G113",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "dynamic work offset",
-                                codes: [
-                                    "G255",
-                                ],
-                                set_at: None,
-                            },
-                            ModeView {
-                                group: "tilted plane",
-                                codes: [
-                                    "G269",
-                                ],
-                                set_at: None,
-                            },
-                        ],
-                        feed: None,
-                        speed: None,
-                        spindle: "spindle stopped",
-                        numbers: {
-                            'D': "1",
-                            'H': "1",
-                            'T': "1",
-                            't': "1",
-                        },
-                        work_offset: Some(
-                            "G54",
-                        ),
-                        origin: {
-                            'X': None,
-                            'Z': None,
-                        },
-                        programmed: {
-                            'X': Some(
-                                2.0,
-                            ),
-                            'Z': Some(
-                                0.1,
-                            ),
-                        },
-                        work: {
-                            'X': Some(
-                                2.0,
-                            ),
-                            'Z': Some(
-                                0.1,
-                            ),
-                        },
-                        machine: {
-                            'X': None,
-                            'Z': None,
-                        },
-                        tip: {
-                            'X': None,
-                            'Z': None,
-                        },
-                        length: {
-                            'X': None,
-                            'Z': None,
-                        },
-                        shift: {
-                            'X': Some(
-                                0.0,
-                            ),
-                            'Z': Some(
-                                0.0,
-                            ),
-                        },
-                        variables: [],
-                    },
-                    after: Some(
-                        StateSide {
+                Some(
+                    StateView {
+                        line: 3,
+                        start: 28,
+                        end: 39,
+                        on_every_path: true,
+                        visits: 1,
+                        before: StateSide {
                             units: "inch",
                             diameter: true,
                             modes: [
                                 ModeView {
                                     group: "motion, with the box cycles",
                                     codes: [
-                                        "G1",
+                                        "G0",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        17,
+                                    ),
                                 },
                                 ModeView {
                                     group: "drilling and tapping cycles",
@@ -879,7 +702,9 @@ mod tests {
                                     codes: [
                                         "G20",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        3,
+                                    ),
                                 },
                                 ModeView {
                                     group: "tool nose compensation",
@@ -900,7 +725,9 @@ mod tests {
                                     codes: [
                                         "G54",
                                     ],
-                                    set_at: None,
+                                    set_at: Some(
+                                        3,
+                                    ),
                                 },
                                 ModeView {
                                     group: "exact stop",
@@ -966,17 +793,21 @@ mod tests {
                                     set_at: None,
                                 },
                             ],
-                            feed: Some(
-                                "F0.01 inch/rev",
-                            ),
+                            feed: None,
                             speed: None,
                             spindle: "spindle stopped",
-                            numbers: {
-                                'D': "1",
-                                'H': "1",
-                                'T': "1",
-                                't': "1",
-                            },
+                            tool: Some(
+                                "1",
+                            ),
+                            selected_tool: Some(
+                                "1",
+                            ),
+                            length_offset: Some(
+                                "1",
+                            ),
+                            cutter_offset: Some(
+                                "1",
+                            ),
                             work_offset: Some(
                                 "G54",
                             ),
@@ -986,7 +817,7 @@ mod tests {
                             },
                             programmed: {
                                 'X': Some(
-                                    1.0,
+                                    2.0,
                                 ),
                                 'Z': Some(
                                     0.1,
@@ -994,7 +825,7 @@ mod tests {
                             },
                             work: {
                                 'X': Some(
-                                    1.0,
+                                    2.0,
                                 ),
                                 'Z': Some(
                                     0.1,
@@ -1022,10 +853,204 @@ mod tests {
                             },
                             variables: [],
                         },
-                    ),
-                },
-            )
-        "#]],
+                        after: Some(
+                            StateSide {
+                                units: "inch",
+                                diameter: true,
+                                modes: [
+                                    ModeView {
+                                        group: "motion, with the box cycles",
+                                        codes: [
+                                            "G1",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "drilling and tapping cycles",
+                                        codes: [
+                                            "G80",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "plane of arcs and compensation",
+                                        codes: [
+                                            "G18",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "absolute or incremental positions",
+                                        codes: [
+                                            "G390",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "feed per minute or per revolution",
+                                        codes: [
+                                            "G99",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "units",
+                                        codes: [
+                                            "G20",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool nose compensation",
+                                        codes: [
+                                            "G40",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool length compensation",
+                                        codes: [
+                                            "G49",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "work offset",
+                                        codes: [
+                                            "G54",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "exact stop",
+                                        codes: [
+                                            "G64",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "surface speed or rpm",
+                                        codes: [
+                                            "G97",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "X as radius or diameter",
+                                        codes: [
+                                            "G170",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "scaling",
+                                        codes: [
+                                            "G250",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "rotation",
+                                        codes: [
+                                            "G69",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "mirror image, axis by axis",
+                                        codes: [
+                                            "G100",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "XY to XC interpolation",
+                                        codes: [
+                                            "G113",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "dynamic work offset",
+                                        codes: [
+                                            "G255",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tilted plane",
+                                        codes: [
+                                            "G269",
+                                        ],
+                                        set_at: None,
+                                    },
+                                ],
+                                feed: Some(
+                                    "F0.01 inch/rev",
+                                ),
+                                speed: None,
+                                spindle: "spindle stopped",
+                                tool: Some(
+                                    "1",
+                                ),
+                                selected_tool: Some(
+                                    "1",
+                                ),
+                                length_offset: Some(
+                                    "1",
+                                ),
+                                cutter_offset: Some(
+                                    "1",
+                                ),
+                                work_offset: Some(
+                                    "G54",
+                                ),
+                                origin: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                programmed: {
+                                    'X': Some(
+                                        1.0,
+                                    ),
+                                    'Z': Some(
+                                        0.1,
+                                    ),
+                                },
+                                work: {
+                                    'X': Some(
+                                        1.0,
+                                    ),
+                                    'Z': Some(
+                                        0.1,
+                                    ),
+                                },
+                                machine: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                tip: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                length: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                shift: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                variables: [],
+                            },
+                        ),
+                    },
+                )
+            "#]],
         );
     }
 
