@@ -74,7 +74,7 @@ fn who_asks_for_findings_is_not_sent_them() {
     assert_eq!(session.capabilities["diagnosticProvider"]["workspaceDiagnostics"], true);
     session.open("a.nc", NO_FEED);
     let document = session.document("a.nc");
-    let report = session.client.request("textDocument/diagnostic", document);
+    let report = session.pull(&document);
     assert_eq!(report["kind"], "full");
     let findings = session.pulled("a.nc");
     assert!(findings.iter().any(|finding| finding.contains("feed-missing")), "{findings:?}");
@@ -82,10 +82,10 @@ fn who_asks_for_findings_is_not_sent_them() {
     let asked_again = json!({
         "textDocument": { "uri": session.uri("a.nc") }, "previousResultId": report["resultId"],
     });
-    let report = session.client.request("textDocument/diagnostic", asked_again.clone());
+    let report = session.pull(&asked_again);
     assert_eq!(report["kind"], "unchanged");
     session.edit("a.nc", 2, [5, 6, 5, 6], " F100.");
-    let report = session.client.request("textDocument/diagnostic", asked_again);
+    let report = session.pull(&asked_again);
     assert_eq!(report["kind"], "full");
     assert!(!session.pulled("a.nc").iter().any(|finding| finding.contains("feed-missing")));
     session.client.receive_waiting();

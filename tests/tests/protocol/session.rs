@@ -149,8 +149,20 @@ impl Session {
     /// What is answered to a question for diagnostics, each as in [`Self::published`].
     pub(crate) fn pulled(&mut self, name: &str) -> Vec<String> {
         let params = self.document(name);
-        let report = self.client.request("textDocument/diagnostic", params);
+        let report = self.pull(&params);
         report["items"].as_array().unwrap().iter().map(brief).collect()
+    }
+
+    /// Asks for diagnostics, again where the server wants it.
+    pub(crate) fn pull(&mut self, params: &Value) -> Value {
+        loop {
+            let id = self.client.send_request("textDocument/diagnostic", params.clone());
+            let answer = self.client.answer(id);
+            match answer.get("error") {
+                Some(error) => assert_eq!(error["data"]["retriggerRequest"], true, "{answer}"),
+                None => return answer["result"].clone(),
+            }
+        }
     }
 
     /// The text as the server has it, taken from its tree.

@@ -120,13 +120,14 @@ impl Owner {
         let bytes = range.map(|range| self.places(&snapshot).bytes(range));
         let size = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end - bytes.start);
         let analysis = self.known_analysis(uri);
+        let end = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end);
         let unreachable = analysis.map(|analysis| gcheck_ide::unreachable_ranges(&analysis)).unwrap_or_default();
         self.answer_elsewhere(uri, size > LARGE, reply, move |_| {
             let tokens = gcheck_ide::semantic_tokens(&snapshot, bytes, &unreachable);
             let mut places = Places::new(&snapshot, encoding);
             let mut last = crate::proto::Position::default();
             let mut data = Vec::with_capacity(tokens.len());
-            for token in tokens {
+            for token in tokens.into_iter().take_while(|token| token.range.start < end) {
                 let Range { start, end } = places.range(&token.range);
                 // No token goes over the end of a line, as the protocol wants it.
                 if start.line != end.line {
