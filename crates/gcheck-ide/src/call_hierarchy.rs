@@ -238,9 +238,10 @@ mod tests {
             "haas-mill",
             "O1\nM97 P1000$0\nM30\nN1000 G0 X1.\nM98 P2\nM99\nO2\nM99\n",
             &expect![[r#"
-            O1 of main.nc
-            to O2 of main.nc: 5: P2
-        "#]],
+                N1000 of main.nc
+                from O1 of main.nc: 2: P1000
+                to O2 of main.nc: 5: P2
+            "#]],
         );
         check(
             "haas-mill",

@@ -244,10 +244,10 @@ mod tests {
             "haas-lathe",
             text,
             &expect![[r#"
-            Program O1 [SHAFT] 1-10 @1: O1
-              Tool T0101 [OD ROUGH] 3-6 @3: T0101
-              Tool T3 [GROOVE] 6-10 @7: T0303
-        "#]],
+                Program O1 [SHAFT] 1-10 @1: O1
+                  Tool T0101 [OD ROUGH] 3-6 @3: T0101
+                  Tool T0303 [GROOVE] 6-10 @7: T0303
+            "#]],
         );
     }
 

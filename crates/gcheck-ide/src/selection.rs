@@ -123,6 +123,12 @@ mod tests {
             1: G0 (CLEAR) X1.⏎
         "#]],
         );
-        check("haas-mill", "", &expect![[""]]);
+        check(
+            "haas-mill",
+            "",
+            &expect![[r#"
+            1: 
+        "#]],
+        );
     }
 }

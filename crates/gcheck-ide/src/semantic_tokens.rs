@@ -126,7 +126,9 @@ impl Painter<'_> {
         let Some(first) = line.first() else { return };
         if first.range.start >= self.end {
             // Nobody reads what stands behind the tape but people.
-            let last = line.iter().rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
+            let last = line
+                .iter()
+                .rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));
             self.list.extend(last.map(|last| SemanticToken {
                 range: first.range.start..last.range.end,
                 kind: Kind::Comment as u32,
@@ -223,7 +225,9 @@ fn word(control: &Control, text: &str, is_head: bool) -> (Kind, u32) {
 }
 
 fn code(control: &Control, number: CodeNumber) -> Kind {
-    let Some(code) = control.code(number).filter(|code| code.entry().ends.is_none()) else { return Kind::Code };
+    let Some(code) = control.code(number).filter(|code| code.entry().ends.is_none()) else {
+        return Kind::Code;
+    };
     match code.motion() {
         Motion::Rapid | Motion::Reference => Kind::Rapid,
         Motion::Feed | Motion::Thread | Motion::Probe => Kind::Feed,
@@ -272,28 +276,26 @@ mod tests {
             "haas-mill",
             "%\nO1\nN10 G00 G54 X1. F5. (RAPID)\n/ T1 M6\nG2 I1.\nG81 Z-1.\nG4 P1\n%\nnotes\n",
             &expect![[r#"
-            % program
-            O1 program definition
-            N10 label definition
-            G00 rapid
-            G54 modal
-            X1. coordinate
-            F5. word
-            (RAPID) comment
-            / operator skippable
-            T1 tool skippable
-            M6 code skippable
-            G2 arc
-            I1. coordinate
-            G81 cycle
-            Z-1. coordinate
-            G4 code
-            P1 word
-            % program
-            not function unreachable
-            e word unreachable
-            s word unreachable
-        "#]],
+                % program
+                O1 program definition
+                N10 label definition
+                G00 rapid
+                G54 modal
+                X1. coordinate
+                F5. word
+                (RAPID) comment
+                / operator skippable
+                T1 tool skippable
+                M6 code skippable
+                G2 arc
+                I1. coordinate
+                G81 cycle
+                Z-1. coordinate
+                G4 code
+                P1 word
+                % program
+                notes comment unreachable
+            "#]],
         );
     }
 
@@ -303,23 +305,23 @@ mod tests {
             "fanuc-mill",
             "IF [#5021 GT 2] GOTO 10\n#100=SIN[1.]+#0\nX#100\nN10 M30\n",
             &expect![[r#"
-            IF keyword
-            #5021 variable readonly
-            GT operator
-            2 number
-            GOTO keyword
-            10 number
-            #100 variable
-            = operator
-            SIN function
-            1. number
-            + operator
-            #0 variable readonly
-            X coordinate
-            #100 variable
-            N10 label definition
-            M30 modal
-        "#]],
+                IF keyword
+                #5021 variable readonly
+                GT operator
+                2 number
+                GOTO keyword
+                10 number
+                #100 variable
+                = operator
+                SIN function
+                1. number
+                + operator
+                #0 variable readonly
+                X coordinate
+                #100 variable
+                N10 label definition
+                M30 code
+            "#]],
         );
         check(
             "linuxcnc",

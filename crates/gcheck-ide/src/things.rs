@@ -476,6 +476,20 @@ fn variables(snapshot: &Snapshot, pieces: &[Piece], scopes: &Scopes) -> Vec<Nami
     found
 }
 
+/// The names of parameters in a file, each once, in order.
+pub(crate) fn parameter_names(snapshot: &Snapshot) -> Vec<String> {
+    let mut names: Vec<String> = all_variables(snapshot)
+        .into_iter()
+        .filter_map(|naming| match naming.thing {
+            Thing::Parameter { name, .. } => Some(name),
+            _ => None,
+        })
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
 /// A parameter's name as the control compares it.
 pub(crate) fn parameter_key(name: &str) -> String {
     name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()

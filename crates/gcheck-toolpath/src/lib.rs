@@ -11,6 +11,8 @@ mod csv;
 mod jsonl;
 mod motion;
 mod number;
+mod placing;
+pub mod plot;
 mod record;
 mod sink;
 mod statistics;
@@ -23,6 +25,7 @@ pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
+pub use placing::WorkCoordinates;
 pub use record::Kind;
 pub use statistics::{
     Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,

@@ -64,6 +64,8 @@ pub enum Command {
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
     Stats(StatsOptions),
+    /// Draw the toolpath of a program: a picture (SVG), or a page with a view in three dimensions (HTML)
+    Plot(PlotOptions),
     /// Explain a rule, or a code as a control reads it
     Explain(ExplainOptions),
     /// List the rules
@@ -257,6 +259,17 @@ pub struct StatsOptions {
     /// Write to this file instead of standard output
     #[arg(long, short, value_name = "FILE")]
     pub output_file: Option<PathBuf>,
+}
+
+/// Options of `gcheck plot`.
+#[derive(Debug, Args)]
+pub struct PlotOptions {
+    /// What is executed, and how.
+    #[command(flatten)]
+    pub execution: ExecutionOptions,
+    /// Write to this file: `.svg` a picture, `.html` a page that needs nothing else
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: PathBuf,
 }
 
 /// A switch of the operator's panel.

@@ -7,6 +7,7 @@ pub(crate) mod completions;
 pub(crate) mod controls;
 pub(crate) mod explain;
 pub(crate) mod init;
+pub(crate) mod plot;
 pub(crate) mod rules;
 pub(crate) mod run;
 pub(crate) mod stats;

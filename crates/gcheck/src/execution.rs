@@ -43,8 +43,8 @@ pub(crate) struct Prepared {
     pub(crate) equipment: Equipment,
     options: Options,
     fuel: u64,
-    path: PathBuf,
-    search: Vec<PathBuf>,
+    pub(crate) path: PathBuf,
+    pub(crate) search: Vec<PathBuf>,
 }
 
 /// Reads the program and what is in force for it.

@@ -59,6 +59,9 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Stats(options) => {
             guarded(&options.execution.file, || commands::stats::run(&arguments.global, options))
         }
+        Command::Plot(options) => {
+            guarded(&options.execution.file, || commands::plot::run(&arguments.global, options))
+        }
         Command::Explain(options) => commands::explain::run(&arguments.global, options),
         Command::Rules(options) => commands::rules::run(options),
         Command::Codes(options) => commands::codes::run(&arguments.global, options),

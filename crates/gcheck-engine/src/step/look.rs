@@ -4,17 +4,18 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Letter;
 use gcheck_program::{ExprIx, Value};
 
 use super::{Executor, Options, Outcome};
-use crate::event::Event;
+use crate::event::{Event, Units};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
 use crate::observer::{Observer, Origin};
 use crate::program::Program;
 use crate::state::{At, State};
-use crate::value::{Abstract, AbstractValue};
+use crate::value::{Abstract, AbstractValue, Domain, Truth};
 
 /// Events of one block that are kept.
 const MOST_EVENTS: usize = 20_000;
@@ -113,6 +114,11 @@ impl<'a, 'p> Look<'a, 'p> {
         self.executor.read_name(name, state).ok()
     }
 
+    /// A number without decimal point on an address, as the control counts it.
+    pub fn counted(&mut self, letter: Letter, number: f64, units: Option<Units>) -> f64 {
+        self.executor.scale(letter, number, units)
+    }
+
     /// What a block does in a state.
     pub fn execute(&mut self, at: At, state: &State<Abstract>) -> Trial {
         let mut after = state.clone();
@@ -125,5 +131,12 @@ impl<'a, 'p> Look<'a, 'p> {
             Outcome::Fault(fault) => (None, Some(fault)),
         };
         Trial { events, is_cut_short: more, after, fault }
+    }
+}
+
+impl<D: Domain> State<D> {
+    /// Is flood coolant on, is mist?
+    pub fn coolant(&self) -> (Truth, Truth) {
+        (self.flood, self.mist)
     }
 }

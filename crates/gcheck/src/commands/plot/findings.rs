@@ -1,0 +1,98 @@
+//! What `gcheck check` finds in the program, for the page.
+//!
+//! Knows: how one file is checked with what is in force for it. Must not know: pages.
+
+use gcheck_engine::Model;
+use gcheck_program::Dialect;
+use gcheck_report::{ControlSource, LineIndex};
+use gcheck_rules::{Execution, Job, Scene, check};
+use gcheck_toolpath::plot::Finding;
+
+use crate::Problem;
+use crate::args::{Global, PlotOptions};
+use crate::config::{Configs, RuleWishes, unknown_rule};
+use crate::execution::{Equipment, Prepared, Start};
+use crate::programs::{ProgramFolders, Reachable};
+
+/// More findings are counted, not shown.
+const MOST: usize = 1_000;
+
+/// What was found.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    shown: Vec<OneFound>,
+    more: usize,
+}
+
+#[derive(Debug)]
+struct OneFound {
+    line: u32,
+    severity: &'static str,
+    rule: &'static str,
+    message: String,
+}
+
+impl Found {
+    /// The findings, all in the file of this name.
+    pub(super) fn findings<'f>(&'f self, file: &'f str) -> impl Iterator<Item = Finding<'f>> {
+        self.shown.iter().map(move |found| Finding {
+            file,
+            line: found.line,
+            severity: found.severity,
+            rule: found.rule,
+            message: &found.message,
+        })
+    }
+
+    /// That there are more.
+    pub(super) fn note(&self) -> Option<String> {
+        (self.more > 0)
+            .then(|| format!("{} more findings are not shown; `gcheck check` lists them", self.more))
+    }
+}
+
+/// Checks the program that is plotted, as `gcheck check` does.
+pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) -> Result<Found, Problem> {
+    let path = &prepared.path;
+    let mut settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
+    let selection =
+        settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    let dialect = Dialect::new(&prepared.control);
+    let model = Model::new(&prepared.control);
+    let folders = ProgramFolders::default();
+    let programs = Reachable::new(&folders, path, &prepared.search);
+    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
+    equipment.set(&options.execution.set);
+    settings.machine.units_are_told = !equipment.units_assumed;
+    settings.machine.engine = equipment.machine;
+    let outcome = check(&Job {
+        source: &prepared.source,
+        scene: Scene {
+            dialect: &dialect,
+            machine: &settings.machine,
+            programs: &programs,
+            control_is_guessed: matches!(
+                prepared.choice.source,
+                ControlSource::Detected | ControlSource::Default
+            ),
+        },
+        selection: &selection,
+        suppressions: true,
+        execution: Execution { fuel: options.execution.fuel, block_skip: None },
+    });
+    let text = prepared.source.text();
+    let lines = LineIndex::new(text);
+    let mut shown: Vec<OneFound> = outcome
+        .findings
+        .iter()
+        .map(|finding| OneFound {
+            line: lines.line(finding.range.start),
+            severity: finding.severity.name(),
+            rule: finding.rule.id,
+            message: finding.message.clone(),
+        })
+        .collect();
+    let more = shown.len().saturating_sub(MOST);
+    shown.truncate(MOST);
+    Ok(Found { shown, more })
+}
