@@ -44,7 +44,9 @@ impl LanguageClient {
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit()).spawn().unwrap();
         let (input, output) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
-        Self { child: Some(child), ..Self::over(input, output) }
+        let mut client = Self::over(input, output);
+        client.child = Some(child);
+        client
     }
 
     /// Talks to a server over streams: `input` is what it reads, `output` what it writes.

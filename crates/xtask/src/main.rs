@@ -30,8 +30,10 @@ usage: cargo xtask COMMAND
   gen [--check]               write (or check) registries, pages and schemas that come from code and data
   new-rule ID --tier token|block|program --group GROUP
                               scaffold a rule
-  test [--quick] [ARGS…]      install what tests need, then run everything that CI runs; ARGS go to the tests
-  bench                       measure speed and memory against the budgets, in one table
+  test [--quick] [--soak] [ARGS…]
+                              install what tests need, then run everything that CI runs; ARGS go to the tests;
+                              --soak types at the language server for as long as an afternoon does
+  bench [lsp]                 measure speed and memory against the budgets, in one table; `lsp`: of the server alone
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md";
 
 fn main() -> ExitCode {

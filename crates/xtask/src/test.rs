@@ -18,10 +18,15 @@ const TOOLS: &str = ".test-tools";
 const SARIF_VALIDATOR: &str = "@microsoft/sarif-multitool-linux";
 const SARIF_VALIDATOR_VERSION: &str = "5.7.0";
 
+/// Edits and requests that `--soak` makes at the language server.
+const SOAK_ROUNDS: &str = "20000";
+
 /// Runs every step, and all of them whatever fails.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    let quick = arguments.first().is_some_and(|a| a == "--quick");
-    let for_tests = if quick { arguments.get(1..).unwrap_or_default() } else { arguments };
+    let is_ours = |argument: &&String| ["--quick", "--soak"].contains(&argument.as_str());
+    let (ours, for_tests) = arguments.split_at(arguments.iter().take_while(is_ours).count());
+    let is_asked = |name: &str| ours.iter().any(|argument| argument == name);
+    let (quick, soak) = (is_asked("--quick"), is_asked("--soak"));
     let mut failed = Vec::new();
     if !quick {
         install_tools()?;
@@ -61,7 +66,11 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         test.push("--");
         test.extend(for_tests.iter().map(String::as_str));
     }
-    let passed = cargo(&test)?;
+    let mut command = cargo_command();
+    if soak {
+        command.env("GCHECK_SOAK", SOAK_ROUNDS);
+    }
+    let passed = run_cargo(command, &test)?;
     if !failed.is_empty() {
         say(&format!("failed before the tests: {}", failed.join(", ")));
     }
@@ -74,8 +83,12 @@ fn say(message: &str) {
 
 /// Runs cargo on the workspace; true if it succeeds.
 fn cargo(arguments: &[&str]) -> anyhow::Result<bool> {
+    run_cargo(cargo_command(), arguments)
+}
+
+fn run_cargo(mut command: Command, arguments: &[&str]) -> anyhow::Result<bool> {
     say(&format!("cargo {}", arguments.join(" ")));
-    let status = cargo_command().args(arguments).status().context("cargo does not start")?;
+    let status = command.args(arguments).status().context("cargo does not start")?;
     Ok(status.success())
 }
 

@@ -125,16 +125,16 @@ fn a_caller_is_checked_again_when_what_it_calls_is_typed() {
     let caller = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nM98 P100\nM30\n%\n";
     let mut session = Session::new(&[]);
     session.open("a.nc", caller);
-    assert!(session.published("a.nc", 1).join("\n").contains("called-program-missing"));
+    assert!(session.published("a.nc", 1).join("\n").contains("subprogram-missing"));
     session.open("b.nc", "%\nO100\nM99\n%\n");
     let uri = session.uri("a.nc");
     session.client.notification("textDocument/publishDiagnostics", |params| {
         let all = params["diagnostics"].to_string();
-        params["uri"] == uri.as_str() && !all.contains("called-program-missing")
+        params["uri"] == uri.as_str() && !all.contains("subprogram-missing")
     });
     session.edit("b.nc", 2, [1, 1, 1, 4], "200");
     session.client.notification("textDocument/publishDiagnostics", |params| {
         let all = params["diagnostics"].to_string();
-        params["uri"] == uri.as_str() && all.contains("called-program-missing")
+        params["uri"] == uri.as_str() && all.contains("subprogram-missing")
     });
 }
