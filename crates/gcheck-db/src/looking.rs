@@ -9,7 +9,19 @@ use gcheck_program::{Dialect, Loaded};
 
 use crate::snapshot::Others;
 use crate::states::Keeper;
-use crate::{Cancelled, Database, DocumentId, StateAt};
+use crate::{Cancelled, Database, DocumentId, Snapshot, StateAt};
+
+impl Snapshot {
+    /// Hands on the document with the programs that it may call, and its control, ready to be executed.
+    pub fn with_program<R>(&self, with: impl FnOnce(&Program<'_>, &Model<'_>) -> R) -> R {
+        let settings = self.settings();
+        let dialect = Dialect::new(&settings.control);
+        let model = Model::new(&settings.control);
+        let library = Others(settings);
+        let loaded = Loaded::new(self.text(), &dialect, |_, _, _| ());
+        with(&Program::new(loaded, &dialect, &library), &model)
+    }
+}
 
 impl Database {
     /// Hands each state of [`Database::states`] to `with`, beside what can look into it: names of parameters are known to the
@@ -28,19 +40,16 @@ impl Database {
         if stop() {
             return Err(Cancelled);
         }
-        let settings = snapshot.settings();
-        let dialect = Dialect::new(&settings.control);
-        let model = Model::new(&settings.control);
-        let library = Others(settings);
-        let loaded = Loaded::new(snapshot.text(), &dialect, |_, _, _| ());
-        let program = Program::new(loaded, &dialect, &library);
-        let mut keeper = Keeper::new(blocks);
-        let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
-        flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
-        let mut look = Look::new(&program, &model, machine);
-        for state in keeper.seen.values() {
-            with(state, &mut look);
-        }
+        snapshot.with_program(|program, model| {
+            let settings = snapshot.settings();
+            let mut keeper = Keeper::new(blocks);
+            let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
+            flow(program, model, machine, Options::NONE, fuel, &mut keeper);
+            let mut look = Look::new(program, model, machine);
+            for state in keeper.seen.values() {
+                with(state, &mut look);
+            }
+        });
         Ok(())
     }
 }

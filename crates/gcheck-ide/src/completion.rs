@@ -54,7 +54,7 @@ pub struct Completion {
 pub enum CompletionKind {
     /// A G or M code.
     Code,
-    /// A word of the block's code.
+    /// A word of the block's code, or a tool.
     Word,
     /// A numbered or named variable.
     Variable,
@@ -66,8 +66,6 @@ pub enum CompletionKind {
     Label,
     /// A program or subroutine.
     Program,
-    /// A tool.
-    Tool,
     /// A cycle with places for its words.
     Snippet,
     /// A rule.
@@ -289,7 +287,8 @@ impl Items<'_, '_> {
                 })?;
                 Some(format!("not beside `{}`", other.entry().code))
             });
-            let is_used = survey.codes.iter().any(|(used, _)| *used == number);
+            let is_used =
+                survey.codes.iter().any(|(used, at)| *used == number && at.end != self.typing.offset);
             let rank = match (&objection, is_used) {
                 (None, true) => 100_000,
                 (None, false) => 200_000,
@@ -461,7 +460,7 @@ impl Items<'_, '_> {
             } else {
                 format!("T{number}")
             };
-            self.add(CompletionKind::Tool, &text, &tool.name, number.min(9_999_999));
+            self.add(CompletionKind::Word, &text, &tool.name, number.min(9_999_999));
         }
     }
 
@@ -656,11 +655,11 @@ mod tests {
             "g0 x1\ng8$0\n",
             4,
             &expect![[r#"
-            Code g0 | rapid move | g0
-            Code g8 | radius mode | g8
-            Code g1 | straight feed move | g1
-            Code g2 | clockwise arc | g2
-        "#]],
+                Code g0 | rapid move | g0
+                Code g1 | straight feed move | g1
+                Code g2 | clockwise arc | g2
+                Code g3 | counter-clockwise arc | g3
+            "#]],
         );
     }
 
@@ -748,9 +747,9 @@ mod tests {
             "O1\nT1 M6 (DRILL)\nT2 M6\nT$0\n",
             5,
             &expect![[r#"
-            Tool T1 | DRILL | T1
-            Tool T2 |  | T2
-        "#]],
+                Word T1 | DRILL | T1
+                Word T2 |  | T2
+            "#]],
         );
         check(
             "linuxcnc",

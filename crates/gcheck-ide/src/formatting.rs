@@ -11,8 +11,13 @@ use gcheck_rules::Edit;
 /// Characters that finish a line.
 pub const FORMAT_TRIGGERS: &[&str] = &["\n"];
 
-/// Edits that format the document, or the lines that a range touches, in text order.
-pub fn format(snapshot: &Snapshot, style: &Style, range: Option<Range<u32>>) -> Vec<Edit> {
+/// Edits that format the document, or the lines that a range touches, in text order, as is customary on its control.
+pub fn format(snapshot: &Snapshot, range: Option<Range<u32>>) -> Vec<Edit> {
+    format_in(snapshot, &Style::of(snapshot.control()), range)
+}
+
+/// As [`format`], in a style.
+pub fn format_in(snapshot: &Snapshot, style: &Style, range: Option<Range<u32>>) -> Vec<Edit> {
     let lines = range.map(|range| {
         let first = snapshot.line_at(range.start);
         let last = snapshot.line_at(range.end.max(range.start));
@@ -24,7 +29,12 @@ pub fn format(snapshot: &Snapshot, style: &Style, range: Option<Range<u32>>) -> 
 }
 
 /// Edits that format what was finished by typing a character of [`FORMAT_TRIGGERS`]; `offset` stands behind it.
-pub fn format_on_type(snapshot: &Snapshot, style: &Style, offset: u32) -> Vec<Edit> {
+pub fn format_on_type(snapshot: &Snapshot, offset: u32) -> Vec<Edit> {
+    format_on_type_in(snapshot, &Style::of(snapshot.control()), offset)
+}
+
+/// As [`format_on_type`], in a style.
+pub fn format_on_type_in(snapshot: &Snapshot, style: &Style, offset: u32) -> Vec<Edit> {
     match snapshot.line_at(offset).checked_sub(1) {
         Some(line) => format_lines(snapshot, style, Some(line..line + 1)),
         None => Vec::new(),
@@ -43,8 +53,6 @@ pub(crate) fn own_edit(edit: gcheck_format::Edit) -> Edit {
 
 #[cfg(test)]
 mod tests {
-    use gcheck_format::Style;
-
     use super::{format, format_on_type};
     use crate::fixture::{Fixture, applied};
 
@@ -52,10 +60,9 @@ mod tests {
     fn a_document_some_lines_and_the_line_just_typed() {
         let text = "G1X1.  Y2.\nG1X3.\nG1X4.\n";
         let snapshot = Fixture::new("haas-mill", text).snapshot();
-        let style = Style::of(snapshot.control());
-        assert_eq!(applied(text, &format(&snapshot, &style, None)), "G1 X1. Y2.\nG1 X3.\nG1 X4.\n");
-        assert_eq!(applied(text, &format(&snapshot, &style, Some(11..17))), "G1X1.  Y2.\nG1 X3.\nG1X4.\n");
-        assert_eq!(applied(text, &format_on_type(&snapshot, &style, 11)), "G1 X1. Y2.\nG1X3.\nG1X4.\n");
-        assert!(format_on_type(&snapshot, &style, 0).is_empty());
+        assert_eq!(applied(text, &format(&snapshot, None)), "G1 X1. Y2.\nG1 X3.\nG1 X4.\n");
+        assert_eq!(applied(text, &format(&snapshot, Some(11..17))), "G1X1.  Y2.\nG1 X3.\nG1X4.\n");
+        assert_eq!(applied(text, &format_on_type(&snapshot, 11)), "G1 X1. Y2.\nG1X3.\nG1X4.\n");
+        assert!(format_on_type(&snapshot, 0).is_empty());
     }
 }

@@ -33,6 +33,7 @@ mod pieces;
 mod reading;
 mod references;
 mod rename;
+mod running;
 mod selection;
 mod semantic_tokens;
 mod signature_help;
@@ -55,7 +56,7 @@ pub use diagnostics::{
 pub use document_links::{DocumentLink, document_links};
 pub use document_symbols::{Symbol, SymbolKind, document_symbols};
 pub use folding::{Fold, FoldKind, folding_ranges};
-pub use formatting::{FORMAT_TRIGGERS, format, format_on_type};
+pub use formatting::{FORMAT_TRIGGERS, format, format_in, format_on_type, format_on_type_in};
 pub use gcheck_format::Style;
 pub use gcheck_rules::Edit;
 pub use highlight::{Highlight, highlights};

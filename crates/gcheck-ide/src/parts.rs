@@ -74,6 +74,21 @@ pub(crate) fn parts(snapshot: &Snapshot) -> Parts {
     parts
 }
 
+/// What the program calls its tools.
+pub(crate) fn tool_names(snapshot: &Snapshot) -> ToolNames<'_> {
+    let end = code_end(snapshot);
+    let mut names = ToolNames::new(snapshot.control());
+    for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
+        // Names stand in comments.
+        if chunk.text.contains(['(', ';'])
+            && let Some(table) = snapshot.table(chunk.index)
+        {
+            names.look(&table, chunk.text);
+        }
+    }
+    names
+}
+
 /// Parts end where the next one of their kind or of a larger kind begins.
 fn close(snapshot: &Snapshot, parts: &mut Parts, end: u32) {
     let programs: Vec<u32> =

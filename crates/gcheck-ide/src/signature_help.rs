@@ -135,9 +135,9 @@ mod tests {
             "linuxcnc",
             "g81 $0\n",
             &expect![[r#"
-            G81 [X] [Y] [Z] [U] [V] [W] [@] [^] R [L] F
+                G81 [X] [Y] [Z] [U] [V] [W] [@] [^] R [L] F
   
-        "#]],
+            "#]],
         );
         check("haas-mill", "G0 (G83 $0)\n", &expect![[""]]);
     }

@@ -30,7 +30,7 @@ pub use record::Kind;
 pub use statistics::{
     Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
 };
-pub use step::{Beside, Step, View};
+pub use step::{Beside, Spot, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};

@@ -236,7 +236,8 @@ impl Drawing {
         );
         if self.lathe {
             let [_, axis] = panel.on_paper([0.0, 0.0]);
-            let _ = writeln!(svg, "<path class=\"axis\" d=\"M{:.1} {axis:.1}h{:.1}\"/>", x - 6.0, width + 12.0);
+            let _ =
+                writeln!(svg, "<path class=\"axis\" d=\"M{:.1} {axis:.1}h{:.1}\"/>", x - 6.0, width + 12.0);
         }
         self.paths(svg, panel, points);
         svg.push_str("</svg>\n");
