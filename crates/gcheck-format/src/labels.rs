@@ -40,6 +40,8 @@ pub(crate) enum Target {
     Own(Number),
     /// A block of the program that calls this one; of its own when nothing calls it.
     Caller(Number),
+    /// A block of its own program where that has one of the number, else a program.
+    OwnOrProgram(Number),
     /// A block of its own program or of another one.
     Other,
     /// Computed, or written in a form that is not certain.
@@ -146,7 +148,9 @@ impl Labels {
             || control.codes().any(|code| {
                 code.is_user() || code.entry().words.iter().any(|word| word.kind == WordKind::Label)
             });
-        let is_known = |reference: &Reference| matches!(reference.target, Target::Own(_) | Target::Caller(_));
+        let is_known = |reference: &Reference| {
+            !matches!(reference.target, Target::Other | Target::Computed | Target::Unclear)
+        };
         if names_blocks && (self.calls_others || !self.references.iter().all(is_known)) {
             return;
         }
@@ -154,7 +158,9 @@ impl Labels {
             .references
             .iter()
             .filter_map(|reference| match &reference.target {
-                Target::Own(number) | Target::Caller(number) => Some(number.value),
+                Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => {
+                    Some(number.value)
+                }
                 _ => None,
             })
             .collect();
@@ -167,7 +173,7 @@ impl Labels {
     /// The programs, by their first blocks, one of whose blocks a reference names; empty when that cannot be told.
     pub(crate) fn programs_named_by(&self, reference: &Reference) -> Vec<u32> {
         match (&reference.target, self.callers.get(&reference.program)) {
-            (Target::Own(_), _) => vec![reference.program],
+            (Target::Own(_) | Target::OwnOrProgram(_), _) => vec![reference.program],
             (Target::Caller(_), Some(callers)) if !self.has_computed_call => callers.clone(),
             // A main program goes on at a block of its own.
             (Target::Caller(_), None) if self.mains.binary_search(&reference.program).is_ok() => {
@@ -251,28 +257,28 @@ impl Found {
             let Some(found) = named.next() else { continue };
             let range = place.shift(&found.range());
             let is_shared = named.next().is_some() || read_by(words, letter, place.dialect) > 1;
-            match target.kind {
-                WordKind::Program if is_shared => self.calls.push((place.number, None)),
-                WordKind::Program => self.calls.push((place.number, found.integer())),
-                WordKind::Label => {
-                    let digits = match found.value {
-                        Value::Number(_) => place.digits(&found.range()),
-                        Value::Expr(_) | Value::Missing => None,
-                    };
-                    let target = match place.number(digits) {
-                        None => Target::Computed,
-                        // Which of two codes reads the word is not for us to say.
-                        Some(_) if is_shared => Target::Other,
-                        Some(number) if !target.elsewhere => Target::Own(number),
-                        Some(number) if entry.ends == Some(Ends::Subprogram) => Target::Caller(number),
-                        // A block of this program or of the one that is called, where the code calls one.
-                        Some(number) if !is_call => Target::Own(number),
-                        Some(_) => Target::Other,
-                    };
-                    self.refer(place.number, target, range);
-                }
-                _ => {}
+            if target.kind == WordKind::Program {
+                self.calls.push((place.number, found.integer().filter(|_| !is_shared)));
             }
+            if target.kind != WordKind::Label && !target.or_label {
+                continue;
+            }
+            let digits = match found.value {
+                Value::Number(_) => place.digits(&found.range()),
+                Value::Expr(_) | Value::Missing => None,
+            };
+            let target = match place.number(digits) {
+                None => Target::Computed,
+                // Which of two codes reads the word is not for us to say.
+                Some(_) if is_shared => Target::Other,
+                Some(number) if target.or_label => Target::OwnOrProgram(number),
+                Some(number) if !target.elsewhere => Target::Own(number),
+                Some(number) if entry.ends == Some(Ends::Subprogram) => Target::Caller(number),
+                // A block of this program or of the one that is called, where the code calls one.
+                Some(number) if !is_call => Target::Own(number),
+                Some(_) => Target::Other,
+            };
+            self.refer(place.number, target, range);
         }
     }
 

@@ -37,6 +37,9 @@ pub(crate) fn written_case(style: &Style, dialect: &Dialect<'_>) -> LetterCase {
     }
 }
 
+/// Blanks at the head of a line at most.
+const DEEPEST: usize = 100;
+
 /// Writes lines anew, one after the other.
 pub(crate) struct Writer<'s> {
     style: &'s Style,
@@ -199,9 +202,11 @@ impl<'s> Writer<'s> {
         let labels = self.labels.as_ref()?;
         let ix = self.items.iter().position(|item| item.kind != ItemKind::BlockDelete)?;
         let number = self.items.get(ix).filter(|item| item.kind == ItemKind::SequenceNumber)?;
-        // A number alone is a block, and a comment behind one speaks for its own line.
+        // A number alone is a block, and a comment behind one speaks for its own line. Of two numbers one may be the label.
         let next = self.items.get(ix + 1)?;
-        let has_code = next.kind.is_word() || next.kind == ItemKind::Statement;
+        let is_number = |item: &&Item| item.kind == ItemKind::SequenceNumber;
+        let has_code = self.items.iter().filter(is_number).count() == 1
+            && (next.kind.is_word() || next.kind == ItemKind::Statement);
         (has_code && labels.is_unnamed(base + number.range.start)).then_some(ix)
     }
 
@@ -262,7 +267,7 @@ impl<'s> Writer<'s> {
             Indentation::Keep => None,
             Indentation::None => Some(0),
             Indentation::Nested(_) if first == ItemKind::BlockDelete => Some(0),
-            Indentation::Nested(width) => Some(depth * usize::from(width)),
+            Indentation::Nested(width) => Some((depth * usize::from(width)).min(DEEPEST)),
         }
     }
 
@@ -283,7 +288,7 @@ impl<'s> Writer<'s> {
     }
 
     /// Blanks up to a column, one at least.
-    fn column(&self, column: u16) -> Option<usize> {
+    fn column(&self, column: u8) -> Option<usize> {
         let width = self.line.chars().count();
         (column > 0).then(|| usize::from(column - 1).saturating_sub(width).max(1))
     }

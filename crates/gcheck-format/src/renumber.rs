@@ -37,10 +37,12 @@ pub struct RenumberRefused {
 /// What stands in the way of renumbering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// The start or the step is zero, or the start is below the least number that the control takes.
+    /// The step is zero, or the start is no number that the control takes.
     NoNumbering {
         /// The least number that the control takes.
         least: u32,
+        /// The largest.
+        most: u32,
     },
     /// A target is computed: `GOTO #1`.
     Computed,
@@ -50,6 +52,8 @@ pub enum Refusal {
     SeveralBlocks(u32),
     /// The target may stand in another program, of this file or another one.
     OtherProgram,
+    /// This number names a program, and a block of its own program would get it.
+    TakenByProgram(u32),
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -72,8 +76,8 @@ impl std::error::Error for RenumberRefused {}
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoNumbering { least } => {
-                write!(f, "the start of a numbering is {least} or more, its step 1 or more")
+            Self::NoNumbering { least, most } => {
+                write!(f, "block numbers of the control go from {least} to {most}, in steps of 1 or more")
             }
             Self::Computed => {
                 f.write_str("the block that this names is computed, so its number cannot be followed")
@@ -84,6 +88,9 @@ impl fmt::Display for Refusal {
             }
             Self::OtherProgram => {
                 f.write_str("this may name a block of another program, which would not be renumbered with it")
+            }
+            Self::TakenByProgram(number) => {
+                write!(f, "this names program O{number}, and a block would get that number")
             }
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
@@ -108,7 +115,8 @@ pub fn renumber(
     let Numbering { start, step } = *numbering;
     let limits = limits(dialect.control());
     if step == 0 || !limits.contains(&start) {
-        return Err(RenumberRefused { range: 0..0, reason: Refusal::NoNumbering { least: *limits.start() } });
+        let reason = Refusal::NoNumbering { least: *limits.start(), most: *limits.end() };
+        return Err(RenumberRefused { range: 0..0, reason });
     }
     let labels = Labels::of(text, dialect);
     // A number that the program has, the control evidently takes.
@@ -158,7 +166,7 @@ fn follow<'l>(
     numbers: &HashMap<(u32, u32), New>,
 ) -> Result<(&'l Number, u32), Refusal> {
     let number = match &reference.target {
-        Target::Own(number) | Target::Caller(number) => number,
+        Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => number,
         Target::Other => return Err(Refusal::OtherProgram),
         Target::Computed => return Err(Refusal::Computed),
         Target::Unclear => return Err(Refusal::Unclear),
@@ -166,6 +174,13 @@ fn follow<'l>(
     let mut new = None;
     for program in labels.programs_named_by(reference) {
         match numbers.get(&(program, number.value)) {
+            // It stays the number of a program as long as no block gets that number.
+            None if matches!(reference.target, Target::OwnOrProgram(_)) => {
+                let is_taken = numbers
+                    .iter()
+                    .any(|((of, _), new)| *of == program && matches!(new, New::One(new) if *new == number.value));
+                return if is_taken { Err(Refusal::TakenByProgram(number.value)) } else { Ok((number, number.value)) };
+            }
             None => return Err(Refusal::NoSuchBlock(number.value)),
             Some(New::Several) => return Err(Refusal::SeveralBlocks(number.value)),
             Some(New::One(one)) if new.is_none_or(|new| new == *one) => new = Some(*one),

@@ -279,6 +279,8 @@ fn numbers_that_nothing_names_are_dropped() {
         "O1\nN10 G0 X1.\nN20 G0 X2.\n/ N30 G0 X3.\n/N35   G0 X4.\nN40 (COMMENT)\nN50\nN60 #1=2\nN70 GOTO 20\nN80 M30\n",
     ));
     for keeps_all in [
+        "N0N0M97 P0\n",
+        "N1 G0 ; N2 G1\n",
         "N10 GOTO #1\nN20 G0\n",
         "N10 M98 P1234\nN20 G0\n",
         "N10 GOTO N20\nN20 G0\n",
