@@ -6,8 +6,9 @@
 //! Every wait has an end: a server that does not answer fails the script with what it did say.
 
 use std::collections::HashMap;
+use std::fmt;
 use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -18,10 +19,10 @@ use serde_json::{Value, json};
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// A client with its server.
-#[derive(Debug)]
 pub struct LanguageClient {
-    child: Child,
-    input: Option<ChildStdin>,
+    /// The server's process, unless it is a thread of ours.
+    child: Option<Child>,
+    input: Option<Box<dyn Write + Send>>,
     incoming: Receiver<Value>,
     next: i64,
     answers: HashMap<i64, Value>,
@@ -42,7 +43,14 @@ impl LanguageClient {
     pub fn start(command: &mut Command) -> Self {
         let mut child =
             command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::inherit()).spawn().unwrap();
-        let output = child.stdout.take().unwrap();
+        let (input, output) = (child.stdin.take().unwrap(), child.stdout.take().unwrap());
+        let mut client = Self::over(input, output);
+        client.child = Some(child);
+        client
+    }
+
+    /// Talks to a server over streams: `input` is what it reads, `output` what it writes.
+    pub fn over(input: impl Write + Send + 'static, output: impl Read + Send + 'static) -> Self {
         let (sender, incoming) = channel();
         thread::spawn(move || {
             let mut output = BufReader::with_capacity(1 << 16, output);
@@ -53,8 +61,8 @@ impl LanguageClient {
             }
         });
         Self {
-            input: child.stdin.take(),
-            child,
+            child: None,
+            input: Some(Box::new(input)),
             incoming,
             next: 0,
             answers: HashMap::new(),
@@ -64,9 +72,9 @@ impl LanguageClient {
         }
     }
 
-    /// Number of the server's process.
+    /// Number of the server's process, or of ours.
     pub fn process(&self) -> u32 {
-        self.child.id()
+        self.child.as_ref().map_or_else(std::process::id, Child::id)
     }
 
     /// Sends bytes as they are. A server that is gone takes none.
@@ -218,7 +226,7 @@ impl LanguageClient {
         self.input = None;
     }
 
-    /// Waits for the server to end; `None` when a signal ended it.
+    /// Waits for the server to end; `None` when a signal ended it, or it is no process.
     ///
     /// # Panics
     /// When it does not.
@@ -226,7 +234,7 @@ impl LanguageClient {
     pub fn exit_code(&mut self) -> Option<i32> {
         let until = Instant::now() + PATIENCE;
         loop {
-            if let Some(status) = self.child.try_wait().unwrap() {
+            if let Some(status) = self.child.as_mut()?.try_wait().unwrap() {
                 return status.code();
             }
             assert!(Instant::now() < until, "the server does not end; {}", self.story());
@@ -241,11 +249,19 @@ impl LanguageClient {
     }
 }
 
+impl fmt::Debug for LanguageClient {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("LanguageClient").field("process", &self.process()).finish_non_exhaustive()
+    }
+}
+
 impl Drop for LanguageClient {
     fn drop(&mut self) {
-        // A server that has ended cannot be killed, and need not be.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        if let Some(child) = &mut self.child {
+            // A server that has ended cannot be killed, and need not be.
+            let _ = child.kill();
+            let _ = child.wait();
+        }
     }
 }
 

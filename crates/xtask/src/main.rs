@@ -33,8 +33,11 @@ usage: cargo xtask COMMAND
   gen [--check]               write (or check) registries, pages and schemas that come from code and data
   new-rule ID --tier token|block|program --group GROUP
                               scaffold a rule
-  test [--quick] [ARGS…]      install what tests need, then run everything that CI runs; ARGS go to the tests
-  bench                       measure speed and memory against the budgets, in one table
+  test [--quick] [--editors] [--soak] [ARGS…]
+                              install what tests need, then run everything that CI runs; ARGS go to the tests;
+                              --editors runs the editors of the system as well; --soak types at the language server for
+                              as long as an afternoon does
+  bench [lsp]                 measure speed and memory against the budgets, in one table; `lsp`: of the server alone
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
   precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write
                               docs/precision.md

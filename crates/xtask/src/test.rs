@@ -23,14 +23,20 @@ const ALL_EDITORS: &str = "GCHECK_ALL_EDITORS";
 const SARIF_VALIDATOR: &str = "@microsoft/sarif-multitool-linux";
 const SARIF_VALIDATOR_VERSION: &str = "5.7.0";
 
+/// Tells the soak test how many edits and requests to make.
+const SOAK: &str = "GCHECK_SOAK";
+/// Edits and requests that `--soak` makes at the language server.
+const SOAK_ROUNDS: &str = "20000";
+
 /// Runs every step, and all of them whatever fails.
 ///
-/// `--quick` leaves out what takes long; `--editors` runs the editors of the system as well. The rest is for the tests.
+/// `--quick` leaves out what takes long; `--editors` runs the editors of the system as well; `--soak` types at the language
+/// server for as long as an afternoon does. The rest is for the tests.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    let own = arguments.iter().take_while(|a| matches!(a.as_str(), "--quick" | "--editors")).count();
-    let (own, for_tests) = arguments.split_at(own);
-    let quick = own.iter().any(|a| a == "--quick");
-    let all_editors = own.iter().any(|a| a == "--editors");
+    let is_ours = |argument: &&String| ["--quick", "--editors", "--soak"].contains(&argument.as_str());
+    let (ours, for_tests) = arguments.split_at(arguments.iter().take_while(is_ours).count());
+    let is_asked = |name: &str| ours.iter().any(|argument| argument == name);
+    let quick = is_asked("--quick");
     let mut failed = Vec::new();
     if !quick {
         install_tools()?;
@@ -71,8 +77,11 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         test.extend(for_tests.iter().map(String::as_str));
     }
     let mut tests = cargo_command();
-    if all_editors {
+    if is_asked("--editors") {
         tests.env(ALL_EDITORS, "1");
+    }
+    if is_asked("--soak") {
+        tests.env(SOAK, SOAK_ROUNDS);
     }
     let passed = succeeds(tests.args(&test))?;
     if !failed.is_empty() {

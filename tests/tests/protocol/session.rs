@@ -149,8 +149,20 @@ impl Session {
     /// What is answered to a question for diagnostics, each as in [`Self::published`].
     pub(crate) fn pulled(&mut self, name: &str) -> Vec<String> {
         let params = self.document(name);
-        let report = self.client.request("textDocument/diagnostic", params);
+        let report = self.pull(&params);
         report["items"].as_array().unwrap().iter().map(brief).collect()
+    }
+
+    /// Asks for diagnostics, again where the server wants it.
+    pub(crate) fn pull(&mut self, params: &Value) -> Value {
+        loop {
+            let id = self.client.send_request("textDocument/diagnostic", params.clone());
+            let answer = self.client.answer(id);
+            match answer.get("error") {
+                Some(error) => assert_eq!(error["data"]["retriggerRequest"], true, "{answer}"),
+                None => return answer["result"].clone(),
+            }
+        }
     }
 
     /// The text as the server has it, taken from its tree.
@@ -184,4 +196,41 @@ fn brief(diagnostic: &Value) -> String {
     let severity = severity[usize::try_from(diagnostic["severity"].as_u64().unwrap()).unwrap()];
     let rule = diagnostic["code"].as_str().unwrap_or_else(|| diagnostic["message"].as_str().unwrap());
     format!("{} {severity} {rule}", shown(&diagnostic["range"]))
+}
+
+/// The text that a printed tree was made of.
+fn text_of_tree(tree: &str) -> String {
+    let tokens = tree.lines().filter_map(|line| line.trim_start().split_once(" \""));
+    tokens.map(|(_, quoted)| unescaped(quoted.strip_suffix('"').unwrap())).collect()
+}
+
+/// Undoes what Rust's `{:?}` does to a text.
+fn unescaped(text: &str) -> String {
+    let mut out = String::new();
+    let mut rest = text.chars();
+    while let Some(c) = rest.next() {
+        if c != '\\' {
+            out.push(c);
+            continue;
+        }
+        match rest.next().unwrap() {
+            'n' => out.push('\n'),
+            'r' => out.push('\r'),
+            't' => out.push('\t'),
+            '0' => out.push('\0'),
+            'u' => {
+                let code: String = rest.by_ref().skip(1).take_while(|c| *c != '}').collect();
+                out.push(char::from_u32(u32::from_str_radix(&code, 16).unwrap()).unwrap());
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}
+
+#[test]
+fn trees_hold_their_text() {
+    let tree = "CHUNK 0..9\n  BLOCK 0..9\n    COMMENT 0..5 \"(\\\"µ\\\\)\"\n    NEWLINE 5..6 \"\\r\\n\"\n";
+    assert_eq!(text_of_tree(tree), "(\"µ\\)\r\n");
+    assert_eq!(unescaped("\\u{1a}\\0\\t"), "\u{1a}\0\t");
 }

@@ -86,6 +86,7 @@ impl Owner {
 /// lines that must come first.
 fn naming(snapshot: &Snapshot, control: &str) -> gcheck_ide::Edit {
     let mut at = 0;
+    let mut is_head = true;
     for line in 0..snapshot.line_count().min(HEAD_LINES) {
         let range = snapshot.line_range(line);
         let text = snapshot.slice(range.clone());
@@ -95,7 +96,8 @@ fn naming(snapshot: &Snapshot, control: &str) -> gcheck_ide::Edit {
                 text: control.to_owned(),
             };
         }
-        if comes_first(&text) && line + 1 < snapshot.line_count() {
+        is_head &= comes_first(&text) || text.trim().is_empty();
+        if is_head && line + 1 < snapshot.line_count() {
             at = snapshot.line_range(line + 1).start;
         }
     }
@@ -140,6 +142,7 @@ mod tests {
         assert_eq!(named("%\nO1 (A)\nG0\n"), "%\nO1 (A)\n(gcheck: control=acme-mill)\nG0\n");
         assert_eq!(named("G0 X1.\r\nM30\r\n"), "(gcheck: control=acme-mill)\r\nG0 X1.\r\nM30\r\n");
         assert_eq!(named(""), "(gcheck: control=acme-mill)\n");
+        assert_eq!(named("%\n\nO1\nM30\n%\n"), "%\n\nO1\n(gcheck: control=acme-mill)\nM30\n%\n");
         assert_eq!(named("O1"), "(gcheck: control=acme-mill)\nO1");
     }
 

@@ -159,12 +159,13 @@ impl Owner {
 
     /// The program that an item of the client stands for, among the files that it may have to do with.
     fn known_call_item(&mut self, item: &CallHierarchyItem) -> Result<Option<(Addressed, CallItem)>> {
-        let id = self.any_document(&item.uri)?;
         // A file that is not open is looked at together with an open one that can reach it.
-        let mut asked: Vec<Uri> = self.documents.keys().filter(|uri| **uri == item.uri).cloned().collect();
-        asked.extend(self.documents.keys().filter(|uri| **uri != item.uri).cloned());
+        let (mut asked, others): (Vec<Uri>, Vec<Uri>) =
+            self.documents.keys().cloned().partition(|uri| *uri == item.uri);
+        asked.extend(others);
         for uri in asked {
             let files = self.workspace_of(&uri)?;
+            let Some(id) = files.id(&item.uri) else { continue };
             let Some(snapshot) = files.snapshot(id) else { continue };
             let offset = self.places(snapshot).offset(item.selection_range.start);
             let items = gcheck_ide::call_items(&files.workspace, id, offset);

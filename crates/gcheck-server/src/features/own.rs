@@ -75,7 +75,7 @@ impl Owner {
 }
 
 /// Members that tell a place in bytes.
-const PLACES: [&str; 1] = ["setAt"];
+const PLACES: [&str; 3] = ["start", "end", "setAt"];
 
 /// Puts lines and columns in the place of bytes, as the client counts.
 fn place_bytes(value: &mut Value, places: &mut Places<'_>) {

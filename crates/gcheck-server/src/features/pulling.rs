@@ -20,11 +20,11 @@ use crate::proto::{
     WorkspaceUnchangedDocumentDiagnosticReport,
 };
 
-/// The answer when an edit came in between: the client is to ask again.
+/// The answer when a change came in between: the client is to ask again.
 fn ask_again() -> Error {
     Error {
         code: ErrorCode::ServerError(SERVER_CANCELLED),
-        message: "the text has changed meanwhile".into(),
+        message: "text or settings have changed meanwhile".into(),
         data: Some(serde_json::json!({ "retriggerRequest": true })),
     }
 }

@@ -127,7 +127,7 @@ impl Owner {
             let mut places = Places::new(&snapshot, encoding);
             let mut last = crate::proto::Position::default();
             let mut data = Vec::with_capacity(tokens.len());
-            for token in tokens {
+            for token in tokens.into_iter().take_while(|token| token.range.start < end) {
                 let Range { start, end } = places.range(&token.range);
                 // No token goes over the end of a line, as the protocol wants it.
                 if start.line != end.line {

@@ -40,7 +40,14 @@ impl Owner {
 
     /// Works out the findings of a document and publishes them, unless something better comes up.
     pub(super) fn diagnose(&mut self, uri: &Uri) {
-        let Ok(analysis) = self.analyse(uri, &|| false) else { return };
+        let Some(document) = self.documents.get(uri) else { return };
+        let for_questions = document.given_up < MOST_GIVEN_UP;
+        let waiting = Arc::clone(&self.waiting);
+        let analysis = self.analyse(uri, &|| for_questions && waiting.has_questions());
+        if let Some(document) = self.documents.get_mut(uri) {
+            document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
+        }
+        let Ok(analysis) = analysis else { return };
         let list = self.diagnostics_of(uri, analysis.as_deref());
         let Some(document) = self.documents.get_mut(uri) else { return };
         document.published = Some(document.clock.now());
@@ -58,20 +65,17 @@ impl Owner {
         stop: &dyn Fn() -> bool,
     ) -> Result<Option<Arc<Analysis>>, Cancelled> {
         self.choose_settings(uri);
-        let document = self.documents.get_mut(uri).ok_or(Cancelled)?;
+        let document = self.documents.get(uri).ok_or(Cancelled)?;
         if document.in_force.settings.is_none() {
             return Ok(None);
         }
         let waiting: &Waiting = &self.waiting;
-        let for_questions = document.given_up < MOST_GIVEN_UP;
         let shown = Shown::new(&self.outbox, self.abilities.has_progress, document.name());
         let given_up = || {
             shown.look();
-            stop() || waiting.has_changes() || (for_questions && waiting.has_questions())
+            stop() || waiting.has_changes()
         };
-        let analysis = self.database.analysis(document.id, &given_up);
-        document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
-        analysis.map(Some)
+        self.database.analysis(document.id, &given_up).map(Some)
     }
 
     /// The analysis of a document if it is there already.

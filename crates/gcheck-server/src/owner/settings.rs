@@ -114,7 +114,7 @@ impl Owner {
     }
 
     fn put_client_settings(&mut self, values: Vec<(Option<PathBuf>, Value)>) {
-        let mut all = Vec::new();
+        let mut all: Vec<(Option<PathBuf>, ClientSettings)> = Vec::new();
         for (folder, value) in values {
             let (settings, complaints) = ClientSettings::read(&value);
             // Each folder repeats what is said of all.
@@ -123,7 +123,11 @@ impl Owner {
                     self.outbox.show(MessageType::WARNING, complaint);
                 }
             }
-            all.push((folder, settings));
+            // A folder that says what all say needs no entry.
+            let is_news = folder.is_none() || all.first().is_none_or(|(_, general)| *general != settings);
+            if is_news {
+                all.push((folder, settings));
+            }
         }
         if all != self.client_settings {
             self.client_settings = all;

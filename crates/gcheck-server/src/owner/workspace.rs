@@ -82,6 +82,11 @@ impl Addressed {
         self.addresses.get(&id).map(|(uri, _)| uri)
     }
 
+    /// The file of an address.
+    pub(crate) fn id(&self, uri: &Uri) -> Option<DocumentId> {
+        self.addresses.iter().find(|(_, (address, _))| address == uri).map(|(id, _)| *id)
+    }
+
     /// The text of a file.
     pub(crate) fn snapshot(&self, id: DocumentId) -> Option<&Snapshot> {
         self.workspace.file(id).map(|file| &file.snapshot)
@@ -187,16 +192,6 @@ impl Owner {
         let id = self.database.open(&text, settings.clone());
         self.disk.files.insert(file.path.clone(), Loaded { id, size: file.size, stamp: file.stamp });
         Some(id)
-    }
-
-    /// A document that is open, or a program on disk that `workspace_of` one has loaded.
-    pub(crate) fn any_document(&self, uri: &Uri) -> Result<DocumentId> {
-        if let Some(document) = self.documents.get(uri) {
-            return Ok(document.id);
-        }
-        let path = super::synchronizing::path_of(uri);
-        let loaded = path.and_then(|path| self.disk.files.get(&path));
-        loaded.map(|loaded| loaded.id).ok_or_else(|| not_open(uri))
     }
 
     /// A place in a file that a finding names by its path.

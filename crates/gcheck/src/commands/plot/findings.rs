@@ -2,6 +2,8 @@
 //!
 //! Knows: how one file is checked with what is in force for it. Must not know: pages.
 
+use std::sync::Arc;
+
 use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlSource, LineIndex};
@@ -12,7 +14,7 @@ use crate::Problem;
 use crate::args::{Global, PlotOptions};
 use crate::config::{Configs, RuleWishes, unknown_rule};
 use crate::execution::{Equipment, Prepared, Start};
-use crate::programs::{ProgramFolders, Reachable};
+use crate::programs::Reachable;
 
 /// More findings are counted, not shown.
 const MOST: usize = 1_000;
@@ -59,8 +61,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
         settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     let dialect = Dialect::new(&prepared.control);
     let model = Model::new(&prepared.control);
-    let folders = ProgramFolders::default();
-    let programs = Reachable::new(&folders, path, &prepared.search);
+    let programs = Reachable::new(Arc::default(), path, &prepared.search);
     let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
     equipment.set(&options.execution.set);
     settings.machine.units_are_told = !equipment.units_assumed;
