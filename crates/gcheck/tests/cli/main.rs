@@ -12,6 +12,7 @@
 
 mod bad_input;
 mod baseline;
+mod cache;
 mod configuration;
 mod control;
 mod determinism;
@@ -26,3 +27,4 @@ mod stats;
 mod suppressions;
 mod tour;
 mod walking;
+mod watch;
