@@ -98,6 +98,7 @@ impl Check<'_> {
             output::print(&names)?;
             return Ok(finish(&problems, 0));
         }
+        self.outputs.refuse_inputs(&looked.programs, &looked.configs, options.baseline.as_deref())?;
         let is_cached = !(options.no_cache || options.show_settings);
         let cache = if is_cached { Cache::open(options.cache_dir.as_deref())? } else { None };
         let bench = Bench::new(global, options, self.wishes.clone(), cache);
@@ -316,7 +317,7 @@ impl<'o> Outputs<'o> {
         let mut outputs = Self { main: None, besides: Vec::new() };
         let mut taken = BTreeSet::new();
         for OutputFile { format, path } in &options.output_file {
-            if !taken.insert(paths::absolute(path)) {
+            if !taken.insert(real(path)) {
                 return Err(Problem::with_file(path, "two outputs cannot go to one file"));
             }
             match format {
@@ -330,6 +331,32 @@ impl<'o> Outputs<'o> {
         }
         Ok(outputs)
     }
+
+    /// # Errors
+    /// When an output would replace something that the run reads.
+    fn refuse_inputs(
+        &self,
+        programs: &[PathBuf],
+        configs: &[Arc<Config>],
+        baseline: Option<&Path>,
+    ) -> Result<(), Problem> {
+        let outputs = self.main.into_iter().chain(self.besides.iter().map(|(_, path)| *path));
+        // What is not there yet replaces nothing; what is no file (a pipe, a terminal) is not replaced.
+        for path in outputs.filter(|path| path.is_file()) {
+            let output = real(path);
+            let files = configs.iter().flat_map(|config| config.files()).chain(baseline);
+            if programs.iter().map(PathBuf::as_path).chain(files).any(|read| real(read) == output) {
+                return Err(Problem::with_file(path, "is read in this run, and findings would replace it")
+                    .help("name another file for them"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The file that a path leads to, links followed where they lead somewhere.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| paths::absolute(path))
 }
 
 /// Findings to standard output or files; what is for people to read besides, where it does not disturb.

@@ -179,7 +179,7 @@ fn a_broken_configuration_is_said_and_waited_for() {
 #[test]
 fn its_own_output_and_its_own_reading_are_no_change() {
     let shop = Shop::with(&[("a.nc", BAD)]);
-    let watching = Watching::start(&shop, ". -o concise=out.nc");
+    let watching = Watching::start(&shop, ". -o concise=out.txt");
     watching.round();
     let more = watching.lines.recv_timeout(Duration::from_secs(2));
     assert!(more.is_err(), "a round of its own making: {more:?}");

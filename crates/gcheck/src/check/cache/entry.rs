@@ -1,7 +1,9 @@
 //! The form of a stored result.
 //!
-//! Knows: every part of a verdict, and that rules are called by id. Must not know: where entries lie.
+//! Knows: every part of a verdict; that rules are called by id; that findings repeat each other's words. Must not know: where
+//! entries lie.
 
+use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -28,43 +30,41 @@ pub(in crate::check) struct Verdict {
 #[derive(Debug, Serialize, Deserialize)]
 pub(in crate::check) struct Entry {
     pub(in crate::check) asked: Asked,
-    verdict: Stored,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-struct Stored {
-    control: (String, u8, Option<String>),
-    /// Ids that the others name by their place.
-    rules: Vec<String>,
+    /// Every text once; the others name it by its place.
+    texts: Vec<String>,
+    control: (Text, u8, Option<Text>),
     findings: Vec<StoredFinding>,
-    omitted: Vec<(u32, u8, u64)>,
+    omitted: Vec<(Text, u8, u64)>,
     lines: u64,
     suppressed: u64,
     out_of_fuel: bool,
-    assumptions: Vec<(String, Option<String>)>,
+    assumptions: Vec<(Text, Option<Text>)>,
 }
+
+/// The place of a text.
+type Text = u32;
 
 #[derive(Debug, Serialize, Deserialize)]
 struct StoredFinding {
-    rule: u32,
+    rule: Text,
     severity: u8,
     maybe: bool,
-    message: String,
+    message: Text,
     range: Range<u32>,
-    label: String,
-    labels: Vec<(Option<String>, Range<u32>, String)>,
-    notes: Vec<String>,
-    help: Option<String>,
-    alarm: Option<String>,
-    assumptions: Vec<String>,
+    label: Text,
+    labels: Vec<(Option<Text>, Range<u32>, Text)>,
+    notes: Vec<Text>,
+    help: Option<Text>,
+    alarm: Option<Text>,
+    assumptions: Vec<Text>,
     fixes: Vec<StoredFix>,
 }
 
 #[derive(Debug, Serialize, Deserialize)]
 struct StoredFix {
-    title: String,
+    title: Text,
     safe: bool,
-    edits: Vec<(Range<u32>, String)>,
+    edits: Vec<(Range<u32>, Text)>,
 }
 
 /// In the order in which stored results count them.
@@ -78,12 +78,32 @@ const SOURCES: [ControlSource; 5] = [
 
 impl Entry {
     pub(in crate::check) fn new(asked: Asked, verdict: &Verdict) -> Self {
-        Self { asked, verdict: Stored::new(verdict) }
+        let Verdict { control, findings, omitted, lines, suppressed, out_of_fuel, assumptions } = verdict;
+        let mut texts = Writer::default();
+        let source = SOURCES.iter().position(|source| *source == control.source).unwrap_or_default();
+        Self {
+            asked,
+            control: (texts.put(&control.name), source as u8, texts.maybe(control.because.as_deref())),
+            findings: findings.iter().map(|finding| texts.finding(finding)).collect(),
+            omitted: omitted
+                .iter()
+                .map(|(rule, severity, count)| (texts.put(rule.id), number_of(*severity), *count as u64))
+                .collect(),
+            lines: *lines as u64,
+            suppressed: *suppressed as u64,
+            out_of_fuel: *out_of_fuel,
+            assumptions: assumptions
+                .iter()
+                .map(|assumed| (texts.put(&assumed.text), texts.maybe(assumed.pin.as_deref())))
+                .collect(),
+            texts: texts.into_texts(),
+        }
     }
 
-    /// The verdict; none if a rule is not there, which another build may have had.
-    pub(in crate::check) fn verdict(self) -> Option<Verdict> {
-        self.verdict.restore()
+    /// The verdict; none if a text or rule is not there, which only a mistake of ours can bring about.
+    pub(in crate::check) fn verdict(&self) -> Option<Verdict> {
+        let texts = Reader { texts: &self.texts, rules: HashMap::new() };
+        texts.verdict(self)
     }
 
     pub(super) fn encode(&self) -> Option<Vec<u8>> {
@@ -95,73 +115,29 @@ impl Entry {
     }
 }
 
-impl Stored {
-    fn new(verdict: &Verdict) -> Self {
-        let Verdict { control, findings, omitted, lines, suppressed, out_of_fuel, assumptions } = verdict;
-        let mut rules: Vec<&str> = Vec::new();
-        let mut place = |rule: &'static RuleMeta| {
-            let known = rules.iter().position(|id| *id == rule.id);
-            known.unwrap_or_else(|| {
-                rules.push(rule.id);
-                rules.len() - 1
-            }) as u32
-        };
-        let findings =
-            findings.iter().map(|finding| StoredFinding::new(finding, place(finding.rule))).collect();
-        let omitted = omitted
-            .iter()
-            .map(|(rule, severity, count)| (place(rule), number_of(*severity), *count as u64))
-            .collect();
-        let source = SOURCES.iter().position(|source| *source == control.source).unwrap_or_default() as u8;
-        Self {
-            control: (control.name.clone(), source, control.because.clone()),
-            rules: rules.into_iter().map(str::to_owned).collect(),
-            findings,
-            omitted,
-            lines: *lines as u64,
-            suppressed: *suppressed as u64,
-            out_of_fuel: *out_of_fuel,
-            assumptions: assumptions.iter().map(|a| (a.text.clone(), a.pin.clone())).collect(),
-        }
-    }
-
-    fn restore(self) -> Option<Verdict> {
-        let rules: Vec<&'static RuleMeta> = self
-            .rules
-            .iter()
-            .map(|id| gcheck_rules::by_id(id).map(|rule| rule.meta))
-            .collect::<Option<_>>()?;
-        let rule = |place: u32| rules.get(place as usize).copied();
-        let (name, source, because) = self.control;
-        Some(Verdict {
-            control: ControlChoice { name, source: *SOURCES.get(usize::from(source))?, because },
-            findings: self
-                .findings
-                .into_iter()
-                .map(|finding| {
-                    let rule = rule(finding.rule)?;
-                    finding.restore(rule)
-                })
-                .collect::<Option<_>>()?,
-            omitted: self
-                .omitted
-                .into_iter()
-                .map(|(place, severity, count)| {
-                    Some((rule(place)?, severity_of(severity)?, usize::try_from(count).ok()?))
-                })
-                .collect::<Option<_>>()?,
-            lines: usize::try_from(self.lines).ok()?,
-            suppressed: usize::try_from(self.suppressed).ok()?,
-            out_of_fuel: self.out_of_fuel,
-            assumptions: self.assumptions.into_iter().map(|(text, pin)| Described { text, pin }).collect(),
-        })
-    }
+/// Gives texts their places.
+#[derive(Debug, Default)]
+struct Writer<'t> {
+    places: HashMap<&'t str, Text>,
 }
 
-impl StoredFinding {
-    fn new(finding: &Finding, rule: u32) -> Self {
+impl<'t> Writer<'t> {
+    fn put(&mut self, text: &'t str) -> Text {
+        let next = self.places.len() as Text;
+        *self.places.entry(text).or_insert(next)
+    }
+
+    fn maybe(&mut self, text: Option<&'t str>) -> Option<Text> {
+        text.map(|text| self.put(text))
+    }
+
+    fn all(&mut self, texts: &'t [String]) -> Vec<Text> {
+        texts.iter().map(|text| self.put(text)).collect()
+    }
+
+    fn finding(&mut self, finding: &'t Finding) -> StoredFinding {
         let Finding {
-            rule: _,
+            rule,
             severity,
             certainty,
             message,
@@ -174,57 +150,136 @@ impl StoredFinding {
             assumptions,
             fixes,
         } = finding;
-        Self {
-            rule,
+        StoredFinding {
+            rule: self.put(rule.id),
             severity: number_of(*severity),
             maybe: *certainty == Certainty::Maybe,
-            message: message.clone(),
+            message: self.put(message),
             range: range.clone(),
-            label: label.clone(),
+            label: self.put(label),
             labels: labels
                 .iter()
-                .map(|l| (l.file.as_deref().map(str::to_owned), l.range.clone(), l.message.clone()))
+                .map(|label| {
+                    (self.maybe(label.file.as_deref()), label.range.clone(), self.put(&label.message))
+                })
                 .collect(),
-            notes: notes.clone(),
-            help: help.clone(),
-            alarm: alarm.clone(),
-            assumptions: assumptions.clone(),
+            notes: self.all(notes),
+            help: self.maybe(help.as_deref()),
+            alarm: self.maybe(alarm.as_deref()),
+            assumptions: self.all(assumptions),
             fixes: fixes
                 .iter()
-                .map(|fix| {
-                    let edits = fix.edits.iter().map(|edit| (edit.range.clone(), edit.text.clone()));
-                    StoredFix { title: fix.title.clone(), safe: fix.safe, edits: edits.collect() }
+                .map(|fix| StoredFix {
+                    title: self.put(&fix.title),
+                    safe: fix.safe,
+                    edits: fix.edits.iter().map(|edit| (edit.range.clone(), self.put(&edit.text))).collect(),
                 })
                 .collect(),
         }
     }
 
-    fn restore(self, rule: &'static RuleMeta) -> Option<Finding> {
-        Some(Finding {
-            rule,
-            severity: severity_of(self.severity)?,
-            certainty: if self.maybe { Certainty::Maybe } else { Certainty::Always },
-            message: self.message,
-            range: self.range,
-            label: self.label,
-            labels: self
-                .labels
-                .into_iter()
-                .map(|(file, range, message)| Label { file: file.map(Arc::from), range, message })
-                .collect(),
-            notes: self.notes,
-            help: self.help,
-            alarm: self.alarm,
-            assumptions: self.assumptions,
-            fixes: self
-                .fixes
-                .into_iter()
-                .map(|StoredFix { title, safe, edits }| Fix {
-                    title,
-                    safe,
-                    edits: edits.into_iter().map(|(range, text)| Edit { range, text }).collect(),
+    fn into_texts(self) -> Vec<String> {
+        let mut texts: Vec<(&str, Text)> = self.places.into_iter().collect();
+        texts.sort_by_key(|(_, place)| *place);
+        texts.into_iter().map(|(text, _)| text.to_owned()).collect()
+    }
+}
+
+/// Finds texts at their places.
+struct Reader<'t> {
+    texts: &'t [String],
+    /// Rules found so far: there are many to look through.
+    rules: HashMap<Text, &'static RuleMeta>,
+}
+
+impl Reader<'_> {
+    fn verdict(mut self, entry: &Entry) -> Option<Verdict> {
+        let (name, source, because) = entry.control;
+        Some(Verdict {
+            control: ControlChoice {
+                name: self.get(name)?,
+                source: *SOURCES.get(usize::from(source))?,
+                because: self.maybe(because)?,
+            },
+            findings: entry.findings.iter().map(|finding| self.finding(finding)).collect::<Option<_>>()?,
+            omitted: entry
+                .omitted
+                .iter()
+                .map(|(rule, severity, count)| {
+                    Some((self.rule(*rule)?, severity_of(*severity)?, usize::try_from(*count).ok()?))
                 })
-                .collect(),
+                .collect::<Option<_>>()?,
+            lines: usize::try_from(entry.lines).ok()?,
+            suppressed: usize::try_from(entry.suppressed).ok()?,
+            out_of_fuel: entry.out_of_fuel,
+            assumptions: entry
+                .assumptions
+                .iter()
+                .map(|(text, pin)| Some(Described { text: self.get(*text)?, pin: self.maybe(*pin)? }))
+                .collect::<Option<_>>()?,
+        })
+    }
+
+    fn get(&self, place: Text) -> Option<String> {
+        self.texts.get(place as usize).cloned()
+    }
+
+    /// The outer option is for a place without a text.
+    #[expect(
+        clippy::option_option,
+        reason = "a text that is missing is a mistake, one that is not there is none"
+    )]
+    fn maybe(&self, place: Option<Text>) -> Option<Option<String>> {
+        match place {
+            Some(place) => Some(Some(self.get(place)?)),
+            None => Some(None),
+        }
+    }
+
+    fn all(&self, places: &[Text]) -> Option<Vec<String>> {
+        places.iter().map(|place| self.get(*place)).collect()
+    }
+
+    fn rule(&mut self, place: Text) -> Option<&'static RuleMeta> {
+        if let Some(rule) = self.rules.get(&place) {
+            return Some(rule);
+        }
+        let rule = gcheck_rules::by_id(self.texts.get(place as usize)?)?.meta;
+        self.rules.insert(place, rule);
+        Some(rule)
+    }
+
+    fn finding(&mut self, stored: &StoredFinding) -> Option<Finding> {
+        Some(Finding {
+            rule: self.rule(stored.rule)?,
+            severity: severity_of(stored.severity)?,
+            certainty: if stored.maybe { Certainty::Maybe } else { Certainty::Always },
+            message: self.get(stored.message)?,
+            range: stored.range.clone(),
+            label: self.get(stored.label)?,
+            labels: stored
+                .labels
+                .iter()
+                .map(|(file, range, message)| {
+                    let file = self.maybe(*file)?.map(Arc::from);
+                    Some(Label { file, range: range.clone(), message: self.get(*message)? })
+                })
+                .collect::<Option<_>>()?,
+            notes: self.all(&stored.notes)?,
+            help: self.maybe(stored.help)?,
+            alarm: self.maybe(stored.alarm)?,
+            assumptions: self.all(&stored.assumptions)?,
+            fixes: stored.fixes.iter().map(|fix| self.fix(fix)).collect::<Option<_>>()?,
+        })
+    }
+
+    fn fix(&self, stored: &StoredFix) -> Option<Fix> {
+        let edit =
+            |(range, text): &(Range<u32>, Text)| Some(Edit { range: range.clone(), text: self.get(*text)? });
+        Some(Fix {
+            title: self.get(stored.title)?,
+            safe: stored.safe,
+            edits: stored.edits.iter().map(edit).collect::<Option<_>>()?,
         })
     }
 }
