@@ -5,6 +5,7 @@
 
 mod command_line;
 mod in_process;
+mod many_files;
 mod peer;
 mod row;
 

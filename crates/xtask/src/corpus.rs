@@ -68,7 +68,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
 fn check(gcheck: &Path, folder: &Path, options: &[&str], paths: &[&str]) -> anyhow::Result<Output> {
     let output = Command::new(gcheck)
         .current_dir(folder)
-        .args(["check", "--isolated", "--output-format", "json"])
+        .args(["check", "--isolated", "--no-cache", "--output-format", "json"])
         .args(options)
         .arg("--")
         .args(paths)

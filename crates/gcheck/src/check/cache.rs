@@ -166,18 +166,22 @@ fn usual_folder() -> Option<PathBuf> {
 /// Makes the folder, and marks it as what it is; false if it holds other things.
 fn prepare(folder: &Path) -> io::Result<bool> {
     let tag = folder.join(TAG);
-    if tag.is_file() {
-        // A tag of another program's cache is not enough.
-        return Ok(fs::read_to_string(&tag).is_ok_and(|text| text.contains("gcheck")));
+    // A tag of another program's cache is not enough.
+    let is_ours = || fs::read_to_string(&tag).is_ok_and(|text| text.contains("gcheck"));
+    if is_ours() {
+        return Ok(true);
     }
     fs::create_dir_all(folder)?;
-    if fs::read_dir(folder)?.next().is_some() {
-        // Two processes that begin at once both find it empty, or one finds the other's first file.
-        let names: Vec<_> = fs::read_dir(folder)?.flatten().map(|entry| entry.file_name()).collect();
-        return Ok(names.iter().all(|name| name == IGNORE || name == TAG));
+    let is_other = |name: &str| name != IGNORE && !name.starts_with(TAG);
+    if fs::read_dir(folder)?.flatten().any(|entry| is_other(&entry.file_name().to_string_lossy())) {
+        // Another process may have begun at the same time; it writes the tag first.
+        return Ok(is_ours());
     }
+    // A name of its own until it is whole, for the same reason.
+    let whole = folder.join(format!("{TAG}.{}.tmp", process::id()));
+    fs::write(&whole, TAG_TEXT)?;
+    fs::rename(whole, tag)?;
     fs::write(folder.join(IGNORE), "# Written by gcheck.\n*\n")?;
-    fs::write(tag, TAG_TEXT)?;
     Ok(true)
 }
 

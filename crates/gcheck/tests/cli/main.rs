@@ -13,6 +13,7 @@
 mod bad_input;
 mod baseline;
 mod cache;
+mod ci_files;
 mod configuration;
 mod control;
 mod determinism;
@@ -21,6 +22,7 @@ mod fixes;
 mod formats;
 mod lists;
 mod output;
+mod readers;
 mod run;
 mod shop;
 mod stats;

@@ -11,7 +11,7 @@ use gcheck_testkit::inputs;
 use serde_json::Value;
 
 use super::in_process::CONTROL;
-use super::peer;
+use super::{many_files, peer};
 use super::row::{Limit, Row};
 use crate::measure::{Usage, measure};
 use crate::workspace;
@@ -73,6 +73,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         limit: Limit::AtMost(15.0),
         unit: "ms",
     });
+    rows.extend(many_files::rows(&gcheck, &inputs)?);
     rows.extend(peer::rows(&gcheck, &inputs)?);
     Ok(rows)
 }
@@ -95,9 +96,9 @@ impl Input {
         Ok(Self { path, bytes: text.len() as f64 })
     }
 
-    fn arguments(&self) -> [&str; 7] {
+    fn arguments(&self) -> [&str; 8] {
         let path = self.path.to_str().unwrap_or_default();
-        ["check", "--isolated", "--control", CONTROL, "--output-format", "json", path]
+        ["check", "--isolated", "--no-cache", "--control", CONTROL, "--output-format", "json", path]
     }
 
     /// Does the command print a report?
