@@ -212,3 +212,30 @@ fn recipes_name_options_that_exist() {
         }
     }
 }
+
+/// What a registry asks of a crate before it takes it.
+#[test]
+fn crates_say_what_a_registry_asks_for() {
+    let workspace: toml::Table = toml::from_str(&text("Cargo.toml")).unwrap();
+    let shared = workspace["workspace"]["package"].as_table().unwrap();
+    for key in ["license", "repository", "rust-version", "readme"] {
+        assert!(shared[key].as_str().is_some_and(|value| !value.is_empty()), "{key}");
+    }
+    for entry in fs::read_dir(root().join("crates")).unwrap() {
+        let folder = entry.unwrap().path();
+        let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+        // Never published.
+        if ["gcheck-testkit", "xtask"].contains(&name.as_str()) {
+            continue;
+        }
+        let manifest: toml::Table = toml::from_str(&text(&format!("crates/{name}/Cargo.toml"))).unwrap();
+        let package = manifest["package"].as_table().unwrap();
+        let length = |key: &str| package.get(key).and_then(toml::Value::as_array).map_or(0, Vec::len);
+        assert!(package["description"].as_str().is_some_and(|text| text.len() > 20), "{name}");
+        assert!((1..=5).contains(&length("keywords")), "{name} has one to five keywords");
+        assert!((1..=5).contains(&length("categories")), "{name} has one to five categories");
+        for key in ["license", "repository", "rust-version", "readme", "publish"] {
+            assert_eq!(package[key]["workspace"].as_bool(), Some(true), "{name}: {key}");
+        }
+    }
+}

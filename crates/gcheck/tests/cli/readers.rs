@@ -172,9 +172,7 @@ impl Element {
     fn begin(start: &BytesStart<'_>) -> Self {
         let attributes = start.attributes().map(|attribute| {
             let attribute = attribute.unwrap();
-            let value = quick_xml::escape::unescape(&attribute.value)
-                .unwrap()
-                .into_owned();
+            let value = quick_xml::escape::unescape(&attribute.value).unwrap().into_owned();
             (attribute.key.as_ref().to_owned(), value)
         });
         Self { name: start.name().as_ref().to_owned(), attributes: attributes.collect(), ..Self::default() }

@@ -11,8 +11,8 @@ use gcheck_testkit::inputs;
 use serde_json::Value;
 
 use super::in_process::CONTROL;
-use super::{many_files, peer};
 use super::row::{Limit, Row};
+use super::{many_files, peer};
 use crate::measure::{Usage, measure};
 use crate::workspace;
 

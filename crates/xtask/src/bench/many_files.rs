@@ -25,23 +25,32 @@ pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
             fs::remove_dir_all(stale)?;
         }
     }
+    let mut programs = Vec::with_capacity(PROGRAMS);
     for (number, original) in originals.iter().cycle().take(PROGRAMS).enumerate() {
         // A folder for each round, so that no folder holds a program twice; called programs stay beside their callers.
         let round = folder.join((number / originals.len()).to_string());
         let copy = round.join(&original.place);
         fs::create_dir_all(copy.parent().unwrap_or(&round))?;
-        fs::copy(&original.path, copy)?;
+        fs::copy(&original.path, &copy)?;
+        programs.push(copy.to_string_lossy().into_owned());
     }
-    let [folder, cache] = [&folder, &cache].map(|path| path.to_string_lossy());
-    // Ignore files of whoever holds the build folder must not count.
+    let cache = cache.to_string_lossy();
     let check = |kept: &[&str]| {
-        let arguments = [&["check", "--isolated", "--config", "files.include=['**']", "--output-format", "concise"], kept, &[&folder]].concat();
+        let mut arguments = vec!["check", "--isolated", "--output-format", "concise"];
+        arguments.extend(kept);
+        // Each by name: ignore files of whoever holds the build folder do not count.
+        arguments.push("--");
+        arguments.extend(programs.iter().map(String::as_str));
         measure(gcheck, &arguments)
     };
     let fresh: Vec<Usage> = (0..RUNS).map(|_| check(&["--no-cache"])).collect::<anyhow::Result<_>>()?;
     let filled = check(&["--cache-dir", &cache])?;
-    let known: Vec<Usage> = (0..RUNS).map(|_| check(&["--cache-dir", &cache])).collect::<anyhow::Result<_>>()?;
-    ensure!(fresh.iter().chain(&known).all(|usage| matches!(usage.code, 0 | 1)), "a command fails: {fresh:?} {known:?}");
+    let known: Vec<Usage> =
+        (0..RUNS).map(|_| check(&["--cache-dir", &cache])).collect::<anyhow::Result<_>>()?;
+    ensure!(
+        fresh.iter().chain(&known).all(|usage| matches!(usage.code, 0 | 1)),
+        "a command fails: {fresh:?} {known:?}"
+    );
     let row = |name: &str, usages: &[Usage], limit| Row {
         name: format!("check, {PROGRAMS} {whose}{name}"),
         measured: usages.iter().map(|usage| usage.cpu).min_by(f64::total_cmp),
@@ -65,10 +74,9 @@ struct Original {
 /// The programs of the corpus, or where there is none our own examples.
 fn originals() -> anyhow::Result<(&'static str, Vec<Original>)> {
     if let (Some(folder), Some(programs)) = (corpus::folder(), corpus::programs()) {
-        let originals = programs.into_iter().map(|program| Original {
-            path: folder.join(&program.name),
-            place: PathBuf::from(program.name),
-        });
+        let originals = programs
+            .into_iter()
+            .map(|program| Original { path: folder.join(&program.name), place: PathBuf::from(program.name) });
         return Ok(("real programs", originals.collect()));
     }
     let tour = workspace::root().join("fixtures/tour");
