@@ -88,7 +88,7 @@ impl<'o> Bench<'o> {
     }
 
     /// A control with a shop's own codes; made once for each set of codes.
-    fn control_of(&self, name: &str, codes: &[UserCode]) -> Result<Arc<Control>, Problem> {
+    pub(super) fn control_of(&self, name: &str, codes: &[UserCode]) -> Result<Arc<Control>, Problem> {
         let plain = gcheck_controls::load(name).map_err(|error| Problem::new(error.to_string()))?;
         if codes.is_empty() {
             return Ok(plain);
