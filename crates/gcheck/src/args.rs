@@ -158,6 +158,15 @@ pub struct CheckOptions {
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
+    /// Check anew whatever is there, and remember nothing
+    #[arg(long)]
+    pub no_cache: bool,
+    /// Where results of earlier runs are kept; the user's folder for caches without it
+    #[arg(long, value_name = "DIR", env = "GCHECK_CACHE")]
+    pub cache_dir: Option<PathBuf>,
+    /// Check again whenever a program or a configuration changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["fix", "diff", "update_baseline", "show_files", "show_settings", "stdin_filename"])]
+    pub watch: bool,
     /// Print the files that would be checked
     #[arg(long)]
     pub show_files: bool,

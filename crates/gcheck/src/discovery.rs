@@ -82,6 +82,12 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
             Err(error) => found.problems.push(Problem::new(format!("cannot look into a folder: {error}"))),
         }
     }
+    // Without programs nobody else would read it, and its author would think it right.
+    if programs.is_empty()
+        && let Err(problem) = configs.of_folder(folder)
+    {
+        found.problems.push(problem);
+    }
     programs.sort();
     for path in programs {
         add(path, found, seen);

@@ -6,6 +6,7 @@
 mod command_line;
 mod in_process;
 mod language_server;
+mod many_files;
 mod peer;
 mod row;
 

@@ -74,7 +74,7 @@ pub(crate) fn check(
 ) -> anyhow::Result<Output> {
     let output = Command::new(gcheck)
         .current_dir(folder)
-        .args(["check", "--isolated", "--output-format", "json"])
+        .args(["check", "--isolated", "--no-cache", "--output-format", "json"])
         .args(options)
         .arg("--")
         .args(paths)

@@ -90,7 +90,8 @@ fn calls_are_followed_both_ways() {
 fn symbols_of_the_whole_workspace_are_found() {
     let mut session = both();
     let found = session.client.request("workspace/symbol", json!({ "query": "100" }));
-    let mut uris: Vec<&Value> = found.as_array().unwrap().iter().map(|symbol| &symbol["location"]["uri"]).collect();
+    let mut uris: Vec<&Value> =
+        found.as_array().unwrap().iter().map(|symbol| &symbol["location"]["uri"]).collect();
     uris.sort_by_key(|uri| uri.to_string());
     uris.dedup();
     assert_eq!(uris, [&json!(session.uri("100.nc")), &json!(session.uri("other/100.nc"))]);

@@ -12,6 +12,7 @@ use gcheck_report::{ControlChoice, ControlSource, FileReport};
 use gcheck_rules::{Execution, FixKinds, Job, Mended, Scene, Selection, check, describe_all, mend};
 use gcheck_syntax::SourceText;
 
+use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use super::read;
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
@@ -39,19 +40,28 @@ pub(super) struct Bench<'o> {
     fixes: Option<FixKinds>,
     set: &'o [Assignment],
     folders: Arc<ProgramFolders>,
-    controls: Controls,
+    pub(super) controls: Controls,
+    /// Results of earlier runs, and what this run is called in them.
+    cache: Option<(Cache, Run)>,
 }
 
 impl<'o> Bench<'o> {
-    pub(super) fn new(global: &'o Global, options: &'o CheckOptions, wishes: RuleWishes) -> Self {
+    pub(super) fn new(
+        global: &'o Global,
+        options: &'o CheckOptions,
+        wishes: RuleWishes,
+        cache: Option<Cache>,
+    ) -> Self {
+        let control = global.control.as_deref();
+        let suppressions = !options.no_suppressions;
+        let execution =
+            Execution { fuel: options.fuel, block_skip: options.block_skip.map(|skip| skip == Switch::On) };
+        let run = Run::new(control, &wishes, suppressions, execution, &options.set);
         Self {
-            control: global.control.as_deref(),
+            control,
             wishes,
-            suppressions: !options.no_suppressions,
-            execution: Execution {
-                fuel: options.fuel,
-                block_skip: options.block_skip.map(|skip| skip == Switch::On),
-            },
+            suppressions,
+            execution,
             fixes: (options.fix || options.diff).then_some(if options.unsafe_fixes {
                 FixKinds::All
             } else {
@@ -60,6 +70,14 @@ impl<'o> Bench<'o> {
             set: &options.set,
             folders: Arc::default(),
             controls: Controls::default(),
+            cache: cache.map(|cache| (cache, run)),
+        }
+    }
+
+    /// To be called when all files are checked.
+    pub(super) fn end(&self) {
+        if let Some((cache, _)) = &self.cache {
+            cache.tidy();
         }
     }
 }
@@ -74,8 +92,15 @@ pub(super) struct Prepared {
 
 /// Reads a file and finds out what is in force for it.
 pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Problem> {
-    let source = read(target)?;
-    let settings = target.config.settings(&target.path);
+    decide(bench, target, read(target)?, target.config.settings(&target.path))
+}
+
+fn decide(
+    bench: &Bench<'_>,
+    target: &Target,
+    source: SourceText,
+    settings: FileSettings,
+) -> Result<Prepared, Problem> {
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let choice = choose(&target.path, &source, bench.control, from)?;
     let selection =
@@ -103,16 +128,25 @@ pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Pro
 }
 
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
-    let Prepared { source, settings, choice, selection } = prepare(bench, target)?;
+    let source = read(target)?;
+    let settings = target.config.settings(&target.path);
+    // What is mended is checked over and over, and what comes in by a pipe has no place.
+    let cache = bench.cache.as_ref().filter(|_| bench.fixes.is_none() && !target.is_standard_input);
+    let slot = cache.and_then(|(cache, run)| Some((cache, run.key(&target.shown, &source, &settings)?)));
+    if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &settings, cache, key)) {
+        return Ok(Checked { report: report(target, source, verdict, 0), change: None });
+    }
+    let Prepared { source, settings, choice, selection } = decide(bench, target, source, settings)?;
     let control = bench.controls.get(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
     let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
+    let questions = Questions::new(&programs);
     let model = Model::new(&control);
     let machine = in_force::machine(&settings, &control, bench.set)?;
     let scene = Scene {
         dialect: &dialect,
         machine: &machine,
-        programs: &programs,
+        programs: &questions,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
     let run = |source: &SourceText| {
@@ -137,20 +171,48 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
             (mended, change)
         }
     };
-    // A program without findings is never shown: let go of its text before the last file is read.
-    let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
-    let report = FileReport {
-        path: target.shown.clone(),
-        text: Arc::new(text),
+    let verdict = Verdict {
         control: choice,
         findings: outcome.findings,
         omitted: outcome.omitted,
         lines: outcome.lines,
         suppressed: outcome.suppressed,
-        baseline: 0,
-        fixed,
         out_of_fuel: outcome.out_of_fuel,
         assumptions: describe_all(&outcome.ledger, &model),
     };
-    Ok(Checked { report, change })
+    if let Some((cache, key)) = slot {
+        cache.store(key, &Entry::new(questions.into_asked(), &verdict));
+    }
+    Ok(Checked { report: report(target, source, verdict, fixed), change })
+}
+
+/// The verdict of an earlier run, if it would be found again.
+fn known(
+    bench: &Bench<'_>,
+    target: &Target,
+    settings: &FileSettings,
+    cache: &Cache,
+    key: Key,
+) -> Option<Verdict> {
+    let entry = cache.load(key)?;
+    let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
+    if answers_hold(&entry.asked, &programs) { entry.verdict() } else { None }
+}
+
+fn report(target: &Target, source: SourceText, verdict: Verdict, fixed: usize) -> FileReport {
+    // A program without findings is never shown: let go of its text before the last file is read.
+    let text = if verdict.findings.is_empty() { SourceText::from("") } else { source };
+    FileReport {
+        path: target.shown.clone(),
+        text: Arc::new(text),
+        control: verdict.control,
+        findings: verdict.findings,
+        omitted: verdict.omitted,
+        lines: verdict.lines,
+        suppressed: verdict.suppressed,
+        baseline: 0,
+        fixed,
+        out_of_fuel: verdict.out_of_fuel,
+        assumptions: verdict.assumptions,
+    }
 }

@@ -108,8 +108,9 @@ fn page(
     let mut texts = vec![(shown.clone(), readable(session.prepared.source.text()))];
     // The main file is 0, and the others follow without a gap.
     let others: Vec<_> = (1..).map_while(|index| session.program.file(index)).collect();
-    for file in &others {
-        texts.push((file.name.to_string(), readable(&file.loaded.text())));
+    let others: Vec<_> = others.iter().map(|file| (file.name.to_string(), file.loaded.text())).collect();
+    for (name, text) in &others {
+        texts.push((name.clone(), readable(text)));
     }
     let sources: Vec<Source<'_>> = texts.iter().map(|(name, text)| Source { name, text }).collect();
     let findings: Vec<_> = found.findings(shown).collect();

@@ -117,6 +117,21 @@ impl Layer {
         let exclude = text.patterns(exclude)?;
         Ok(Self { path, file, base, overrides, per_file_ignores, include, exclude })
     }
+
+    /// What it says about some programs or all.
+    fn facts(&self) -> impl Iterator<Item = &Facts> {
+        std::iter::once(&self.base).chain(self.overrides.iter().map(|(_, facts)| facts))
+    }
+
+    /// Tool tables on disk.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &Path> {
+        self.facts().filter_map(|facts| facts.execution.table.as_deref())
+    }
+
+    /// Folders in which called programs are looked for.
+    pub(super) fn search(&self) -> impl Iterator<Item = &Path> {
+        self.facts().flat_map(|facts| facts.search.iter().map(PathBuf::as_path))
+    }
 }
 
 fn overriding(

@@ -3,6 +3,7 @@
 //! Knows: the order in which layers and overrides win. Must not know: the program's text.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gcheck_controls::{Letter, LetterSet, UserCode};
@@ -72,6 +73,29 @@ impl Config {
 }
 
 impl FileSettings {
+    /// Everything it says, for telling settings apart. Tables on disk are left to [`Self::tables`]; folders and files are
+    /// called as messages call them, so that the place of a checkout does not count.
+    pub(crate) fn in_words(&self) -> String {
+        // Named one by one: a field that is added must be thought of here.
+        // How programs are formatted changes no finding.
+        let Self { control, control_from, machine, execution, codes, search, rules, ignored, format: _ } =
+            self;
+        let control_from = control_from.as_deref().map(paths::shown_from_here);
+        let search: Vec<String> = search.iter().map(|folder| paths::shown_from_here(folder)).collect();
+        let mut words = format!("{:?}", (control, control_from, machine, codes, search, rules, ignored));
+        for facts in execution {
+            let ExecutionFacts { units, machine, variables, offsets, tools, table: _ } = facts;
+            // Writing to a string cannot fail.
+            let _ = write!(words, "{:?}", (units, machine, variables, offsets, tools));
+        }
+        words
+    }
+
+    /// Tool tables on disk that it names.
+    pub(crate) fn tables(&self) -> impl Iterator<Item = &Path> {
+        self.execution.iter().filter_map(|facts| facts.table.as_deref())
+    }
+
     fn put(&mut self, facts: &Facts, from: Option<&Path>) {
         if let Some(control) = &facts.control {
             self.control = Some(control.clone());

@@ -12,6 +12,8 @@
 
 mod bad_input;
 mod baseline;
+mod cache;
+mod ci_files;
 mod configuration;
 mod control;
 mod determinism;
@@ -21,9 +23,11 @@ mod formats;
 mod formatting;
 mod lists;
 mod output;
+mod readers;
 mod run;
 mod shop;
 mod stats;
 mod suppressions;
 mod tour;
 mod walking;
+mod watch;

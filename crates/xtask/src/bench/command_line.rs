@@ -11,8 +11,8 @@ use gcheck_testkit::inputs;
 use serde_json::Value;
 
 use super::in_process::CONTROL;
-use super::peer;
 use super::row::{Limit, Row};
+use super::{many_files, peer};
 use crate::measure::{Usage, measure};
 use crate::workspace;
 
@@ -42,10 +42,7 @@ pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
     let small = Input::write(inputs, "small.nc", SMALL)?;
 
     // A command that fails fast must not look like a fast one.
-    ensure!(
-        small.gets_a_verdict(gcheck)?,
-        "`gcheck check` gives no JSON, so its budgets cannot be measured"
-    );
+    ensure!(small.gets_a_verdict(gcheck)?, "`gcheck check` gives no JSON, so its budgets cannot be measured");
 
     let mut rows = Vec::new();
     for (name, input, limit) in [
@@ -77,6 +74,7 @@ pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
         limit: Limit::AtMost(15.0),
         unit: "ms",
     });
+    rows.extend(many_files::rows(gcheck, inputs)?);
     rows.extend(peer::rows(gcheck, inputs)?);
     Ok(rows)
 }
@@ -99,9 +97,9 @@ impl Input {
         Ok(Self { path, bytes: text.len() as f64 })
     }
 
-    fn arguments(&self) -> [&str; 7] {
+    fn arguments(&self) -> [&str; 8] {
         let path = self.path.to_str().unwrap_or_default();
-        ["check", "--isolated", "--control", CONTROL, "--output-format", "json", path]
+        ["check", "--isolated", "--no-cache", "--control", CONTROL, "--output-format", "json", path]
     }
 
     /// Does the command print a report?
