@@ -1,0 +1,81 @@
+//! A tapping cycle whose spindle turns the wrong way.
+
+use gcheck_engine::{Fact, Fault};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+
+declare_rule! {
+    /// A tapping cycle begins with the spindle turning the other way than its thread: a right-hand tap under `M4`, a left-hand
+    /// tap under `M3`.
+    ///
+    /// ## Why it matters
+    /// A control that looks at it refuses the cycle. One that does not would screw the tap out of the hole while it feeds in.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G20 G90 G0 X0 Y0 Z1
+    /// M4 S100
+    /// G84 Z-1 R.1 F10
+    /// G80
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G20 G90 G0 X0 Y0 Z1
+    /// M3 S100
+    /// G84 Z-1 R.1 F10
+    /// G80
+    /// M2
+    /// ```
+    /// Other controls turn the spindle themselves.
+    /// ```nc,quiet,haas-mill
+    /// G20 G90 G54 G0 X0. Y0.
+    /// M4 S100
+    /// G84 Z-1. R.1 F10.
+    /// G80
+    /// M30
+    /// ```
+    rule "tap-in-wrong-direction" in "spindle" {
+        summary: "spindle turns the wrong way for a tapping cycle",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(TapInWrongDirection) },
+    }
+}
+
+struct TapInWrongDirection;
+
+impl PathRule for TapInWrongDirection {
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault != Fault::SpindleDirection {
+            return;
+        }
+        let finding = cx
+            .finding(&META, cx.range(), "the spindle turns the wrong way for this tapping cycle")
+            .label("the control refuses the cycle")
+            .note("a right-hand thread needs the spindle clockwise (`M3`), a left-hand one counter-clockwise (`M4`)")
+            .help("start the spindle the other way, or use the cycle of the other thread")
+            .at_most(limit(cx.model.semantics().confidence));
+        report.add(cx.resting_on(finding, Fact::Spindle, "the direction"));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn left_hand_threads_too() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G20 G90 G0 X0 Y0 Z1\nM3 S100\nG74 Z-1 R.1 F10\nG80\nM2\n",
+            &expect![[r#""#]],
+        );
+    }
+}
