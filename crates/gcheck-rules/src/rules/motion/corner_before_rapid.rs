@@ -103,7 +103,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G17 G90 G54 G0 X0. Y0.\nG1 X10. ,C2. F100.\nG0 Z5.\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                2 | G1 X10. ,C2. F100.
+                  |         ^^^^ warning[corner-before-rapid] chamfer or rounding before a rapid move
+            "#]],
         );
     }
 }

@@ -77,6 +77,14 @@ mod tests {
 
     #[test]
     fn the_word_is_marked() {
-        check_rule(&RULE, "linuxcnc", "G21 G90\nG0 X1\nG91 G53 G0 Z0\nM2\n", &expect![[r#""#]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90\nG0 X1\nG91 G53 G0 Z0\nM2\n",
+            &expect![[r#"
+            3 | G91 G53 G0 Z0
+              |     ^^^ error[machine-coordinates-in-increments] machine coordinates under increments (`G53` under `G91`)
+        "#]],
+        );
     }
 }

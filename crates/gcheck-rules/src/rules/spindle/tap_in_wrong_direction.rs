@@ -1,9 +1,10 @@
 //! A tapping cycle whose spindle turns the wrong way.
 
-use gcheck_engine::{Fact, Fault};
+use gcheck_controls::Effect;
+use gcheck_engine::{Fact, Spindle};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
     /// A tapping cycle begins with the spindle turning the other way than its thread: a right-hand tap under `M4`, a left-hand
@@ -41,24 +42,50 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(TapInWrongDirection) },
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(TapInWrongDirection) },
     }
 }
 
 struct TapInWrongDirection;
 
 impl PathRule for TapInWrongDirection {
-    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::SpindleDirection {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| wanted(effect).is_some())
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // A control that does not look at the spindle turns it itself.
+        if !cx.model.semantics().cycles.tap_needs_spindle {
+            return;
+        }
+        let wanted = cx.codes().iter().find_map(|code| wanted(cx.model.effect(*code)));
+        let (Some(wanted), Some(turns)) = (wanted, cx.state().spindle()) else { return };
+        let starts = |effect| {
+            matches!(effect, Effect::SpindleClockwise | Effect::SpindleCounterClockwise | Effect::SpindleStop)
+        };
+        if turns == wanted || turns == Spindle::Stopped || cx.has_effect(starts) {
             return;
         }
         let finding = cx
-            .finding(&META, cx.range(), "the spindle turns the wrong way for this tapping cycle")
+            .finding(
+                &META,
+                cx.effect_range(|effect| matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)),
+                "the spindle turns the wrong way for this tapping cycle",
+            )
             .label("the control refuses the cycle")
             .note("a right-hand thread needs the spindle clockwise (`M3`), a left-hand one counter-clockwise (`M4`)")
             .help("start the spindle the other way, or use the cycle of the other thread")
             .at_most(limit(cx.model.semantics().confidence));
         report.add(cx.resting_on(finding, Fact::Spindle, "the direction"));
+    }
+}
+
+/// The way in which the spindle must turn.
+fn wanted(effect: Effect) -> Option<Spindle> {
+    match effect {
+        Effect::CycleTap => Some(Spindle::Clockwise),
+        Effect::CycleLeftTap => Some(Spindle::CounterClockwise),
+        _ => None,
     }
 }
 

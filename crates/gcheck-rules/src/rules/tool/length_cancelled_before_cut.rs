@@ -1,7 +1,7 @@
 //! A tool that cuts after its length was cancelled.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
 use crate::meta::declare_rule;
@@ -66,14 +66,16 @@ impl PathRule for LengthCancelledBeforeCut {
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let rules = cx.model.semantics().tools;
-        if rules.offset_in_t || !is_cut(cx, event) {
+        if rules.offset_in_t {
             return;
         }
         let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
         let Some(changed) = changed else { return };
         match cx.state().effect(Role::Length, cx.model) {
-            Some(Effect::LengthPlus | Effect::LengthMinus) => self.worked = Some(changed),
-            Some(Effect::LengthOff) if self.worked == Some(changed) => {
+            Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
+                self.worked = Some(changed)
+            }
+            Some(Effect::LengthOff) if self.worked == Some(changed) && goes_into_the_part(event) => {
                 let Some(cancelled) = cx.trace().set_by(fact).filter(|at| self.told != Some(*at)) else {
                     return;
                 };
@@ -100,6 +102,14 @@ impl PathRule for LengthCancelledBeforeCut {
     }
 }
 
+/// A feed move to below the zero of the part: where the tool comes from is not known behind a cancelled length.
+fn goes_into_the_part(event: &Event) -> bool {
+    match event {
+        Event::Travel(travel) => travel.kind == TravelKind::Feed && travel.to.raw(Axis::Z) < 0.0,
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -123,7 +133,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "T1 M6\nG21 S1000 M3\nG90 G54 G43 H1 Z10.\nG1 Z-1. F100.\nG0 G49 Z50.\nG1 Z-2.\nM8\nG1 Z-3.\nM30\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                6 | G1 Z-2.
+                  |    ^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
+            "#]],
         );
     }
 }

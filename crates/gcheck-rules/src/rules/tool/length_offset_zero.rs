@@ -64,6 +64,14 @@ mod tests {
 
     #[test]
     fn computed_numbers_are_not_judged() {
-        check_rule(&RULE, "fanuc-mill", "T1 M6\nG43 Z1. H#1\nG43 Z1. H00\nM30\n", &expect![[r#""#]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 Z1. H#1\nG43 Z1. H00\nM30\n",
+            &expect![[r#"
+            3 | G43 Z1. H00
+              |         ^^^ warning[length-offset-zero] tool length compensation with offset zero (`G43 H00`)
+        "#]],
+        );
     }
 }
