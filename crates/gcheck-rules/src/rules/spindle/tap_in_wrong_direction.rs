@@ -102,7 +102,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G20 G90 G0 X0 Y0 Z1\nM3 S100\nG74 Z-1 R.1 F10\nG80\nM2\n",
-            &expect![[r#""#]],
+            &expect![[r#"
+                3 | G74 Z-1 R.1 F10
+                  | ^^^ error[tap-in-wrong-direction] the spindle turns the wrong way for this tapping cycle
+            "#]],
         );
     }
 }
