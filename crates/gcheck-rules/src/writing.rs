@@ -114,10 +114,11 @@ impl Writing {
                 if points_mean_nothing && axes.contains(word.letter) && block.words_are_plain() {
                     this.point(block, word);
                 }
-                if any_case && word.letter.ascii().is_ascii_alphabetic() && !word.letter.is_corner() {
+                // `:1234` is an `O` without its letter.
+                let letter = block.text(word).chars().next().filter(char::is_ascii_alphabetic);
+                if let Some(letter) = letter.filter(|_| any_case) {
                     let start = block.range(word).start;
-                    let is_capital = block.text(word).starts_with(|c: char| c.is_ascii_uppercase());
-                    this.see(Question::Capital, is_capital, start..start + 1);
+                    this.see(Question::Capital, letter.is_ascii_uppercase(), start..start + 1);
                 }
             }
             let simple = BlockFlags::STATEMENT | BlockFlags::EXPRESSION;
