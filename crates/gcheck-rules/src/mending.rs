@@ -64,11 +64,11 @@ impl PathCx<'_> {
         let text = self.program.file(0)?;
         let text = text.loaded.chunk_text(place.chunk);
         let block = place.block().range.clone();
-        let before = text.get(..block.start as usize)?.trim_end_matches([' ', '\t', '\u{FEFF}']);
-        if !before.is_empty() && !before.ends_with(['\n', '\r']) {
+        let before = text.get(..block.start as usize)?.trim_end_matches([' ', '\t']);
+        if !before.is_empty() && !before.ends_with(['\n', '\r', '\u{FEFF}']) {
             return None;
         }
-        let start = place.base + block.start;
+        let start = place.base + before.len() as u32;
         let title = format!("put `{code}` in a block before this one");
         Some(Fix::risky(title, start..start, format!("{code}{}", line_end(text.get(block.end as usize..)?))))
     }
@@ -80,5 +80,40 @@ pub(crate) fn line_end(rest: &str) -> &'static str {
         Some(end) if end.starts_with("\r\n") => "\r\n",
         Some(end) if end.starts_with('\r') => "\r",
         _ => "\n",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::testing::{World, findings, fixed};
+    use crate::{Selection, by_id};
+
+    /// A program with the first fix of one rule in it.
+    fn mended(rule: &str, control: &str, program: &str) -> String {
+        let found = findings(&Selection::only(by_id(rule).unwrap()), control, program, &World::default());
+        found.iter().map(|finding| fixed(program, finding)).collect()
+    }
+
+    #[test]
+    fn a_block_before_has_the_line_end_of_the_file() {
+        assert_eq!(
+            mended(
+                "cycle-left-on",
+                "haas-mill",
+                "G90 G54 G0 X0. Y0.\r\nG81 Z-1. R.1 F1.\r\n  N9 T2 M6\r\nM30\r\n"
+            ),
+            "G90 G54 G0 X0. Y0.\r\nG81 Z-1. R.1 F1.\r\nG80\r\n  N9 T2 M6\r\nM30\r\n",
+        );
+    }
+
+    #[test]
+    fn no_block_is_put_between_two_of_one_line() {
+        let program = "G90 G54 G0 X0. Y0.;G81 Z-1. R.1 F1.;T2 M6\nM30\n";
+        assert_eq!(mended("cycle-left-on", "haas-mill", program), program, "told, and not mended");
+    }
+
+    #[test]
+    fn a_word_goes_with_the_blanks_before_it() {
+        assert_eq!(mended("word-not-read", "linuxcnc", "G0 X1\t H3 Y2\n"), "G0 X1 Y2\n",);
     }
 }

@@ -162,6 +162,7 @@ pub(crate) mod modal {
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
+    pub(crate) mod corner_before_rapid;
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
@@ -169,6 +170,7 @@ pub(crate) mod motion {
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod inverse_time_feed_missing;
+    pub(crate) mod machine_coordinates_in_increments;
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
@@ -229,6 +231,7 @@ pub(crate) mod spindle {
     pub(crate) mod speed_missing;
     pub(crate) mod spindle_stopped_while_cutting;
     pub(crate) mod surface_speed_without_limit;
+    pub(crate) mod tap_in_wrong_direction;
     pub(crate) mod thread_at_surface_speed;
 }
 
@@ -290,7 +293,9 @@ pub(crate) mod syntax {
 }
 
 pub(crate) mod tool {
+    pub(crate) mod length_cancelled_before_cut;
     pub(crate) mod length_offset_of_another_tool;
+    pub(crate) mod length_offset_zero;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_without_stop;
     pub(crate) mod tool_change_without_t;
@@ -453,6 +458,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::units_changed::RULE,
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
+    &motion::corner_before_rapid::RULE,
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
@@ -460,6 +466,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::inverse_time_feed_missing::RULE,
+    &motion::machine_coordinates_in_increments::RULE,
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
@@ -508,6 +515,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &spindle::speed_missing::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
+    &spindle::tap_in_wrong_direction::RULE,
     &spindle::thread_at_surface_speed::RULE,
     &style::blank_lines_in_a_row::RULE,
     &style::blanks_between_words_mixed::RULE,
@@ -557,7 +565,9 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::value_without_address::RULE,
     &syntax::while_without_do::RULE,
     &syntax::zero_for_letter_o::RULE,
+    &tool::length_cancelled_before_cut::RULE,
     &tool::length_offset_of_another_tool::RULE,
+    &tool::length_offset_zero::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_without_stop::RULE,
     &tool::tool_change_without_t::RULE,

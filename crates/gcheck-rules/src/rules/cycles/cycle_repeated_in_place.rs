@@ -61,7 +61,9 @@ impl PathRule for CycleRepeatedInPlace {
         // A cycle that reads the letter as something of its own has no repeats.
         let Some(place) = cx.place().filter(|_| is_absolute && reads) else { return };
         let word = place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter));
-        let Some(times) = word.and_then(|word| word.integer()).filter(|times| *times > 1) else { return };
+        let Some(times) = word.and_then(gcheck_program::Word::integer).filter(|times| *times > 1) else {
+            return;
+        };
         // Words that are increments whatever the mode move each turn on.
         let own = cx.model.semantics().increments.keys().filter_map(|key| Letter::parse(key));
         if own.into_iter().any(|letter| cx.origin().letters.contains(letter)) {

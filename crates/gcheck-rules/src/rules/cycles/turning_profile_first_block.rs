@@ -67,7 +67,7 @@ impl PathRule for TurningProfileFirstBlock {
         }
         let name = words
             .first()
-            .and_then(|word| word.integer())
+            .and_then(gcheck_program::Word::integer)
             .map(|number| format!("`N{number}` "))
             .unwrap_or_default();
         report.add(

@@ -119,8 +119,8 @@ mod tests {
             "fanuc-lathe",
             "G21 T0101\nG97 S500 M3\nG0 X60. Z5.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20.\nZ20.\nN20 X50.\nM30\n",
             &expect![[r#"
-                7 | G1 Z-20.
-                  | ^^^^^^^^ warning[turning-profile-turns-back] the profile of the turning cycle turns back in Z
+                8 | Z20.
+                  | ^^^^ warning[turning-profile-turns-back] the profile of the turning cycle turns back in Z
             "#]],
         );
     }

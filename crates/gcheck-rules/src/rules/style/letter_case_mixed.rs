@@ -68,6 +68,11 @@ mod tests {
     }
 
     #[test]
+    fn a_colon_is_no_letter() {
+        check_rule(&RULE, "linuxcnc", "G0 X1 Y2\n:1234 G1 X2 F100\n", &expect![[""]]);
+    }
+
+    #[test]
     fn names_and_keywords_are_no_addresses() {
         check_rule(&RULE, "linuxcnc", "o<Cut> sub\nG0 X#<wide>\no<Cut> endsub\n", &expect![[""]]);
     }

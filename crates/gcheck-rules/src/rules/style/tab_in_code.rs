@@ -38,14 +38,18 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let text = cx.slice(0..cx.region.end);
     let semicolon_comments = cx.control().syntax().semicolon == Semicolon::Comment;
     let mut edits = Vec::new();
-    let (mut in_comment, mut to_line_end) = (false, false);
+    // What stands in brackets may be text that is printed.
+    let (mut in_comment, mut to_line_end, mut depth) = (false, false, 0_u32);
     for (at, byte) in text.bytes().enumerate() {
         match byte {
-            b'\n' | b'\r' => (in_comment, to_line_end) = (false, false),
+            b'\n' | b'\r' => (in_comment, to_line_end, depth) = (false, false, 0),
             b'(' if !to_line_end => in_comment = true,
             b')' if !to_line_end => in_comment = false,
-            b';' if semicolon_comments && !in_comment => to_line_end = true,
-            b'\t' if !in_comment && !to_line_end && edits.len() < MOST_PLACES => {
+            _ if in_comment || to_line_end => {}
+            b';' if semicolon_comments => to_line_end = true,
+            b'[' => depth += 1,
+            b']' => depth = depth.saturating_sub(1),
+            b'\t' if depth == 0 && edits.len() < MOST_PLACES => {
                 edits.push(Edit { range: at as u32..at as u32 + 1, text: " ".to_owned() });
             }
             _ => {}

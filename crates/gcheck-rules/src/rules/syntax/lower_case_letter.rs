@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_program::BlockFlags;
+use gcheck_program::{BlockFlags, StatementKind};
 
 use crate::meta::declare_rule;
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
@@ -53,9 +53,12 @@ fn capitals(cx: &FileCx<'_>) -> Option<Fix> {
     let mut edits = Vec::new();
     cx.each_block(|block| {
         let flags = block.block().flags;
+        // What a block prints is text.
+        let prints = block.statements().any(|statement| matches!(statement.kind, StatementKind::Print));
         if edits.len() >= MOST_LETTERS
             || !flags.contains(BlockFlags::LOWER_CASE)
             || flags.contains(BlockFlags::ERROR)
+            || prints
         {
             return;
         }
@@ -99,7 +102,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
 
     #[test]
     fn once_a_file_and_not_in_comments() {
@@ -112,6 +116,18 @@ mod tests {
               |        ^ info[lower-case-letter] code in lower-case letters
         "#]],
         );
+    }
+
+    #[test]
+    fn the_fix_leaves_comments_and_printed_text() {
+        let program = "g0 x1. (start)\nDPRNT[abc#1[53]]\ng1 x#1 y[sin[#2]]\n";
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[r#"
+            G0 X1. (start)
+            DPRNT[abc#1[53]]
+            G1 X#1 Y[SIN[#2]]
+        "#]]
+        .assert_eq(&found.iter().map(|f| fixed(program, f)).collect::<String>());
     }
 
     #[test]
