@@ -126,7 +126,7 @@ pub(super) const KINDS: &[Kind] = &[
         "function-mistyped",
         Fear::Alarm,
         "the name of a function is mistyped (`COZ`)",
-        &["function-unknown", "unexpected-text", "missing-operand", "address-without-value", "unknown-address", "unclosed-bracket", "letter-o-for-zero"],
+        &["function-unknown", "unexpected-text", "missing-operand", "address-without-value", "unknown-address", "unclosed-bracket", "letter-o-for-zero", "stray-bracket"],
         |p| rewrite(p, "COS[", "COZ[", false),
     ),
     Kind::new(

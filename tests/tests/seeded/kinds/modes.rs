@@ -18,6 +18,12 @@ fn before_a_cut(p: &Program, line: &str) -> Vec<Seed> {
     })
 }
 
+/// As [`before_a_cut`], where another tool comes behind.
+fn before_a_cut_of_several(p: &Program, line: &str) -> Vec<Seed> {
+    let last = p.blocks.iter().rfind(|block| block.code(&[Effect::ToolChange]).is_some()).map_or(0, |block| block.range.start);
+    before_a_cut(p, line).into_iter().filter(|seed| seed.edits[0].range.start < last).collect()
+}
+
 /// `G91` in a block with a reference return.
 fn return_in_increments(block: &Block) -> bool {
     block.code(&[Effect::Incremental]).is_some() && block.code(&[Effect::ReturnReference(1)]).is_some()
@@ -161,7 +167,7 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "coordinate rotation is never cancelled",
         &["rotation-left-on"],
-        |p| if p.is_lathe() || p.is_for(&["linuxcnc"]) { Vec::new() } else { before_a_cut(p, "G68 X0. Y0. R30.") },
+        |p| if p.is_lathe() || p.is_for(&["linuxcnc"]) { Vec::new() } else { before_a_cut_of_several(p, "G68 X0. Y0. R30.") },
     )
     .anywhere(),
     Kind::new(
@@ -169,7 +175,7 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "scaling is never cancelled",
         &["scaling-left-on"],
-        |p| if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) { Vec::new() } else { before_a_cut(p, "G51 X0. Y0. P2000") },
+        |p| if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) { Vec::new() } else { before_a_cut_of_several(p, "G51 X0. Y0. P2000") },
     )
     .anywhere(),
     Kind::new(
@@ -181,7 +187,7 @@ pub(super) const KINDS: &[Kind] = &[
             if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) {
                 return Vec::new();
             }
-            before_a_cut(p, if p.is_for(&["haas"]) { "G101 X0." } else { "G51.1 X0." })
+            before_a_cut_of_several(p, if p.is_for(&["haas"]) { "G101 X0." } else { "G51.1 X0." })
         },
     )
     .anywhere(),
@@ -194,7 +200,7 @@ pub(super) const KINDS: &[Kind] = &[
             if p.is_lathe() {
                 return Vec::new();
             }
-            before_a_cut(p, if p.is_for(&["linuxcnc"]) { "G92 X10." } else { "G52 X10. Y0." })
+            before_a_cut_of_several(p, if p.is_for(&["linuxcnc"]) { "G92 X10." } else { "G52 X10. Y0." })
         },
     )
     .anywhere(),
@@ -203,7 +209,7 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Scrap,
         "polar coordinates are never cancelled",
         &["tool-tilt-left-on"],
-        |p| if p.is_for(&["fanuc-mill"]) { before_a_cut(p, "G16") } else { Vec::new() },
+        |p| if p.is_for(&["fanuc-mill"]) { before_a_cut_of_several(p, "G16") } else { Vec::new() },
     )
     .anywhere(),
     Kind::new(

@@ -73,10 +73,11 @@ pub(super) const KINDS: &[Kind] = &[
             p.each(|block| {
                 let up = block.moves(&[Effect::Rapid]) && block.code(&[Effect::Rapid]).is_some() && block.has(b"Z") && !block.has(b"XY") && !p.is_lathe();
                 let above = p.previous(block).filter(|above| up && above.moves(&CUTS) && !above.before.is_incremental)?;
-                let next = p.next(block).filter(|next| next.moves(&[Effect::Rapid]) && next.has(b"XY") && !next.has(b"Z"))?;
+                let rapid = p.behind(block).iter().find(|next| next.moves(&[Effect::Rapid]))?;
+                let fits = rapid.has(b"XY") && !rapid.has(b"Z") && rapid.before.section == block.before.section;
                 let below = p.blocks[..=above.ix].iter().rev().find_map(|b| b.word(b'Z'))?.number? < 0.0;
-                let rapid = (next.code(&[Effect::Rapid]).is_none()).then(|| Edit { range: next.words[0].range.start..next.words[0].range.start, text: "G00 ".to_owned() });
-                below.then(|| rapid.into_iter().chain([p.without_line(block)]).collect::<Vec<_>>())
+                let z = block.word(b'Z')?;
+                (fits && below).then(|| p.without(z))
             })
         },
     )

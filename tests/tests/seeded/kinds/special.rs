@@ -5,7 +5,7 @@
 use gcheck_controls::Effect;
 
 use crate::kind::{Edit, Fear, Kind};
-use crate::program::{Block, Program};
+use crate::program::Block;
 
 const PROBES: [Effect; 2] = [Effect::ProbeToward, Effect::Skip];
 
