@@ -173,7 +173,7 @@ pub fn check(job: &Job<'_>) -> Outcome {
         let chunk = Chunk { base, table, text: chunk };
         check_chunk(job, &plan, &region, &chunk, &mut survey, &mut directives, &mut collector);
     });
-    let cx = FileCx { scene: job.scene, source: job.source, region, survey: &survey };
+    let cx = FileCx::new(job.scene, job.source, region, &survey);
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });

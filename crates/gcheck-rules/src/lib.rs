@@ -15,6 +15,7 @@ mod finding;
 mod five_axis;
 mod fixing;
 mod loops;
+mod mending;
 mod meta;
 mod mistakes;
 mod parting;
@@ -27,7 +28,9 @@ mod selection;
 mod suppression;
 #[cfg(test)]
 mod testing;
+mod turning;
 mod usage;
+mod writing;
 
 pub use assumptions::{Described, describe, describe_all, pins, work_offset_name};
 pub use check::{Execution, Job, MAX_FINDINGS, Outcome, check};
@@ -37,7 +40,7 @@ pub use context::{
 pub use evidence::collect_evidence;
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use fixing::{FixKinds, Mended, mend};
-pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
+pub use meta::{DocExample, Mends, RuleEntry, RuleMeta, RuleSet, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};
 pub use sections::{LabelIndex, Section};

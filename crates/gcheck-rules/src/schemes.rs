@@ -2,7 +2,9 @@
 //!
 //! Knows: pairs of tool and offset number. Must not know: which offset it is, any rule.
 
-use crate::Finding;
+use std::ops::Range;
+
+use crate::{Finding, Fix};
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
 #[derive(Debug)]
@@ -15,6 +17,8 @@ struct Pair {
     tool: u32,
     offset: u32,
     finding: Finding,
+    /// The word that gives the offset by its number alone.
+    word: Option<Range<u32>>,
 }
 
 /// What the other tools of the program do.
@@ -73,16 +77,22 @@ impl Pairs {
     }
 
     /// A tool worked with an offset.
-    pub(crate) fn add(&mut self, tool: u32, offset: u32, finding: impl FnOnce() -> Finding) {
+    pub(crate) fn add(
+        &mut self,
+        tool: u32,
+        offset: u32,
+        finding: impl FnOnce() -> (Finding, Option<Range<u32>>),
+    ) {
         let is_known = self.pairs.iter().any(|pair| (pair.tool, pair.offset) == (tool, offset));
         if tool > 0 && offset > 0 && !is_known && self.pairs.len() < MOST_PAIRS {
-            self.pairs.push(Pair { tool, offset, finding: finding() });
+            let (finding, word) = finding();
+            self.pairs.push(Pair { tool, offset, finding, word });
         }
     }
 
     /// The pairs that break the scheme which the other tools fix, and take another tool's offset, or one of no tool where
-    /// many tools have their own.
-    pub(crate) fn take_odd(&mut self) -> Vec<(Finding, Scheme)> {
+    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset.
+    pub(crate) fn take_odd(&mut self, letter: char) -> Vec<(Finding, Scheme)> {
         let Some((step, followers)) = self.step() else { return Vec::new() };
         let follows = |tool: u32| self.pairs.iter().any(|p| p.tool == tool && p.step() == step);
         let is_used = |tool: i64| self.pairs.iter().any(|p| i64::from(p.tool) == tool && p.step() == step);
@@ -111,7 +121,10 @@ impl Pairs {
             if let Some((.., scheme)) =
                 odd.iter().find(|(tool, offset, _)| (*tool, *offset) == (pair.tool, pair.offset))
             {
-                found.push((pair.finding, *scheme));
+                let written = format!("{letter}{}", scheme.expected);
+                let fix = pair.word.filter(|_| scheme.expected > 0);
+                let fix = fix.map(|word| Fix::risky(format!("write `{written}`"), word, written));
+                found.push((pair.finding.fix_if(fix), *scheme));
             }
         }
         found

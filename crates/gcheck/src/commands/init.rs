@@ -91,7 +91,7 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 # paths = ["macros/"]
 
 [rules]
-# select = ["recommended"]
+# select = ["recommended"]  # also "strict", "restart-safe", "house-style"
 # missing-decimal-point = "info"
 
 # Rules that are off for some programs.

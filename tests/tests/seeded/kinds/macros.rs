@@ -204,7 +204,7 @@ pub(super) const KINDS: &[Kind] = &[
         "modal-macro-left-on",
         Fear::Crash,
         "a modal macro call (`G66`) is never cancelled",
-        &[],
+        &["modal-call-left-on"],
         |p| {
             p.each(|block| {
                 let code = block.code(&[Effect::MacroCall]).filter(|_| p.is_for(&["fanuc"]))?;

@@ -34,7 +34,7 @@ pub(super) const KINDS: &[Kind] = &[
         "units-never-said",
         Fear::Crash,
         "neither `G20` nor `G21` in the program",
-        &["units-not-stated"],
+        &["units-not-stated", "safe-start-missing"],
         |p| {
             let words = p.blocks.iter().filter_map(|block| block.code(&[Effect::Inch, Effect::Millimetre]));
             let all: Vec<Edit> = words.map(|word| p.without(word)).collect();
@@ -46,7 +46,7 @@ pub(super) const KINDS: &[Kind] = &[
         "units-of-another-program",
         Fear::Crash,
         "a tool was pasted from a program in the other units (`G21` among inches)",
-        &[],
+        &["units-changed"],
         |p| {
             let inch = p.blocks.iter().find_map(|block| block.code(&[Effect::Inch, Effect::Millimetre])?.effect);
             let other = if inch == Some(Effect::Inch) { "G21" } else { "G20" };
@@ -78,7 +78,7 @@ pub(super) const KINDS: &[Kind] = &[
         "increments-for-positions",
         Fear::Crash,
         "`G91` is typed for `G90` in front of a tool's first move",
-        &["incremental-left-on", "maybe-incremental-left-on", "move-outside-travel", "incremental-into-subprogram", "compensation-gouge", "arc-end-off-circle", "rapid-plunge", "refused-under-compensation", "reference-return-through-point", "cycle-r-below-bottom", "cycle-numbers-contradict"],
+        &["incremental-left-on", "maybe-incremental-left-on", "move-outside-travel", "incremental-into-subprogram", "compensation-gouge", "arc-end-off-circle", "rapid-plunge", "refused-under-compensation", "reference-return-through-point", "cycle-r-below-bottom", "cycle-numbers-contradict", "machine-coordinates-in-increments"],
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::Absolute]).filter(|_| block.moves(&[Effect::Rapid]))?;
@@ -114,7 +114,7 @@ pub(super) const KINDS: &[Kind] = &[
         "machine-move-in-increments",
         Fear::Alarm,
         "`G53` while `G91` is on, on a control that refuses it",
-        &["codes-conflict", "incremental-left-on", "axis-words-without-motion-mode"],
+        &["codes-conflict", "incremental-left-on", "axis-words-without-motion-mode", "machine-coordinates-in-increments"],
         |p| p.each(|block| {
             let fits = block.code(&[Effect::MachineCoordinates]).is_some() && p.is_for(&["linuxcnc"]);
             fits.then(|| p.line_above(block, "G91"))

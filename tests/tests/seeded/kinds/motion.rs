@@ -211,14 +211,14 @@ pub(super) const KINDS: &[Kind] = &[
         "coolant-forgotten",
         Fear::Trap,
         "coolant is not switched on for a tool",
-        &[],
+        &["tool-cuts-dry"],
         |p| p.each(|block| block.code(&[Effect::FloodOn]).map(|word| p.without(word))),
     ),
     Kind::new(
         "spindle-left-for-tapping",
         Fear::Crash,
         "the spindle turns left for right-hand tapping (`M04` with `G84`), on a control that refuses it",
-        &["cycle-numbers-contradict"],
+        &["cycle-numbers-contradict", "tap-in-wrong-direction"],
         |p| {
             p.each(|block| {
                 block.code(&[Effect::CycleTap]).filter(|_| p.is_for(&["linuxcnc"]))?;
@@ -232,7 +232,7 @@ pub(super) const KINDS: &[Kind] = &[
         "tap-feed",
         Fear::Scrap,
         "the feed of a tapping cycle is not speed times pitch",
-        &["cycle-numbers-contradict"],
+        &["cycle-numbers-contradict", "tapping-feed-off-pitch"],
         |p| {
             p.each(|block| {
                 let word = block.word(b'F').filter(|word| block.code(&[Effect::CycleTap]).is_some() && word.number.is_some())?;

@@ -137,7 +137,7 @@ pub(super) const KINDS: &[Kind] = &[
         "reference-in-cycle",
         Fear::Crash,
         "`G28` in the middle of a canned cycle",
-        &["codes-conflict", "cycle-left-on"],
+        &["codes-conflict", "cycle-left-on", "machine-coordinates-in-increments"],
         |p| {
             p.each(|block| {
                 let cycles = [Effect::CycleDrill, Effect::CyclePeck, Effect::CycleTap, Effect::CycleDrillDwell];

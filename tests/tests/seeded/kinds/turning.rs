@@ -46,7 +46,7 @@ pub(super) const KINDS: &[Kind] = &[
         "surface-speed-for-thread",
         Fear::Scrap,
         "constant surface speed stays on for a thread",
-        &[],
+        &["thread-at-surface-speed"],
         |p| {
             p.each(|block| {
                 let code = block.code(&[Effect::ConstantSpeed]).filter(|_| block.has(b"S"))?;
@@ -88,7 +88,7 @@ pub(super) const KINDS: &[Kind] = &[
         PROFILE,
         |p| p.each(|block| {
             let first = profile(p, block)?;
-            let word = first.code(&[Effect::Rapid, Effect::Linear])?;
+            let word = first.code(&[Effect::Rapid, Effect::Linear, "turning-profile-first-block"])?;
             Some(p.without(word))
         }),
     )
@@ -97,7 +97,7 @@ pub(super) const KINDS: &[Kind] = &[
         "profile-turns-back",
         Fear::Scrap,
         "a diameter in the middle of a turning profile is mistyped and the profile turns back",
-        &["turning-profile-not-usable", "arc-radius-too-small", "arc-end-off-circle"],
+        &["turning-profile-not-usable", "arc-radius-too-small", "arc-end-off-circle", "turning-profile-turns-back"],
         |p| p.each(|block| {
             let first = profile(p, block)?;
             let inner = p.behind(first).iter().filter(|b| b.moves(&[Effect::Linear]) && b.has(b"X") && !b.has(b"N")).nth(1)?;

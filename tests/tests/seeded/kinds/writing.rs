@@ -274,7 +274,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["unknown-code", "undeclared-m-code"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::FloodOn, Effect::CoolantOff])?;
+                let word = block.code(&[Effect::FloodOn, Effect::CoolantOff]).filter(|_| p.is_for(&["haas", "linuxcnc"]))?;
                 Some(p.instead(word, format!("M8{}", digits(p, word))))
             })
         },

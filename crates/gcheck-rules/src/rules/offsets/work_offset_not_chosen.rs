@@ -36,6 +36,8 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict],
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNotChosen { is_done: false }) },
     }
@@ -67,7 +69,8 @@ impl PathRule for WorkOffsetNotChosen {
         report.add(
             cx.finding(&META, cx.range(), format!("cut before a work offset is chosen (`{name}`)"))
                 .label(format!("the part lies where {last} left it{later}"))
-                .help(format!("choose the work offset at the head of the program: `{name}`")),
+                .help(format!("choose the work offset at the head of the program: `{name}`"))
+                .fix_if(cx.block_before(Some(&name.to_string()))),
         );
     }
 }

@@ -164,7 +164,9 @@ impl ToolLengthMissing {
         let is_zero = number == Some(0.0);
         // Where it never comes, the tool works with the other one's offset: that is told by the numbers.
         let is_followed_by_its_own = cx.is_near(|effect| effect == Effect::LengthPlus);
-        if is_zero && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
+        // In a block that moves Z as well it is told without regard to the tool.
+        let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
+        if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
             let finding = cx
                 .finding(&META, given.unwrap_or_else(|| cx.letter_range('Z')), "the tool has no length (offset number zero, `H0`)")
                 .label("the control takes the spindle's nose for the tool's tip");
@@ -249,9 +251,9 @@ mod tests {
         check_rule(
             &RULE,
             "fanuc-mill",
-            "O1\nT1 M6\nG43 H0 Z1.\nG1 Z0. F5.\nM30\n",
+            "O1\nT1 M6\nG43 H0\nG1 Z0. F5.\nM30\n",
             &expect![[r#"
-                3 | G43 H0 Z1.
+                3 | G43 H0
                   |     ^^ warning[tool-length-missing] the tool has no length (offset number zero, `H0`)
             "#]],
         );
