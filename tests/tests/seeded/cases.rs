@@ -58,7 +58,7 @@ pub(crate) fn ours() -> Vec<Subject> {
     subjects
 }
 
-/// The programs of the corpus that can be read.
+/// The programs of the corpus that are whole: what is called by others, or a fragment, has its modes from elsewhere.
 pub(crate) fn of_the_corpus() -> Option<Vec<Subject>> {
     let mut programs = corpus::programs()?;
     programs.sort_by(|a, b| a.name.cmp(&b.name));
@@ -69,7 +69,7 @@ pub(crate) fn of_the_corpus() -> Option<Vec<Subject>> {
         let config = format!("control = \"{}\"\n", program.control);
         Some(Subject { program: Program::read(&program.name, &program.control, text), config })
     };
-    Some(programs.iter().filter_map(read).collect())
+    Some(programs.iter().filter_map(read).filter(|subject| subject.program.is_whole()).collect())
 }
 
 /// Every kind in each of our programs that has a place for it.

@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 
 use crate::kind::Place;
 use crate::kinds;
-use crate::table::Table;
+use crate::table::{Row, Table};
 
 /// Other checkers on the same cases, as `cargo xtask competitors` wrote it down.
 pub(crate) struct Others {
@@ -53,7 +53,7 @@ Mistakes that machinists fear were put, one at a time, into programs without a m
 The kinds come from manuals, alarm lists and reports of crashes, not from the list of rules: a kind that is not found stays in the table.
 
 A mistake counts as found when a rule that names it speaks, on a line not more than two from the edit; under *where it strikes*, anywhere in the program.
-The rules are those that are on by default.
+Two numbers say how many are found by the rules that are on by default, and by those of the set `strict`, which adds what careful programs state; one number, where both are equal.
 
 *Ours* are the programs of `fixtures/clean`, one place of each program for each kind that fits it; they have a machine file.
 *Corpus* are programs of the real-program corpus about which gcheck has nothing to say, four for each kind, without a machine file; kinds that only show against a machine's limits and tools are left out there.
@@ -63,25 +63,25 @@ Places are drawn by hashing names, so that every run makes the same mistakes.
 /// The whole page.
 pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
     let mut page = HEAD.to_owned();
-    let share = |(made, found): (usize, usize)| {
+    let share = |made: usize, found: usize| {
         let tenths = (found * 1_000 + made / 2).checked_div(made).unwrap_or_default();
         format!("{found} of {made} ({}.{} %)", tenths / 10, tenths % 10)
     };
-    let _ = writeln!(
-        page,
-        "\n{} kinds. Ours: {}. Corpus: {}.",
-        kinds::all().count(),
-        share(ours.total()),
-        share(corpus.total())
-    );
+    let _ = writeln!(page, "\n| {} kinds of mistakes | found by default | found by the strict rules |", kinds::all().count());
+    page.push_str("|---|---|---|\n");
+    for (name, Row { made, found, strictly }) in [("ours", ours.total()), ("corpus", corpus.total())] {
+        let _ = writeln!(page, "| {name} | {} | {} |", share(made, found), share(made, strictly));
+    }
     page.push_str("\n## Other checkers\n\n");
     for line in &others.about {
         let _ = writeln!(page, "* {line}");
     }
     page.push_str("\n| checker | mistakes in our programs that it says something about |\n|---|---|\n");
-    let _ = writeln!(page, "| gcheck | {} |", share(ours.total()));
+    let Row { made, found, .. } = ours.total();
+    let _ = writeln!(page, "| gcheck, by default | {} |", share(made, found));
     for tool in &others.tools {
-        let _ = writeln!(page, "| {tool} | {} |", share(others.total(tool)));
+        let (given, found) = others.total(tool);
+        let _ = writeln!(page, "| {tool} | {} |", share(given, found));
     }
     for (title, kinds) in kinds::CHAPTERS {
         let _ = write!(page, "\n## {title}\n\n| mistake | comes of it | found by | ours | corpus |");
@@ -95,9 +95,13 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
                 rules.push("where it strikes".to_owned());
             }
             let rules = if rules.is_empty() { "no rule".to_owned() } else { rules.join(", ") };
-            let cell = |count: Option<(usize, usize)>| match count {
-                Some((made, found)) => format!("{found}/{made}"),
+            let cell = |row: Option<Row>| match row {
+                Some(Row { made, found, strictly }) if found == strictly => format!("{found}/{made}"),
+                Some(Row { made, found, strictly }) => format!("{found}, {strictly}/{made}"),
                 None => String::new(),
+            };
+            let other = |count: Option<(usize, usize)>| {
+                count.map(|(given, found)| format!("{found}/{given}")).unwrap_or_default()
             };
             let _ = write!(
                 page,
@@ -109,7 +113,7 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
             );
             for tool in &others.tools {
                 let count = others.rows.get(&(tool.clone(), kind.id.to_owned())).copied();
-                let _ = write!(page, " {} |", cell(count));
+                let _ = write!(page, " {} |", other(count));
             }
             page.push('\n');
         }

@@ -5,7 +5,7 @@
 use gcheck_controls::Effect;
 
 use crate::kind::{Edit, Fear, Kind};
-use crate::program::{Block, Program};
+use crate::program::Block;
 
 const PROBES: [Effect; 2] = [Effect::ProbeToward, Effect::Skip];
 
@@ -172,7 +172,7 @@ pub(super) const KINDS: &[Kind] = &[
         "reference-in-cycle",
         Fear::Crash,
         "`G28` in the middle of a canned cycle",
-        &["codes-conflict", "cycle-left-on"],
+        &["codes-conflict", "cycle-left-on", "machine-coordinates-in-increments"],
         |p| {
             p.each(|block| {
                 let cycles =

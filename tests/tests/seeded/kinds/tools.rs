@@ -33,7 +33,7 @@ pub(super) const KINDS: &[Kind] = &[
         "length-forgotten",
         Fear::Crash,
         "length compensation is forgotten after a tool change (no `G43`): the tool works without length, or with the one of the tool before",
-        &["tool-length-missing", "length-offset-of-another-tool"],
+        &["tool-length-missing", "length-offset-of-another-tool", "length-cancelled-before-cut"],
         |p| {
             p.each(|block| {
                 let (code, offset) = length(block).filter(|_| goes_down(p, block) && block.before.section > 0)?;
@@ -74,7 +74,7 @@ pub(super) const KINDS: &[Kind] = &[
         "length-number-zero",
         Fear::Crash,
         "`G43 H00`: no length at all",
-        &["tool-length-missing", "length-offset-of-another-tool"],
+        &["tool-length-missing", "length-offset-of-another-tool", "length-offset-zero"],
         |p| p.each(|block| length(block).filter(|_| !p.is_for(&["linuxcnc"]) && goes_down(p, block)).map(|(_, offset)| p.value(offset, "00"))),
     )
     .anywhere(),
@@ -201,7 +201,7 @@ pub(super) const KINDS: &[Kind] = &[
         "offset-of-another-part",
         Fear::Crash,
         "one tool works in another work offset than the others",
-        &[],
+        &["work-offset-of-one-tool"],
         |p| {
             let changes = p.blocks.iter().filter(|block| block.code(&[Effect::WorkOffset(1)]).is_some());
             if changes.count() < 2 {
