@@ -56,6 +56,8 @@ struct Cursor<I: Iterator<Item = Act>> {
     piece: Option<Piece>,
     /// Where the axes stand.
     at: Position,
+    /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
+    started: bool,
 }
 
 /// A move, of which a part may be done.
@@ -69,7 +71,7 @@ struct Piece {
 
 impl<I: Iterator<Item = Act>> Cursor<I> {
     fn new(acts: I) -> Self {
-        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN }
+        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false }
     }
 
     /// Collects what happens before the next move, and takes up that move.
@@ -81,12 +83,13 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
                 Doing::Stand(_) => stands.push(act),
                 Doing::Move(made) => {
                     let curve = Curve::new(made);
-                    found.unknown |= curve.is_open();
                     let driven = made.driven;
-                    if curve.is_nothing() {
+                    found.unknown |= driven != Driven::Rapid && curve.is_unknown();
+                    if curve.is_nothing() && self.started {
                         self.at = made.to;
                         continue;
                     }
+                    self.started |= !curve.is_nothing() && !curve.is_open();
                     self.piece = Some(Piece { act, driven, curve, done: 0.0 });
                 }
             }
@@ -154,6 +157,14 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     /// Goes on along both moves by the shorter one of them; tells when they part.
     fn pieces(&mut self) -> Option<Parting> {
         let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
+        if a.curve.is_nothing() && !b.curve.is_open() {
+            self.a.finish();
+            return None;
+        }
+        if b.curve.is_nothing() && !a.curve.is_open() {
+            self.b.finish();
+            return None;
+        }
         self.found.moves += 1;
         let parting = |a: &Piece, b: &Piece, at: Position, apart: f64| Parting {
             a: Some(a.place()),
@@ -166,7 +177,8 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             // From an unknown place only the end is known, and everything before it may be a part of the way there.
             let apart = curve::apart(&a.curve.end(), &b.curve.end());
             (a.done, b.done) = (1.0, 1.0);
-            (apart > self.tolerance).then(|| parting(a, b, self.a.at, apart))
+            let parts = apart > self.tolerance || !Curve::go_for_the_same(&a.curve, &b.curve);
+            parts.then(|| parting(a, b, self.a.at, apart))
         } else {
             let (at_a, at_b) = (a.curve.at(a.done), b.curve.at(b.done));
             let apart = curve::apart(&at_a, &at_b);
