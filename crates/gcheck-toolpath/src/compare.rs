@@ -15,7 +15,7 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::Position;
 
-use crate::trail::{Act, Doing, Driven, Feed, Setting};
+use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
 use curve::Curve;
 
 pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
@@ -58,6 +58,8 @@ struct Cursor<I: Iterator<Item = Act>> {
     at: Position,
     /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
     started: bool,
+    /// The last move that was done.
+    last: Option<Place>,
 }
 
 /// A move, of which a part may be done.
@@ -71,7 +73,7 @@ struct Piece {
 
 impl<I: Iterator<Item = Act>> Cursor<I> {
     fn new(acts: I) -> Self {
-        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false }
+        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false, last: None }
     }
 
     /// Collects what happens before the next move, and takes up that move.
@@ -101,7 +103,13 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
     fn finish(&mut self) {
         if let Some(piece) = self.piece.take() {
             self.at = piece.curve.end();
+            self.last = Some(piece.place());
         }
+    }
+
+    /// Is there no further move?
+    fn is_over(&mut self) -> bool {
+        self.piece.is_none() && self.acts.peek().is_none()
     }
 
     /// Does the next act stand?
@@ -124,8 +132,14 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     fn run(&mut self) {
         loop {
             // A move that is not done on one side, while the other one stands: what stands there is one-sided.
-            let before_a = self.a.advance(&mut self.found);
-            let before_b = self.b.advance(&mut self.found);
+            let mut before_a = self.a.advance(&mut self.found);
+            let mut before_b = self.b.advance(&mut self.found);
+            if self.a.is_over() != self.b.is_over() {
+                // That one ends while the other goes on is told as such.
+                for stands in [&mut before_a, &mut before_b] {
+                    stands.retain(|act| act.doing != Doing::Stand(Stand::End));
+                }
+            }
             if !before_a.is_empty() || !before_b.is_empty() {
                 self.stands(&before_a, &before_b);
                 if self.a.stands_next() || self.b.stands_next() {
@@ -141,12 +155,24 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                     }
                 }
                 (Some(piece), None) => {
-                    let parting = Parting::end(Some(piece.place()), None, &self.b.at, &piece.curve.end());
+                    let parting = Parting {
+                        a: Some(piece.place()),
+                        b: self.b.last.take(),
+                        at: self.b.at,
+                        to: [Some(piece.curve.end()), None],
+                        apart: f64::NAN,
+                    };
                     self.found.parting = Some(parting);
                     return;
                 }
                 (None, Some(piece)) => {
-                    let parting = Parting::end(None, Some(piece.place()), &self.a.at, &piece.curve.end());
+                    let parting = Parting {
+                        a: self.a.last.take(),
+                        b: Some(piece.place()),
+                        at: self.a.at,
+                        to: [None, Some(piece.curve.end())],
+                        apart: f64::NAN,
+                    };
                     self.found.parting = Some(parting);
                     return;
                 }
