@@ -117,7 +117,7 @@ fn the_name_of_the_output_says_what_is_drawn() {
 
 #[test]
 fn a_run_that_faults_is_drawn_as_far_as_it_goes() {
-    let broken = PLATE.replace("I-18. Z-6.", "I-18. J#500 Z-6.");
+    let broken = PLATE.replace("I-18. Z-6.", "X50. I-18. Z-6.");
     let shop = Shop::with(&[("plate.nc", broken.as_str())]);
     let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html");
     assert_eq!(run.code, 1, "{}", run.stderr);
@@ -176,7 +176,7 @@ fn a_page_needs_nothing_else() {
 #[test]
 fn many_moves_are_thinned_and_the_page_says_so() {
     let mut text = String::from("%\nO1\nG21 G90 G17\nT1 M6\nG0 X0. Y0. S100 M3\nG43 H1 Z5.\nG1 Z-1. F500.\n");
-    for at in 0..600_000_u32 {
+    for at in 0..600_000_u64 {
         text.push_str(&format!(
             "X{}.{:03} Y{}.{:03}\n",
             at / 1000,
@@ -242,9 +242,9 @@ fn a_page_works_in_a_browser() {
     assert_eq!(seen["lines"][12], "G0 Z25. (</script><b>BOLD</b> & \"QUOTED\")");
     assert_eq!(seen["boldElements"], 0);
 
-    assert_eq!(text("readoutOfLine8"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:12");
+    assert_eq!(text("readoutOfLine8"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
     assert_eq!(text("chosen"), "8");
-    assert_eq!(text("picked"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:12");
+    assert_eq!(text("picked"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
 
     assert!(seen["findings"].as_array().unwrap().len() == 1 && seen["marked"] == 1, "{seen:#}");
     assert_eq!(text("lineOfFinding"), "25");
