@@ -183,12 +183,15 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     /// Goes on along both moves by the shorter one of them; tells when they part.
     fn pieces(&mut self) -> Option<Parting> {
         let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
-        if a.curve.is_nothing() && !b.curve.is_open() {
-            self.a.finish();
-            return None;
-        }
-        if b.curve.is_nothing() && !a.curve.is_open() {
-            self.b.finish();
+        // A move that goes nowhere is passed over, unless it is the other side's way there from an unknown place.
+        let (a_is_nothing, b_is_nothing) = (a.curve.is_nothing(), b.curve.is_nothing());
+        if (a_is_nothing && !b.curve.is_open()) || (b_is_nothing && !a.curve.is_open()) {
+            if a_is_nothing {
+                self.a.finish();
+            }
+            if b_is_nothing {
+                self.b.finish();
+            }
             return None;
         }
         self.found.moves += 1;

@@ -86,7 +86,7 @@ try {
   await page.keyboard.press("Escape");
   const clock = async () => (await text("#clock")).split(" / ")[0];
   seen.clockAtEnd = await clock();
-  await page.locator("#source").focus();
+  await page.locator("#canvas").focus();
   await page.keyboard.press("Space");
   await page.waitForFunction(() => document.getElementById("play").textContent === "Pause");
   await page.waitForFunction(() => Number(document.getElementById("time").value) > 0);

@@ -234,3 +234,18 @@ fn missing_files_and_two_standard_inputs_are_errors() {
     assert_eq!(shop.gcheck("diff a.nc b.nc").code, 2);
     assert_eq!(shop.gcheck("diff - -").code, 2);
 }
+
+/// Moves to where the axes stand already, before the first that is known: a program is always the same as itself.
+#[test]
+fn a_program_is_the_same_as_itself() {
+    for program in [
+        "G20 G90\nG0 X0 Y0\nT1 M6\nG0 G54 X1. Y0.\nG43 H1 Z1.\nG1 Z-1. F10.\nX2.\nG53 G0 Z0.\nG4 P2\nM30\n",
+        "G91 G28 Z0\nT1 M6\nG91 G28 X0 Y0\nG90 G0 X1. Y1.\nM30\n",
+    ] {
+        for control in ["haas-mill", "linuxcnc", "fanuc-mill"] {
+            let shop = Shop::with(&[("a.nc", program)]);
+            let run = shop.gcheck(&format!("diff a.nc a.nc -q --control {control}"));
+            assert_eq!(run.code, 0, "{control}: {}{}", run.stdout, run.stderr);
+        }
+    }
+}

@@ -247,7 +247,7 @@ fn a_page_works_in_a_browser() {
     assert_eq!(text("picked"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
 
     assert!(seen["findings"].as_array().unwrap().len() == 1 && seen["marked"] == 1, "{seen:#}");
-    assert_eq!(text("lineOfFinding"), "25");
+    assert_eq!(text("lineOfFinding"), "27");
 
     assert_eq!(text("playStops"), "Play");
     assert_eq!(text("clockAtStart"), "0:00");
