@@ -15,7 +15,7 @@ use std::sync::Arc as Shared;
 
 use gcheck_engine::Position;
 
-use crate::trail::{Act, Doing, Driven, Feed, Setting};
+use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
 use curve::Curve;
 
 pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
@@ -56,6 +56,10 @@ struct Cursor<I: Iterator<Item = Act>> {
     piece: Option<Piece>,
     /// Where the axes stand.
     at: Position,
+    /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
+    started: bool,
+    /// The last move that was done.
+    last: Option<Place>,
 }
 
 /// A move, of which a part may be done.
@@ -69,7 +73,7 @@ struct Piece {
 
 impl<I: Iterator<Item = Act>> Cursor<I> {
     fn new(acts: I) -> Self {
-        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN }
+        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false, last: None }
     }
 
     /// Collects what happens before the next move, and takes up that move.
@@ -81,12 +85,13 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
                 Doing::Stand(_) => stands.push(act),
                 Doing::Move(made) => {
                     let curve = Curve::new(made);
-                    found.unknown |= curve.is_open();
                     let driven = made.driven;
-                    if curve.is_nothing() {
+                    found.unknown |= driven != Driven::Rapid && curve.is_unknown();
+                    if curve.is_nothing() && self.started {
                         self.at = made.to;
                         continue;
                     }
+                    self.started |= !curve.is_nothing() && !curve.is_open();
                     self.piece = Some(Piece { act, driven, curve, done: 0.0 });
                 }
             }
@@ -98,7 +103,13 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
     fn finish(&mut self) {
         if let Some(piece) = self.piece.take() {
             self.at = piece.curve.end();
+            self.last = Some(piece.place());
         }
+    }
+
+    /// Is there no further move?
+    fn is_over(&mut self) -> bool {
+        self.piece.is_none() && self.acts.peek().is_none()
     }
 
     /// Does the next act stand?
@@ -121,8 +132,14 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     fn run(&mut self) {
         loop {
             // A move that is not done on one side, while the other one stands: what stands there is one-sided.
-            let before_a = self.a.advance(&mut self.found);
-            let before_b = self.b.advance(&mut self.found);
+            let mut before_a = self.a.advance(&mut self.found);
+            let mut before_b = self.b.advance(&mut self.found);
+            if self.a.is_over() != self.b.is_over() {
+                // That one ends while the other goes on is told as such.
+                for stands in [&mut before_a, &mut before_b] {
+                    stands.retain(|act| act.doing != Doing::Stand(Stand::End));
+                }
+            }
             if !before_a.is_empty() || !before_b.is_empty() {
                 self.stands(&before_a, &before_b);
                 if self.a.stands_next() || self.b.stands_next() {
@@ -138,12 +155,24 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
                     }
                 }
                 (Some(piece), None) => {
-                    let parting = Parting::end(Some(piece.place()), None, &self.b.at, &piece.curve.end());
+                    let parting = Parting {
+                        a: Some(piece.place()),
+                        b: self.b.last.take(),
+                        at: self.b.at,
+                        to: [Some(piece.curve.end()), None],
+                        apart: f64::NAN,
+                    };
                     self.found.parting = Some(parting);
                     return;
                 }
                 (None, Some(piece)) => {
-                    let parting = Parting::end(None, Some(piece.place()), &self.a.at, &piece.curve.end());
+                    let parting = Parting {
+                        a: self.a.last.take(),
+                        b: Some(piece.place()),
+                        at: self.a.at,
+                        to: [None, Some(piece.curve.end())],
+                        apart: f64::NAN,
+                    };
                     self.found.parting = Some(parting);
                     return;
                 }
@@ -154,6 +183,17 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     /// Goes on along both moves by the shorter one of them; tells when they part.
     fn pieces(&mut self) -> Option<Parting> {
         let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
+        // A move that goes nowhere is passed over, unless it is the other side's way there from an unknown place.
+        let (a_is_nothing, b_is_nothing) = (a.curve.is_nothing(), b.curve.is_nothing());
+        if (a_is_nothing && !b.curve.is_open()) || (b_is_nothing && !a.curve.is_open()) {
+            if a_is_nothing {
+                self.a.finish();
+            }
+            if b_is_nothing {
+                self.b.finish();
+            }
+            return None;
+        }
         self.found.moves += 1;
         let parting = |a: &Piece, b: &Piece, at: Position, apart: f64| Parting {
             a: Some(a.place()),
@@ -166,7 +206,8 @@ impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
             // From an unknown place only the end is known, and everything before it may be a part of the way there.
             let apart = curve::apart(&a.curve.end(), &b.curve.end());
             (a.done, b.done) = (1.0, 1.0);
-            (apart > self.tolerance).then(|| parting(a, b, self.a.at, apart))
+            let parts = apart > self.tolerance || !Curve::go_for_the_same(&a.curve, &b.curve);
+            parts.then(|| parting(a, b, self.a.at, apart))
         } else {
             let (at_a, at_b) = (a.curve.at(a.done), b.curve.at(b.done));
             let apart = curve::apart(&at_a, &at_b);

@@ -1,4 +1,5 @@
-//! What is made of moves: the canonical form, move lists as JSON lines, CSV and text, times, statistics.
+//! What is made of moves: the canonical form, move lists as JSON lines, CSV and text, times, statistics,
+//! comparison, plots.
 //!
 //! Knows: the engine's events and what other programs and machinists want to read of them. Must not know: syntax,
 //! controls, how events are computed, terminals and files (writers are handed in).

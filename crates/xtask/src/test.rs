@@ -6,7 +6,7 @@ mod editors;
 
 use std::env;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::Context as _;
@@ -122,6 +122,7 @@ fn has_cargo_command(name: &str) -> bool {
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
     install_interpreter();
+    install_browser()?;
     editors::install(&workspace::root().join(TOOLS));
     install_validator()
 }
@@ -130,19 +131,32 @@ fn install_tools() -> anyhow::Result<()> {
 const INTERPRETER: &str = "linuxcnc-uspace";
 
 fn install_interpreter() {
-    if !cfg!(target_os = "linux") || is_in_path("rs274") {
-        return;
-    }
-    let without = "the engine is not compared with the LinuxCNC interpreter";
-    if !install_debian_package(INTERPRETER) || !is_in_path("rs274") {
-        say(&format!("apt-get could not install {INTERPRETER}: {without}"));
+    if cfg!(target_os = "linux") && !is_in_path("rs274") {
+        install_package(INTERPRETER, "rs274", "the engine is not compared with the LinuxCNC interpreter");
     }
 }
 
-/// Installs a package of the system where there is an apt-get and it may.
-fn install_debian_package(package: &str) -> bool {
-    if !cfg!(target_os = "linux") || !is_in_path("apt-get") {
-        return false;
+/// The browser that looks at pages of `gcheck plot`, as a Debian package and by its other names.
+const BROWSER: &str = "chromium";
+const OTHER_BROWSERS: [&str; 3] = ["chromium-browser", "google-chrome", "google-chrome-stable"];
+/// What steers it: an npm package without a browser of its own.
+const DRIVER: &str = "playwright-core";
+const DRIVER_VERSION: &str = "1.65.1";
+
+fn install_browser() -> anyhow::Result<()> {
+    let without = "pages of `gcheck plot` are not looked at in a browser";
+    if cfg!(target_os = "linux") && !is_in_path(BROWSER) && !OTHER_BROWSERS.into_iter().any(is_in_path) {
+        install_package(BROWSER, BROWSER, without);
+    }
+    install_from_npm(DRIVER, DRIVER_VERSION, without)?;
+    Ok(())
+}
+
+/// Installs a Debian package for the sake of a program in it; says what is left out without it.
+fn install_package(package: &str, program: &str, without: &str) {
+    if !is_in_path("apt-get") {
+        say(&format!("{program} (Debian's {package}) is not installed and there is no apt-get: {without}"));
+        return;
     }
     say(&format!("installing {package}"));
     let apt = |arguments: &[&str]| {
@@ -155,7 +169,10 @@ fn install_debian_package(package: &str) -> bool {
         command.status().is_ok_and(|status| status.success())
     };
     // Only root may; the package's name is looked up in lists that may be old or missing.
-    apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", package])
+    let is_installed = apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", package]);
+    if !is_installed || !is_in_path(program) {
+        say(&format!("apt-get could not install {package} (root may): {without}"));
+    }
 }
 
 fn is_in_path(program: &str) -> bool {
@@ -164,38 +181,38 @@ fn is_in_path(program: &str) -> bool {
 }
 
 fn install_validator() -> anyhow::Result<()> {
+    let without = "SARIF output is not validated";
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        say("the SARIF validator is made for Linux on x86-64: SARIF output is not validated here");
+        say(&format!("the SARIF validator is made for Linux on x86-64: {without} here"));
         return Ok(());
     }
+    if let Some(package) = install_from_npm(SARIF_VALIDATOR, SARIF_VALIDATOR_VERSION, without)? {
+        make_executable(&package.join("Sarif.Multitool"))?;
+    }
+    Ok(())
+}
+
+/// Installs an npm package into the folder of tools, unless it is there; its folder if it was installed.
+fn install_from_npm(name: &str, version: &str, without: &str) -> anyhow::Result<Option<PathBuf>> {
     let tools = workspace::root().join(TOOLS);
-    let package = tools.join("node_modules").join(SARIF_VALIDATOR);
-    if is_installed(&package) {
-        return Ok(());
+    let package = tools.join("node_modules").join(name);
+    let version_line = format!("\"version\": \"{version}\"");
+    if fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&version_line)) {
+        return Ok(None);
     }
     fs::create_dir_all(&tools)?;
-    say(&format!("installing {SARIF_VALIDATOR} into {TOOLS}"));
+    say(&format!("installing {name} into {TOOLS}"));
     let install = Command::new("npm")
         .args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--prefix"])
         .arg(&tools)
-        .arg(format!("{SARIF_VALIDATOR}@{SARIF_VALIDATOR_VERSION}"))
+        .arg(format!("{name}@{version}"))
         .status();
     match install {
-        Ok(status) if status.success() => make_executable(&package.join("Sarif.Multitool")),
-        Ok(_) => {
-            say("npm could not install the SARIF validator: SARIF output is not validated");
-            Ok(())
-        }
-        Err(_) => {
-            say("npm is not installed: SARIF output is not validated");
-            Ok(())
-        }
+        Ok(status) if status.success() => return Ok(Some(package)),
+        Ok(_) => say(&format!("npm could not install {name}: {without}")),
+        Err(_) => say(&format!("npm is not installed: {without}")),
     }
-}
-
-fn is_installed(package: &Path) -> bool {
-    let version = format!("\"version\": \"{SARIF_VALIDATOR_VERSION}\"");
-    fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&version))
+    Ok(None)
 }
 
 /// npm unpacks the program without its permission to run, because install scripts are off.

@@ -45,6 +45,19 @@ impl Curve {
         self.open
     }
 
+    /// Is a part of it unknown that every machine has?
+    pub(super) fn is_unknown(&self) -> bool {
+        self.open || [Axis::X, Axis::Z].into_iter().any(|axis| self.to.raw(axis).is_nan())
+    }
+
+    /// Two ways from unknown places: do they lead to known ones on the same axes? First down and then across is another way
+    /// than first across and then down.
+    pub(super) fn go_for_the_same(a: &Self, b: &Self) -> bool {
+        let is_known = |curve: &Self, axis| !curve.to.raw(axis).is_nan();
+        let xyz = [Axis::X, Axis::Y, Axis::Z];
+        !a.open || !b.open || xyz.into_iter().all(|axis| is_known(a, axis) == is_known(b, axis))
+    }
+
     /// Does nothing move?
     pub(super) fn is_nothing(&self) -> bool {
         !self.open && self.length <= 1e-9

@@ -126,24 +126,16 @@ pub struct Difference {
 /// Where two paths part. Nothing behind it is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
-    /// The move of the first run; `None` when it has none left.
+    /// The move of the first run, or its last one when it has none left; `None` when it has none at all.
     pub a: Option<Place>,
     /// The move of the second.
     pub b: Option<Place>,
     /// Where both were.
     pub at: Position,
-    /// Where each of them goes.
+    /// Where each of them goes; `None` where there is no move left.
     pub to: [Option<Position>; 2],
-    /// How far they come apart, millimetres or degrees, on the axis where it is most.
+    /// How far they come apart, millimetres or degrees, on the axis where it is most; NaN where one does not go on.
     pub apart: f64,
-}
-
-impl Parting {
-    /// One run moves on when the other one is over.
-    pub(super) fn end(a: Option<Place>, b: Option<Place>, at: &Position, to: &Position) -> Self {
-        let to = [a.as_ref().map(|_| *to), b.as_ref().map(|_| *to)];
-        Self { a, b, at: *at, to, apart: f64::NAN }
-    }
 }
 
 /// All differences of two runs.

@@ -10,6 +10,7 @@ use crate::trail::{Act, Doing, Stand};
 
 /// Matches what both sides do between the same two moves, in order, and adds what has no counterpart or another value.
 pub(super) fn compare(found: &mut Differences, a: &[Act], b: &[Act]) {
+    let (a, b) = (&without_shuttle(a), &without_shuttle(b));
     let pairs = pairs(a, b);
     let (mut next_a, mut next_b) = (0, 0);
     for (at_a, at_b) in pairs.into_iter().chain([(a.len(), b.len())]) {
@@ -26,8 +27,16 @@ pub(super) fn compare(found: &mut Differences, a: &[Act], b: &[Act]) {
     }
 }
 
+/// Where the end of a program moves pallets, it is an end all the same.
+fn without_shuttle(acts: &[Act]) -> Vec<&Act> {
+    let is_end = |act: Option<&Act>| act.and_then(stand) == Some(&Stand::End);
+    let next = (1..).map(|next| is_end(acts.get(next)));
+    let is_kept = |act: &Act, ends: bool| !(ends && stand(act) == Some(&Stand::Pallet));
+    acts.iter().zip(next).filter(|(act, ends)| is_kept(act, *ends)).map(|(act, _)| act).collect()
+}
+
 /// The longest sequence of pairs of one kind.
-fn pairs(a: &[Act], b: &[Act]) -> Vec<(usize, usize)> {
+fn pairs(a: &[&Act], b: &[&Act]) -> Vec<(usize, usize)> {
     let width = b.len() + 1;
     // How many pairs there can be from here on.
     let mut most = vec![0_u32; (a.len() + 1) * width];

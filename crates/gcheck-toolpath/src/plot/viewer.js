@@ -88,7 +88,10 @@ void main() {
   gl_Position = hidden ? vec4(2.0, 2.0, 2.0, 1.0) : vec4(spot / uHalf, -z, 1.0);
   vAlong = at * size;
   vDash = rapid && uPass != 1 ? 1.0 : 0.0;
-  vColor = uPass == 1 ? vec4(piece & 255, (piece >> 8) & 255, (piece >> 16) & 255, piece >> 24) / 255.0 : vec4(tool.rgb, 1.0);
+  // Steep pieces are darker, and near ones stronger than far ones: a surface shows its shape.
+  vec3 way = to.xyz - from.xyz;
+  float shade = 1.0 - 0.5 * min(abs(way.z) / max(length(way), 1e-6), 0.6) + 0.14 * clamp(mix(a.z, b.z, at) / uDepth, -1.0, 1.0);
+  vColor = uPass == 1 ? vec4(piece & 255, (piece >> 8) & 255, (piece >> 16) & 255, piece >> 24) / 255.0 : vec4(tool.rgb * shade, 1.0);
 }`;
 
 const FRAGMENT = `#version 300 es

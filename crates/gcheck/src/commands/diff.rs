@@ -44,14 +44,12 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
     let b = execution::prepare(&second, &of_one(options, &options.b))?;
     let (differences, ran_a, ran_b) = run_both(&a, &b, options.tolerance)?;
     // A run that was cut off because the paths had parted before ended nowhere of its own.
-    let parting = differences.parting.as_ref();
-    let ended = |ran: &Ran, has_more: bool| ran.fault.clone().filter(|_| !has_more);
-    let faults = [
-        ended(&ran_a, parting.is_some_and(|parting| parting.a.is_some())),
-        ended(&ran_b, parting.is_some_and(|parting| parting.b.is_some())),
-    ];
-    let sides =
-        Sides { prepared: [&a, &b], units: ran_a.units, tolerance: options.tolerance, faults: &faults };
+    let goes_on =
+        differences.parting.as_ref().map_or([false; 2], |parting| parting.to.map(|to| to.is_some()));
+    let [a_goes_on, b_goes_on] = goes_on;
+    let units = ran_a.units;
+    let faults = [ran_a.fault.filter(|_| !a_goes_on), ran_b.fault.filter(|_| !b_goes_on)];
+    let sides = Sides { prepared: [&a, &b], units, tolerance: options.tolerance, faults: &faults };
     if !global.quiet && options.output_format == ListFormat::Text {
         execution::say(&ran_a.control);
         execution::say(&ran_b.control);

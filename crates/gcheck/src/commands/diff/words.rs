@@ -73,23 +73,14 @@ impl Sides<'_> {
             (false, None) => format!("{a} and {b} move along the same path, {within}, with differences\n"),
         };
         if differences.unknown {
-            out.push_str("coordinates that are unknown in one of them were not compared\n");
+            out.push_str("some cutting moves start or end at unknown coordinates, which were not compared\n");
         }
         out
     }
 
     fn parting(&self, out: &mut String, parting: &Parting) {
         // Writing to a string cannot fail.
-        let _ = if parting.apart.is_finite() {
-            writeln!(
-                out,
-                "the paths part at {}: {} apart",
-                self.point(&parting.at),
-                self.length(parting.apart, true)
-            )
-        } else {
-            writeln!(out, "the paths part at {}: one goes on", self.point(&parting.at))
-        };
+        let _ = writeln!(out, "the paths part at {}", self.point(&parting.at));
         for (side, (place, to)) in [&parting.a, &parting.b].into_iter().zip(&parting.to).enumerate() {
             let words = match (to, self.faults.get(side)) {
                 (Some(to), _) => format!("to {}", self.point(to)),
