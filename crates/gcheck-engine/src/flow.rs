@@ -396,9 +396,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         // Nothing leads back here: what loops in front looked like is of no use any more.
         self.heads.clear();
         self.last_offer = at.block;
+        let leg = self.end_leg(&self.executor.observer.trace.clone());
+        self.executor.observer.trace.begin_leg();
         let trace = self.executor.observer.trace.clone();
-        let leg = self.end_leg(&trace);
-        trace.begin_leg();
         let checkpoint = Checkpoint { at, state: state.clone(), trace, parted: self.parted };
         self.executor.observer.observer.checkpoint(leg, checkpoint)
     }

@@ -220,7 +220,9 @@ pub fn check(job: &Job<'_>) -> Outcome {
         lines += count_lines(chunk.as_bytes());
         seen += chunk.len();
         survey.add(table, base, region.end, job.scene.dialect);
-        directives.extend(table.directives().iter().map(|r| r.start + base..r.end + base));
+        // What stands behind the part that the control reads silences nothing, wherever the chunk ends.
+        let read = table.directives().iter().filter(|r| r.start + base < region.end);
+        directives.extend(read.map(|r| r.start + base..r.end + base));
         check_blocks(job.scene, &plan, region.end, base, table, chunk, &mut collector);
     });
     lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());

@@ -7,13 +7,15 @@ mod chunk;
 mod kept;
 mod layout;
 mod paths;
+#[cfg(test)]
+mod tests;
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, LetterSet};
 use gcheck_engine::{FlowObserver, LookedUp, Model, Program};
-use gcheck_program::{BlockFlags, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
+use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
 pub use chunk::{ChunkFacts, ChunkFindings};
 pub(crate) use kept::{Kept, Naming, Refinding};
@@ -111,18 +113,40 @@ pub struct Whole {
 }
 
 impl Whole {
-    fn new(edited: &Edited<'_>, mut look: impl FnMut(usize, u32, &ChunkFacts)) -> Result<Self, Stopped> {
-        let mut starts = vec![0];
-        let mut facts = Vec::with_capacity(edited.chunks.len());
-        let mut at = 0;
-        for (index, chunk) in edited.chunks.iter().enumerate() {
+    /// Of the chunks of a text.
+    pub fn of_text(chunks: &[Arc<str>], dialect: &Dialect<'_>) -> Self {
+        let facts = |chunk: usize, end: u32| {
+            Arc::new(ChunkFacts::new(chunks.get(chunk).map_or("", |text| text), end, dialect))
+        };
+        let all: Vec<Arc<ChunkFacts>> = (0..chunks.len()).map(|chunk| facts(chunk, u32::MAX)).collect();
+        Self::join(chunks, all, facts, dialect, |_, _, _| ())
+    }
+
+    fn new(edited: &Edited<'_>, look: impl FnMut(usize, u32, &ChunkFacts)) -> Result<Self, Stopped> {
+        let mut all = Vec::with_capacity(edited.chunks.len());
+        for index in 0..edited.chunks.len() {
             if index % 64 == 0 && (edited.stop)() {
                 return Err(Stopped);
             }
-            facts.push(edited.source.facts(index, u32::MAX));
-            at += chunk.len() as u32;
-            starts.push(at);
+            all.push(edited.source.facts(index, u32::MAX));
         }
+        let facts = |chunk: usize, end: u32| edited.source.facts(chunk, end);
+        Ok(Self::join(edited.chunks, all, facts, edited.scene.dialect, look))
+    }
+
+    fn join(
+        chunks: &[Arc<str>],
+        facts: Vec<Arc<ChunkFacts>>,
+        of_cut: impl Fn(usize, u32) -> Arc<ChunkFacts>,
+        dialect: &Dialect<'_>,
+        mut look: impl FnMut(usize, u32, &ChunkFacts),
+    ) -> Self {
+        let mut at = 0;
+        let ends = chunks.iter().map(|chunk| {
+            at += chunk.len() as u32;
+            at
+        });
+        let starts: Vec<u32> = std::iter::once(0).chain(ends).collect();
         let tapes = starts.iter().copied().zip(&facts).map(|(base, facts)| (base, facts.tape()));
         let region_end = TapeMarks::region_end(tapes, at);
         let mut survey = Survey::default();
@@ -134,9 +158,9 @@ impl Whole {
         {
             if base < region_end || index == 0 {
                 if end > region_end {
-                    facts = edited.source.facts(index, region_end - base);
+                    facts = of_cut(index, region_end - base);
                 }
-                survey.join(&facts.survey, base, edited.scene.dialect);
+                survey.join(&facts.survey, base, dialect);
                 outline.add_part(&facts.outline, base);
                 skeleton.join(facts.outline.skeleton());
                 flags.push(facts.flags);
@@ -145,7 +169,7 @@ impl Whole {
         }
         let chunks = flags.len();
         let outline = Arc::new(outline.finish());
-        Ok(Self { survey, outline, region_end, chunks, flags, skeleton, starts })
+        Self { survey, outline, region_end, chunks, flags, skeleton, starts }
     }
 
     /// Where the part of a chunk ends that the control reads, in bytes of the chunk; the greatest number for all of it.
@@ -190,8 +214,7 @@ impl Incremental {
             lines += facts.lines;
             directives.extend(facts.directives.iter().map(|range| range.start + base..range.end + base));
         })?;
-        directives
-            .retain(|range: &Range<u32>| range.start < whole.starts.get(whole.chunks).copied().unwrap_or(0));
+        directives.retain(|range: &Range<u32>| range.start < whole.region_end);
         let mut collector = Collector::new(edited.scene.control());
         for (chunk, base) in (0..whole.chunks).zip(&whole.starts) {
             let end = whole.end_in(chunk);
@@ -285,7 +308,7 @@ impl Incremental {
     }
 
     /// Follows the text to where it is now. `false` when that leads nowhere.
-    fn lay_out(&mut self, texts: &[Arc<str>], whole: &Whole, dialect: &gcheck_program::Dialect<'_>) -> bool {
+    fn lay_out(&mut self, texts: &[Arc<str>], whole: &Whole, dialect: &Dialect<'_>) -> bool {
         let (old, new) = self.layout.changed(texts);
         let is_as_before = |chunk: usize, of: usize| self.layout.has_blocks(of, whole.blocks_in(chunk));
         let behind = texts.len() - new.end;
@@ -298,6 +321,7 @@ impl Incremental {
         if old.is_empty() && new.is_empty() {
             return true;
         }
+        let (old, new) = self.widened(old, new);
         let before = self.layout.text_of(old.clone());
         let now: String = texts.get(new.clone()).unwrap_or_default().iter().map(AsRef::as_ref).collect();
         let is_cut = new.clone().any(|chunk| whole.end_in(chunk) != u32::MAX);
@@ -306,6 +330,21 @@ impl Incremental {
         self.paths.note_flags(flags.iter().fold(BlockFlags::empty(), |all, flags| all | *flags));
         self.layout.replace(old, shapes(texts, whole, new), left);
         true
+    }
+
+    /// The changed chunks with as many beside them as it takes to begin with one whose blocks were read: who came through the
+    /// place where something was put in read that.
+    fn widened(&self, mut old: Range<usize>, mut new: Range<usize>) -> (Range<usize>, Range<usize>) {
+        let is_read = |chunk: usize| !self.layout.has_blocks(chunk, 0);
+        while old.start > 0 && (old.is_empty() || !is_read(old.start)) {
+            old.start -= 1;
+            new.start -= 1;
+        }
+        while old.end < self.layout.len() && !old.clone().any(is_read) {
+            old.end += 1;
+            new.end += 1;
+        }
+        (old, new)
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
@@ -356,7 +395,7 @@ fn shapes(texts: &[Arc<str>], whole: &Whole, chunks: Range<usize>) -> Vec<ChunkS
 }
 
 /// What two texts have in common at their ends. When the second `is_cut` its last blocks are not all read.
-fn what_is_left(before: &str, now: &str, is_cut: bool, dialect: &gcheck_program::Dialect<'_>) -> Left {
+fn what_is_left(before: &str, now: &str, is_cut: bool, dialect: &Dialect<'_>) -> Left {
     let same = |pair: &(u8, u8)| pair.0 == pair.1;
     let start = before.bytes().zip(now.bytes()).take_while(same).count();
     let most = before.len().min(now.len()) - start;
@@ -369,8 +408,17 @@ fn what_is_left(before: &str, now: &str, is_cut: bool, dialect: &gcheck_program:
         lines = rest;
     }
     let lines = lines.iter().rposition(is_end).map_or(0, |at| at + 1);
+    let starts_line = |text: &[u8], at: usize| match at.checked_sub(1).and_then(|before| text.get(before)) {
+        None | Some(b'\n') => true,
+        Some(b'\r') => text.get(at) != Some(&b'\n'),
+        Some(_) => false,
+    };
     let tail = now.len() - end;
-    let behind = tail + gcheck_syntax::line_len(bytes.get(tail..).unwrap_or_default());
+    let behind = if starts_line(bytes, tail) && starts_line(before.as_bytes(), before.len() - end) {
+        tail
+    } else {
+        tail + gcheck_syntax::line_len(bytes.get(tail..).unwrap_or_default())
+    };
     let blocks = |text: Option<&str>| text.map_or(0, |text| lower(text, dialect).len() as u32);
     Left {
         bytes_before: start as u32,
