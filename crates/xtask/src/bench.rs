@@ -5,6 +5,7 @@
 
 mod command_line;
 mod in_process;
+mod keystrokes;
 mod peer;
 mod row;
 
@@ -24,6 +25,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         return product::rerun("bench", arguments, true);
     }
     let mut rows = in_process::rows()?;
+    rows.extend(keystrokes::rows()?);
     match command_line::rows() {
         Ok(more) => rows.extend(more),
         Err(error) => eprintln!("{error:#}"),
