@@ -210,6 +210,7 @@ impl Owner {
         let is_same = stale == Stale::Head
             && before.settings.is_some() == in_force.settings.is_some()
             && before.choice == in_force.choice
+            && before.style == in_force.style
             && before.problems == in_force.problems;
         if is_same {
             return;
