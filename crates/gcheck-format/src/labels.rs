@@ -7,7 +7,9 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Ends, Letter, LetterSet, WordKind};
-use gcheck_program::{Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Outline, StatementKind, Value, Word};
+use gcheck_program::{
+    Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Outline, StatementKind, Value, Word,
+};
 
 /// A sequence number at the head of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -121,7 +123,8 @@ impl Labels {
         labels.mains.dedup();
         for (block, number) in found.calls {
             // The digits in front of the last four may count repeats.
-            let called = number.and_then(|number| outline.program(number).or(outline.program(number % 10_000)));
+            let called =
+                number.and_then(|number| outline.program(number).or(outline.program(number % 10_000)));
             match called {
                 Some(called) => {
                     let callers = labels.callers.entry(called.blocks.start).or_default();

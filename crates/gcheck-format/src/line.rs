@@ -305,11 +305,8 @@ impl<'s> Writer<'s> {
                     | [Some(K::LETTER), Some(K::PLUS | K::MINUS), Some(K::NUMBER), None]
             );
             if item.kind.is_word() && is_number {
-                let word: String = parts
-                    .iter()
-                    .filter(is_blank)
-                    .map(|part| slice(text, &part.range))
-                    .collect();
+                let word: String =
+                    parts.iter().filter(is_blank).map(|part| slice(text, &part.range)).collect();
                 self.replace(text, item.range.clone(), |writer| writer.word(&word));
                 return;
             }

@@ -176,10 +176,14 @@ fn follow<'l>(
         match numbers.get(&(program, number.value)) {
             // It stays the number of a program as long as no block gets that number.
             None if matches!(reference.target, Target::OwnOrProgram(_)) => {
-                let is_taken = numbers
-                    .iter()
-                    .any(|((of, _), new)| *of == program && matches!(new, New::One(new) if *new == number.value));
-                return if is_taken { Err(Refusal::TakenByProgram(number.value)) } else { Ok((number, number.value)) };
+                let is_taken = numbers.iter().any(|((of, _), new)| {
+                    *of == program && matches!(new, New::One(new) if *new == number.value)
+                });
+                return if is_taken {
+                    Err(Refusal::TakenByProgram(number.value))
+                } else {
+                    Ok((number, number.value))
+                };
             }
             None => return Err(Refusal::NoSuchBlock(number.value)),
             Some(New::Several) => return Err(Refusal::SeveralBlocks(number.value)),

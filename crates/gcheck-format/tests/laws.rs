@@ -1,7 +1,11 @@
 //! What holds for every text, on every control, in several styles: blocks are read as before, comments stay, twice is once,
 //! a part is formatted as the whole; renumbered jumps lead where they led.
 
-#![expect(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
 
 use std::fmt::Write as _;
 
@@ -10,7 +14,7 @@ use gcheck_format::{
     Edit, Indentation, LeadingZeros, LetterCase, Numbering, SequenceNumbers, Style, TrailingZeros,
     WordSpacing, apply, format, formatted, renumber,
 };
-use gcheck_program::{BlockTable, Dialect, ExprIx, Loaded, Op, OLabel, StatementKind, Target, Value, lower};
+use gcheck_program::{BlockTable, Dialect, ExprIx, Loaded, OLabel, Op, StatementKind, Target, Value, lower};
 use gcheck_syntax::{SourceText, SyntaxKind, parse};
 use proptest::prelude::*;
 
@@ -171,7 +175,8 @@ fn drops_only_numbers(text: &str, dialect: &Dialect<'_>) {
     assert_eq!(apply(&once, &format(&once, dialect, &style, None)), once, "twice is once: {text:?}");
     let without = |text: &str| -> Vec<String> {
         let is_number = |word: &&str| word.starts_with("N=");
-        let block = |block: String| block.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ");
+        let block =
+            |block: String| block.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ");
         blocks(text, dialect).into_iter().map(block).collect()
     };
     assert_eq!(without(&once), without(text), "{text:?} is {once:?}");
@@ -266,7 +271,8 @@ fn for_every_word_that_names_a_block() {
         for code in control.codes() {
             for word in &code.entry().words {
                 assert!(
-                    word.kind != gcheck_controls::WordKind::Label || Letter::parse(&word.letter) != Some(Letter::of('N')),
+                    word.kind != gcheck_controls::WordKind::Label
+                        || Letter::parse(&word.letter) != Some(Letter::of('N')),
                     "{name}: {}",
                     code.number()
                 );

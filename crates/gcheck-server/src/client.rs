@@ -60,9 +60,9 @@ impl Abilities {
             has_progress: is(window.work_done_progress),
             has_configuration: is(workspace.configuration),
             registers_watchers: is(workspace.did_change_watched_files.and_then(|w| w.dynamic_registration)),
-            registers_configuration: is(
-                workspace.did_change_configuration.and_then(|c| c.dynamic_registration)
-            ),
+            registers_configuration: is(workspace
+                .did_change_configuration
+                .and_then(|c| c.dynamic_registration)),
             related_information: is(published.related_information),
             diagnostic_tags: published.tag_support.is_some(),
             code_description: is(published.code_description_support),
@@ -135,7 +135,9 @@ impl ClientSettings {
             settings.control = None;
         }
         settings.trace = value.pointer("/trace/server").and_then(Value::as_str).is_some_and(|t| t != "off");
-        settings.lenses = switch(value, "codeLens", "enable").or(value.get("codeLens").and_then(Value::as_bool)).unwrap_or(true);
+        settings.lenses = switch(value, "codeLens", "enable")
+            .or(value.get("codeLens").and_then(Value::as_bool))
+            .unwrap_or(true);
         settings.hints = hints(value);
         (settings, complaints)
     }
@@ -148,9 +150,7 @@ fn switch(value: &Value, table: &str, name: &str) -> Option<bool> {
 /// `gcheck.inlayHints` as a whole, and each of its switches.
 fn hints(value: &Value) -> InlayOptions {
     let all = value.get("inlayHints").and_then(Value::as_bool).or(switch(value, "inlayHints", "enable"));
-    let is_on = |name: &str| {
-        all.unwrap_or(true) && switch(value, "inlayHints", name).unwrap_or(true)
-    };
+    let is_on = |name: &str| all.unwrap_or(true) && switch(value, "inlayHints", name).unwrap_or(true);
     InlayOptions {
         feed: is_on("feed"),
         speed: is_on("speed"),

@@ -90,12 +90,7 @@ fn omitted(shown: &Diagnostics) -> String {
 }
 
 fn at_the_top(severity: DiagnosticSeverity, message: String) -> Diagnostic {
-    Diagnostic {
-        severity: Some(severity),
-        source: Some(SOURCE.to_owned()),
-        message,
-        ..Diagnostic::default()
-    }
+    Diagnostic { severity: Some(severity), source: Some(SOURCE.to_owned()), message, ..Diagnostic::default() }
 }
 
 /// What keeps a program from being checked, among its own diagnostics.
@@ -110,9 +105,10 @@ pub(crate) fn of_problems(document: &Document, encoding: Encoding, snapshot: &Sn
             let range = places.range(&(start..end));
             list.push(Diagnostic { range, ..at_the_top(DiagnosticSeverity::ERROR, problem.message.clone()) });
         } else if document.in_force.settings.is_none() {
-            let place = problem.path.as_ref().map_or_else(String::new, |path| {
-                format!("{}:{}: ", path.display(), problem.line + 1)
-            });
+            let place = problem
+                .path
+                .as_ref()
+                .map_or_else(String::new, |path| format!("{}:{}: ", path.display(), problem.line + 1));
             let message = format!(
                 "this program is not checked, because its configuration cannot be read: {place}{}",
                 problem.message

@@ -10,8 +10,8 @@ mod own;
 mod pulling;
 mod structure;
 
-pub(crate) use commands::COMMANDS;
 pub(crate) use changing::action_kinds;
+pub(crate) use commands::COMMANDS;
 pub(crate) use own::{ControlEntry, OwnParams, controls};
 
 use std::ops::Range;
@@ -74,11 +74,7 @@ fn answer_if_fresh<T>(clock: &Clock, reply: Reply<T>, work: impl FnOnce(&dyn Fn(
 
 /// A refusal in words for people.
 fn refused(reason: String) -> Error {
-    Error {
-        code: ErrorCode::ServerError(crate::proto::REQUEST_FAILED),
-        message: reason.into(),
-        data: None,
-    }
+    Error { code: ErrorCode::ServerError(crate::proto::REQUEST_FAILED), message: reason.into(), data: None }
 }
 
 fn markdown(text: String) -> MarkupContent {

@@ -159,7 +159,9 @@ impl LanguageServer for Handlers {
     }
 
     async fn references(&self, params: ReferenceParams) -> Result<Option<Vec<Location>>> {
-        self.mailbox.ask("textDocument/references", move |owner, reply| owner.references(&params, reply)).await
+        self.mailbox
+            .ask("textDocument/references", move |owner, reply| owner.references(&params, reply))
+            .await
     }
 
     async fn prepare_rename(
@@ -181,7 +183,9 @@ impl LanguageServer for Handlers {
         &self,
         params: CallHierarchyPrepareParams,
     ) -> Result<Option<Vec<CallHierarchyItem>>> {
-        let work = move |owner: &mut crate::owner::Owner, _: &dyn Fn() -> bool| owner.prepare_call_hierarchy(&params);
+        let work = move |owner: &mut crate::owner::Owner, _: &dyn Fn() -> bool| {
+            owner.prepare_call_hierarchy(&params)
+        };
         self.quick("textDocument/prepareCallHierarchy", work).await
     }
 

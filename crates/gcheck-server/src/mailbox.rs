@@ -18,9 +18,9 @@ type Work = Box<dyn FnOnce(&mut Owner) + Send>;
 /// What kind of work it is, as far as work in hand is concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Makes what is being worked out stale: edits, settings.
+    /// Makes what is being worked out stale: edits.
     Change,
-    /// Somebody waits for an answer.
+    /// Somebody waits for an answer, or a change is rare enough to wait for one.
     Question,
     /// The result of work elsewhere.
     Result,
@@ -83,7 +83,12 @@ pub(crate) fn mailbox() -> (Mailbox, Inbox) {
 
 impl Mailbox {
     /// Posts work. With the owner gone there is nobody left to do it.
-    pub(crate) fn post(&self, name: &'static str, kind: Kind, work: impl FnOnce(&mut Owner) + Send + 'static) {
+    pub(crate) fn post(
+        &self,
+        name: &'static str,
+        kind: Kind,
+        work: impl FnOnce(&mut Owner) + Send + 'static,
+    ) {
         if let Some(count) = self.waiting.of(kind) {
             count.fetch_add(1, Ordering::AcqRel);
         }

@@ -150,7 +150,8 @@ impl Owner {
         self.disk = Disk::default();
         for document in self.documents.values_mut() {
             let settings = document.in_force.settings.clone().unwrap_or_else(fallback_settings);
-            let text = self.database.snapshot(document.id).map(|snapshot| snapshot.text()).unwrap_or_default();
+            let text =
+                self.database.snapshot(document.id).map(|snapshot| snapshot.text()).unwrap_or_default();
             document.id = database.open(&text, settings);
             document.figures = None;
         }

@@ -68,7 +68,10 @@ impl Open {
             is_named(path, number) || known.get(path).is_some_and(|(_, numbers)| numbers.contains(&number))
         };
         let programs = self.texts.in_folder(folder).into_iter();
-        programs.filter(|(path, _)| is_program_name(path)).find(|(path, state)| has(path, *state)).map(|(path, _)| path)
+        programs
+            .filter(|(path, _)| is_program_name(path))
+            .find(|(path, state)| has(path, *state))
+            .map(|(path, _)| path)
     }
 
     /// The open program of a folder whose file has a name.
@@ -125,8 +128,8 @@ impl Reachable {
             }
             let found = on_disk(&self.folders.of(folder)).cloned()?;
             // What the file holds on disk says nothing about what it holds in the editor.
-            let is_open = open
-                .is_some_and(|open| open.texts.in_folder(folder).iter().any(|(path, _)| *path == found));
+            let is_open =
+                open.is_some_and(|open| open.texts.in_folder(folder).iter().any(|(path, _)| *path == found));
             (!is_open || by_name(&found)).then_some(found)
         })
     }

@@ -29,7 +29,9 @@ fn opened() -> Session {
 
 /// Waits for a line of the log.
 fn logged(session: &mut Session, part: &str) {
-    session.client.notification("window/logMessage", |params| params["message"].as_str().unwrap().contains(part));
+    session
+        .client
+        .notification("window/logMessage", |params| params["message"].as_str().unwrap().contains(part));
 }
 
 #[test]
@@ -113,7 +115,8 @@ fn positions_that_the_text_does_not_have_are_the_nearest() {
     let mut session = opened();
     let far = 1_000_000;
     for (line, character) in [(far, 0), (0, far), (far, far), (u32::MAX, u32::MAX), (7, 0)] {
-        for method in ["textDocument/hover", "textDocument/completion", "textDocument/definition", "gcheck/stateAt"]
+        for method in
+            ["textDocument/hover", "textDocument/completion", "textDocument/definition", "gcheck/stateAt"]
         {
             let at = session.at("a.nc", line, character);
             session.client.request(method, at);
@@ -169,7 +172,8 @@ fn files_that_vanish_and_files_that_are_no_utf_8_disturb_nothing() {
 fn addresses_that_are_no_files_are_documents_like_others() {
     let mut session = Session::new(&[]);
     for uri in ["untitled:Untitled-1", "git:/work/a.nc?x", "file:///no/such/folder/%20a%25.nc", "x:"] {
-        let document = json!({ "uri": uri, "languageId": "gcode", "version": 1, "text": "%\nO1\nG1 X1.\nM30\n%\n" });
+        let document =
+            json!({ "uri": uri, "languageId": "gcode", "version": 1, "text": "%\nO1\nG1 X1.\nM30\n%\n" });
         session.client.notify("textDocument/didOpen", json!({ "textDocument": document }));
         let published = session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == uri);
         assert!(!published["diagnostics"].as_array().unwrap().is_empty(), "{uri}");

@@ -90,7 +90,8 @@ fn who_asks_for_findings_is_not_sent_them() {
     assert!(!session.pulled("a.nc").iter().any(|finding| finding.contains("feed-missing")));
     session.client.receive_waiting();
     let pushed = |message: &Value| {
-        message["method"] == "textDocument/publishDiagnostics" && message["params"]["uri"] == session.uri("a.nc")
+        message["method"] == "textDocument/publishDiagnostics"
+            && message["params"]["uri"] == session.uri("a.nc")
     };
     assert!(!session.client.notifications.iter().any(pushed));
     let pushes = Session::with(&usual(), &[]);

@@ -184,11 +184,10 @@ fn hints_stand_beside_the_text_where_they_are_switched_on() {
     params["range"] = range_of([0, 0, 30, 0]);
     let hints = ask(&mut session, "textDocument/inlayHint", params.clone());
     assert!(!hints.as_array().unwrap().is_empty());
+    session.published("a.nc", 1);
     session.client.settings = json!({ "inlayHints": false });
     session.client.notify("workspace/didChangeConfiguration", json!({ "settings": null }));
-    let uri = session.uri("a.nc");
-    session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == uri.as_str());
-    session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == uri.as_str());
+    session.published("a.nc", 1);
     assert_eq!(ask(&mut session, "textDocument/inlayHint", params), json!([]));
 }
 
@@ -229,7 +228,10 @@ fn actions_mend_silence_and_explain() {
     ask(&mut session, "workspace/executeCommand", command);
     assert!(session.client.requests.iter().any(|request| request["method"] == "window/showDocument"));
     let of_source = actions(&mut session, [0, 0, 6, 0], Some("source"));
-    assert!(of_source.iter().all(|action| action["kind"].as_str().unwrap().starts_with("source")), "{of_source:#?}");
+    assert!(
+        of_source.iter().all(|action| action["kind"].as_str().unwrap().starts_with("source")),
+        "{of_source:#?}"
+    );
 }
 
 #[test]
@@ -243,13 +245,15 @@ fn text_is_formatted_whole_in_part_and_while_it_is_typed() {
     assert!(!whole.as_array().unwrap().is_empty());
     params["range"] = range_of([3, 0, 3, 4]);
     let part = ask(&mut session, "textDocument/rangeFormatting", params);
-    let lines: Vec<&Value> = part.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
+    let lines: Vec<&Value> =
+        part.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
     assert!(!lines.is_empty() && lines.iter().all(|line| **line == 3), "{part}");
     let mut params = session.at("a.nc", 3, 0);
     params["ch"] = json!("\n");
     params["options"] = options;
     let typed = ask(&mut session, "textDocument/onTypeFormatting", params);
-    let lines: Vec<&Value> = typed.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
+    let lines: Vec<&Value> =
+        typed.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
     assert!(!lines.is_empty() && lines.iter().all(|line| **line == 2), "{typed}");
 }
 
@@ -278,7 +282,8 @@ fn long_work_is_shown_where_the_client_agrees() {
     session.client.receive_waiting();
     let creates = session.client.requests.iter().filter(|r| r["method"] == "window/workDoneProgress/create");
     let tokens: Vec<&Value> = creates.map(|request| &request["params"]["token"]).collect();
-    let told: Vec<&Value> = session.client.notifications.iter().filter(|m| m["method"] == "$/progress").collect();
+    let told: Vec<&Value> =
+        session.client.notifications.iter().filter(|m| m["method"] == "$/progress").collect();
     for message in &told {
         assert!(tokens.contains(&&message["params"]["token"]), "{message}");
     }

@@ -101,14 +101,16 @@ fn a_configuration_that_changes_is_read_again() {
     let mut session = Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n")]);
     session.open("a.nc", PROGRAM);
     assert!(session.published("a.nc", 1).join("\n").contains("feed-missing"));
-    fs::write(session.path("gcheck.toml"), "control = \"haas-mill\"\n[rules]\nfeed-missing = \"off\"\n").unwrap();
+    fs::write(session.path("gcheck.toml"), "control = \"haas-mill\"\n[rules]\nfeed-missing = \"off\"\n")
+        .unwrap();
     touched(&mut session, "gcheck.toml");
     assert!(!session.published("a.nc", 1).join("\n").contains("feed-missing"));
 }
 
 #[test]
 fn a_configuration_that_cannot_be_read_is_said_at_its_place_and_silences_the_rest() {
-    let mut session = Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n[rules]\nfeed-mising = \"off\"\n")]);
+    let mut session =
+        Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n[rules]\nfeed-mising = \"off\"\n")]);
     session.open("a.nc", PROGRAM);
     let toml = session.uri("gcheck.toml");
     let said = session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == toml.as_str());
@@ -140,14 +142,17 @@ fn a_comment_that_names_no_control_is_said_at_its_place() {
 
 #[test]
 fn each_folder_of_the_workspace_has_its_own_configuration() {
-    let files =
-        [("mill/gcheck.toml", "control = \"haas-mill\"\n"), ("lathe/gcheck.toml", "control = \"haas-lathe\"\n")];
+    let files = [
+        ("mill/gcheck.toml", "control = \"haas-mill\"\n"),
+        ("lathe/gcheck.toml", "control = \"haas-lathe\"\n"),
+    ];
     let mut session = Session::new(&files);
     session.open("mill/a.nc", PROGRAM);
     session.open("lathe/a.nc", PROGRAM);
     assert_eq!(status(&mut session, "mill/a.nc").0, "haas-mill");
     assert_eq!(status(&mut session, "lathe/a.nc").0, "haas-lathe");
-    let added = json!({ "event": { "added": [{ "uri": session.uri("mill"), "name": "mill" }], "removed": [] } });
+    let added =
+        json!({ "event": { "added": [{ "uri": session.uri("mill"), "name": "mill" }], "removed": [] } });
     session.client.notify("workspace/didChangeWorkspaceFolders", added);
     assert!(!session.published("mill/a.nc", 1).is_empty());
 }
@@ -157,7 +162,8 @@ fn the_server_asks_to_be_told_of_changes() {
     let mut session = Session::new(&[]);
     let at = session.document("a.nc");
     session.client.refused("gcheck/syntaxTree", at);
-    let asked = session.client.requests.iter().find(|request| request["method"] == "client/registerCapability");
+    let asked =
+        session.client.requests.iter().find(|request| request["method"] == "client/registerCapability");
     let registrations = asked.unwrap()["params"]["registrations"].as_array().unwrap();
     let methods: Vec<&str> = registrations.iter().map(|one| one["method"].as_str().unwrap()).collect();
     assert_eq!(methods, ["workspace/didChangeWatchedFiles", "workspace/didChangeConfiguration"]);
@@ -171,9 +177,7 @@ fn the_control_can_be_written_into_the_program() {
     session.open("a.nc", PROGRAM);
     let entries = session.client.request("gcheck/controls", Value::Null);
     assert!(entries.as_array().unwrap().iter().any(|one| one["name"] == "haas-lathe"), "{entries}");
-    let set = |uri: &str, control: &str| {
-        json!({ "command": "gcheck.setControl", "arguments": [{ "uri": uri, "control": control }] })
-    };
+    let set = |uri: &str, control: &str| json!({ "command": "gcheck.setControl", "arguments": [{ "uri": uri, "control": control }] });
     let uri = session.uri("a.nc");
     session.client.request("workspace/executeCommand", set(&uri, "haas-lathe"));
     let asked = session.client.requests.iter().find(|request| request["method"] == "workspace/applyEdit");

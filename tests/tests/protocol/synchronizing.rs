@@ -92,7 +92,8 @@ fn rapid_edits(capabilities: &serde_json::Value, in_bytes: bool, seed: u64) {
     let mut mirror = Mirror::new(&start, in_bytes);
     let mut dice = Dice(seed);
     for version in 2..202 {
-        let changes: Vec<_> = (0..1 + dice.below(3)).map(|_| mirror.random_edit(&mut dice, &PIECES)).collect();
+        let changes: Vec<_> =
+            (0..1 + dice.below(3)).map(|_| mirror.random_edit(&mut dice, &PIECES)).collect();
         session.change("a.nc", version, &json!(changes));
         if version % 10 == 0 {
             let at = session.at("a.nc", 3, 1);
@@ -120,7 +121,11 @@ fn two_hundred_edits_in_a_hurry_with_utf_8() {
 fn the_whole_text_may_be_sent_anew() {
     let mut session = Session::new(&[]);
     session.open("a.nc", "G0 X1.\n");
-    session.change("a.nc", 2, &json!([{ "text": "G1\n" }, { "range": range_of([0, 2, 0, 2]), "text": " Y1." }]));
+    session.change(
+        "a.nc",
+        2,
+        &json!([{ "text": "G1\n" }, { "range": range_of([0, 2, 0, 2]), "text": " Y1." }]),
+    );
     assert_eq!(session.text("a.nc"), "G1 Y1.\n");
 }
 

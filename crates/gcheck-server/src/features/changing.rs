@@ -47,8 +47,8 @@ impl Owner {
         let analysis = self.analyse(uri, stop).map_err(given_up)?;
         let document = self.document(uri)?;
         let (id, version) = (document.id, document.version);
-        let found =
-            gcheck_ide::code_actions(&mut self.database, id, range, analysis.as_deref(), stop).map_err(given_up)?;
+        let found = gcheck_ide::code_actions(&mut self.database, id, range, analysis.as_deref(), stop)
+            .map_err(given_up)?;
         let files = Addressed::of(uri, id, version, document_name(self, uri), snapshot.clone());
         let mut out = Vec::new();
         for action in found {

@@ -49,13 +49,15 @@ impl Owner {
     fn set_control(&mut self, SetControl { uri, control }: SetControl) -> Result<()> {
         if !gcheck_controls::names().contains(&control.as_str()) {
             let known = gcheck_controls::names().join(", ");
-            return Err(Error::invalid_params(format!("no control is called `{control}`; there are {known}")));
+            return Err(Error::invalid_params(format!(
+                "no control is called `{control}`; there are {known}"
+            )));
         }
         let snapshot = self.snapshot(&uri)?;
         let document = self.document(&uri)?;
-        let files =
-            Addressed::of(&uri, document.id, document.version, document.name(), snapshot.clone());
-        let edits = vec![gcheck_ide::FileEdits { file: document.id, edits: vec![naming(&snapshot, &control)] }];
+        let files = Addressed::of(&uri, document.id, document.version, document.name(), snapshot.clone());
+        let edits =
+            vec![gcheck_ide::FileEdits { file: document.id, edits: vec![naming(&snapshot, &control)] }];
         let edit = workspace_edit(&files, edits, self.abilities.encoding, self.abilities.versioned_edits);
         let outbox = std::sync::Arc::clone(&self.outbox);
         let params = ApplyWorkspaceEditParams { label: Some(format!("Set the control to {control}")), edit };
@@ -146,7 +148,10 @@ mod tests {
 
     #[test]
     fn a_comment_that_names_one_is_changed() {
-        assert_eq!(named("(GCHECK)\n(gcheck: control = x-1 )\n"), "(GCHECK)\n(gcheck: control = acme-mill )\n");
+        assert_eq!(
+            named("(GCHECK)\n(gcheck: control = x-1 )\n"),
+            "(GCHECK)\n(gcheck: control = acme-mill )\n"
+        );
         assert_eq!(named("; gcheck: control=\n"), "; gcheck: control=acme-mill\n");
     }
 }

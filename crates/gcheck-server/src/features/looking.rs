@@ -15,11 +15,7 @@ use crate::proto::{
 };
 
 impl Owner {
-    pub(crate) fn hover(
-        &mut self,
-        params: &HoverParams,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Option<Hover>> {
+    pub(crate) fn hover(&mut self, params: &HoverParams, stop: &dyn Fn() -> bool) -> Result<Option<Hover>> {
         let at = &params.text_document_position_params;
         let (id, offset) = self.place(at)?;
         let analysis = self.known_analysis(&at.text_document.uri);
@@ -93,13 +89,14 @@ impl Owner {
         let (_, offset) = self.place(at)?;
         let snapshot = self.snapshot(&at.text_document.uri)?;
         let mut places = self.places(&snapshot);
-        let found = gcheck_ide::highlights(&snapshot, offset).into_iter().map(|highlight| DocumentHighlight {
-            range: places.range(&highlight.range),
-            kind: Some(match highlight.kind {
-                ReferenceKind::Write => DocumentHighlightKind::WRITE,
-                ReferenceKind::Read => DocumentHighlightKind::READ,
-            }),
-        });
+        let found =
+            gcheck_ide::highlights(&snapshot, offset).into_iter().map(|highlight| DocumentHighlight {
+                range: places.range(&highlight.range),
+                kind: Some(match highlight.kind {
+                    ReferenceKind::Write => DocumentHighlightKind::WRITE,
+                    ReferenceKind::Read => DocumentHighlightKind::READ,
+                }),
+            });
         Ok(Some(found.collect()))
     }
 

@@ -219,7 +219,8 @@ pub(super) fn workspace_edit(
     let mut versioned = Vec::new();
     let mut plain: HashMap<Uri, Vec<proto::TextEdit>> = HashMap::new();
     for FileEdits { file, edits } in edits {
-        let (Some((uri, version)), Some(snapshot)) = (files.addresses.get(&file), files.snapshot(file)) else {
+        let (Some((uri, version)), Some(snapshot)) = (files.addresses.get(&file), files.snapshot(file))
+        else {
             continue;
         };
         let edits = text_edits(edits, &mut Places::new(snapshot, encoding));

@@ -14,8 +14,8 @@ use crate::owner::{Owner, Unopened};
 use crate::proto::{
     DocumentDiagnosticParams, DocumentDiagnosticReport, DocumentDiagnosticReportResult, Error, ErrorCode,
     FullDocumentDiagnosticReport, RelatedFullDocumentDiagnosticReport,
-    RelatedUnchangedDocumentDiagnosticReport, Result, SERVER_CANCELLED, UnchangedDocumentDiagnosticReport, Uri,
-    WorkspaceDiagnosticParams, WorkspaceDiagnosticReport, WorkspaceDiagnosticReportResult,
+    RelatedUnchangedDocumentDiagnosticReport, Result, SERVER_CANCELLED, UnchangedDocumentDiagnosticReport,
+    Uri, WorkspaceDiagnosticParams, WorkspaceDiagnosticReport, WorkspaceDiagnosticReportResult,
     WorkspaceDocumentDiagnosticReport, WorkspaceFullDocumentDiagnosticReport,
     WorkspaceUnchangedDocumentDiagnosticReport,
 };
@@ -116,7 +116,8 @@ const MOST_FILES: usize = 2_000;
 const MOST_BYTES: u64 = 256 << 20;
 
 fn full(uri: Uri, report: FullDocumentDiagnosticReport) -> WorkspaceDocumentDiagnosticReport {
-    WorkspaceFullDocumentDiagnosticReport { uri, version: None, full_document_diagnostic_report: report }.into()
+    WorkspaceFullDocumentDiagnosticReport { uri, version: None, full_document_diagnostic_report: report }
+        .into()
 }
 
 fn unchanged(uri: Uri, result_id: String) -> WorkspaceDocumentDiagnosticReport {

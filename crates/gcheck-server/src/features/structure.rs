@@ -14,9 +14,9 @@ use crate::position::Places;
 use crate::proto::{
     CodeLens, CodeLensParams, CodeLensRefresh, Command, DocumentSymbol, DocumentSymbolParams,
     DocumentSymbolResponse, FoldingRange, FoldingRangeKind, FoldingRangeParams, InlayHint, InlayHintKind,
-    InlayHintLabel, InlayHintParams, InlayHintTooltip, Location, Range, Result, SemanticToken, SemanticTokens,
-    SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult, SemanticTokensResult,
-    SymbolInformation, SymbolKind, Uri,
+    InlayHintLabel, InlayHintParams, InlayHintTooltip, Location, Range, Result, SemanticToken,
+    SemanticTokens, SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
+    SemanticTokensResult, SymbolInformation, SymbolKind, Uri,
 };
 
 /// A document of more bytes is coloured by what is in view, not as a whole: the answer would be larger than the text.
@@ -121,7 +121,8 @@ impl Owner {
         let size = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end - bytes.start);
         let analysis = self.known_analysis(uri);
         let end = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end);
-        let unreachable = analysis.map(|analysis| gcheck_ide::unreachable_ranges(&analysis)).unwrap_or_default();
+        let unreachable =
+            analysis.map(|analysis| gcheck_ide::unreachable_ranges(&analysis)).unwrap_or_default();
         self.answer_elsewhere(uri, size > LARGE, reply, move |_| {
             let tokens = gcheck_ide::semantic_tokens(&snapshot, bytes, &unreachable);
             let mut places = Places::new(&snapshot, encoding);
@@ -206,7 +207,12 @@ impl Owner {
         self.run_for_figures(uri, snapshot, Some(reply));
     }
 
-    fn run_for_figures(&mut self, uri: &Uri, snapshot: Snapshot, reply: Option<Reply<Option<Vec<CodeLens>>>>) {
+    fn run_for_figures(
+        &mut self,
+        uri: &Uri,
+        snapshot: Snapshot,
+        reply: Option<Reply<Option<Vec<CodeLens>>>>,
+    ) {
         let Some(document) = self.documents.get_mut(uri) else { return };
         if document.is_running && reply.is_none() {
             return;
@@ -238,11 +244,7 @@ impl Owner {
     }
 }
 
-fn lenses(
-    snapshot: &Snapshot,
-    figures: &RunFigures,
-    encoding: crate::position::Encoding,
-) -> Vec<CodeLens> {
+fn lenses(snapshot: &Snapshot, figures: &RunFigures, encoding: crate::position::Encoding) -> Vec<CodeLens> {
     let mut places = Places::new(snapshot, encoding);
     let found = gcheck_ide::code_lenses(snapshot, figures).into_iter();
     found

@@ -141,8 +141,7 @@ impl Owner {
                 continue;
             }
             if let Some(uri) = Uri::from_file_path(&path) {
-                self.outbox
-                    .notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri, list, None));
+                self.outbox.notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri, list, None));
                 self.shown_problems.push(path);
             }
         }

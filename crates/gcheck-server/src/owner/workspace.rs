@@ -120,8 +120,7 @@ impl Owner {
         for folder in &folders {
             paths.extend(self.list(folder, false).into_iter().map(|file| (file.path.clone(), file)));
         }
-        self.load(paths, &settings, &|path| folders.iter().any(|f| path.parent() == Some(f)))
-            .with(self, uri)
+        self.load(paths, &settings, &|path| folders.iter().any(|f| path.parent() == Some(f))).with(self, uri)
     }
 
     /// All programs of the workspace.

@@ -6,7 +6,9 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gcheck_format::{Numbering, RenumberRefused, SequenceNumbers, Style, apply_to_bytes, formatted, renumber};
+use gcheck_format::{
+    Numbering, RenumberRefused, SequenceNumbers, Style, apply_to_bytes, formatted, renumber,
+};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 use rayon::prelude::*;
@@ -201,8 +203,8 @@ fn renumbered(
     let rounds = if style.sequence_numbers == SequenceNumbers::Drop { 2 } else { 1 };
     let mut source = source;
     for _ in 0..rounds {
-        let edits =
-            renumber(source.text(), dialect, numbering).map_err(|refused| refusal(target, &source, &refused))?;
+        let edits = renumber(source.text(), dialect, numbering)
+            .map_err(|refused| refusal(target, &source, &refused))?;
         source = text(target, apply_to_bytes(&source.to_bytes(), &edits))?;
         if let Some(bytes) = formatted(&source, dialect, style) {
             source = text(target, bytes)?;

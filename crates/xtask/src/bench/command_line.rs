@@ -42,10 +42,7 @@ pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
     let small = Input::write(inputs, "small.nc", SMALL)?;
 
     // A command that fails fast must not look like a fast one.
-    ensure!(
-        small.gets_a_verdict(gcheck)?,
-        "`gcheck check` gives no JSON, so its budgets cannot be measured"
-    );
+    ensure!(small.gets_a_verdict(gcheck)?, "`gcheck check` gives no JSON, so its budgets cannot be measured");
 
     let mut rows = Vec::new();
     for (name, input, limit) in [

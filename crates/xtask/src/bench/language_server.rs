@@ -149,7 +149,10 @@ mod tests {
 
     #[test]
     fn numbers_are_grouped() {
-        assert_eq!([grouped(1_000), grouped(200_000), grouped(1_000_000), grouped(7)], ["1,000", "200,000", "1,000,000", "7"]);
+        assert_eq!(
+            [grouped(1_000), grouped(200_000), grouped(1_000_000), grouped(7)],
+            ["1,000", "200,000", "1,000,000", "7"]
+        );
     }
 
     #[test]
