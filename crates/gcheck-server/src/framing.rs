@@ -172,6 +172,20 @@ mod tests {
         ];
         let stream: String = stream.iter().flat_map(|bad| [bad.as_str(), &good]).collect();
         expect![[r#"
+            malformed, id None: a message is no JSON: EOF while parsing an object at line 1 column 10
+            message good
+            malformed, id Some(Number(7)): a message is no request: missing field `jsonrpc`
+            message good
+            malformed, id None: a message has neither method nor result
+            message good
+            malformed, id None: a message is no JSON: EOF while parsing a value at line 1 column 0
+            message good
+            malformed, id None: the header of a message has no `Content-Length`
+            message good
+            malformed, id None: `Content-Length: much` is no length of a message
+            message good
+            malformed, id None: `Content-Length: 99999999999999` is no length of a message
+            message good
         "#]]
         .assert_eq(&all(stream.as_bytes()));
     }
@@ -181,6 +195,8 @@ mod tests {
         let mut stream = b"Content-Length: 3\r\n\r\n\"\xFF\"".to_vec();
         stream.extend(framed(r#"{"jsonrpc":"2.0","method":"good"}"#).bytes());
         expect![[r#"
+            malformed, id None: a message is no JSON: invalid unicode code point at line 1 column 2
+            message good
         "#]]
         .assert_eq(&all(&stream));
     }

@@ -71,6 +71,8 @@ pub struct InForce {
     pub settings: Option<Settings>,
     /// How the control came about.
     pub choice: Choice,
+    /// How the program is to be written; `None` as the control does it.
+    pub style: Option<gcheck_ide::Style>,
     /// The folders whose programs it may call, its own first.
     pub folders: Vec<PathBuf>,
     /// The configuration, if there is one.

@@ -18,9 +18,9 @@ type Work = Box<dyn FnOnce(&mut Owner) + Send>;
 /// What kind of work it is, as far as work in hand is concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// Makes what is being worked out stale: edits, settings.
+    /// Makes what is being worked out stale: edits.
     Change,
-    /// Somebody waits for an answer.
+    /// Somebody waits for an answer, or a change is rare enough to wait for one.
     Question,
     /// The result of work elsewhere.
     Result,

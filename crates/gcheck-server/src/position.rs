@@ -161,7 +161,7 @@ mod tests {
         let mut out = String::new();
         for (at, c) in TEXT.char_indices().chain([(TEXT.len(), '.')]) {
             let Position { line, character } = places.position(at as u32);
-            out.push_str(&format!("{}{line}:{character} ", c.escape_debug()));
+            out.push_str(&format!("{line}:{character} {}\n", c.escape_debug()));
             if !matches!(c, '\n' | '\r') || TEXT[at..].starts_with('\r') {
                 assert_eq!(places.offset(Position { line, character }) as usize, at, "{c:?}");
             }
@@ -171,12 +171,8 @@ mod tests {
 
     #[test]
     fn columns_are_counted_in_bytes_or_in_units_of_utf_16() {
-        expect_test::expect![[r"
-        "]]
-        .assert_eq(&columns(Encoding::Utf8));
-        expect_test::expect![[r"
-        "]]
-        .assert_eq(&columns(Encoding::Utf16));
+        expect_test::expect![[r""]].assert_eq(&columns(Encoding::Utf8));
+        expect_test::expect![[r""]].assert_eq(&columns(Encoding::Utf16));
     }
 
     #[test]

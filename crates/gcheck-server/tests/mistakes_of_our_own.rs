@@ -37,6 +37,7 @@ impl Host for Fragile {
         InForce {
             settings: Some(Settings { programs: Arc::new(FragilePrograms), ..Settings::new(control) }),
             choice: Choice::default(),
+            style: None,
             folders: vec![PathBuf::from("/work")],
             configuration: None,
             problems: Vec::new(),

@@ -25,7 +25,7 @@ pub(crate) use equipment::{Equipment, Start};
 use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
 use crate::control_choice::choose;
-use crate::programs::{ProgramFolders, Reachable};
+use crate::programs::Reachable;
 use crate::{Problem, paths, reading};
 use bridge::Bridge;
 use equipment::{AxesMoved, AxesSeen};
@@ -98,8 +98,7 @@ impl Prepared {
     pub(crate) fn session<R>(&self, with: impl FnOnce(&Session<'_>) -> R) -> R {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
-        let folders = Arc::new(ProgramFolders::default());
-        let library = Reachable::new(folders, &self.path, &self.search);
+        let library = Reachable::new(Arc::default(), &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
         let mut tools = ToolNames::new(&self.control);
         let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {

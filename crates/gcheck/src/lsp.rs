@@ -98,6 +98,7 @@ impl Surroundings {
         in_force.choice =
             Choice { control: name.clone(), source: format!("{source:?}").to_lowercase(), because };
         let control = self.controls.get(&name, &settings.codes)?;
+        in_force.style = Some(settings.format.style(&control));
         let machine = in_force::machine(&settings, &control, &[])?;
         let selection = settings
             .selection(&RuleWishes::default())
@@ -120,6 +121,7 @@ impl Host for Surroundings {
         let mut in_force = InForce {
             settings: None,
             choice: Choice::default(),
+            style: None,
             folders: program.path.parent().map(Path::to_owned).into_iter().collect(),
             configuration: None,
             problems: Vec::new(),

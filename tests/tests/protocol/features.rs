@@ -184,11 +184,10 @@ fn hints_stand_beside_the_text_where_they_are_switched_on() {
     params["range"] = range_of([0, 0, 30, 0]);
     let hints = ask(&mut session, "textDocument/inlayHint", params.clone());
     assert!(!hints.as_array().unwrap().is_empty());
+    session.published("a.nc", 1);
     session.client.settings = json!({ "inlayHints": false });
     session.client.notify("workspace/didChangeConfiguration", json!({ "settings": null }));
-    let uri = session.uri("a.nc");
-    session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == uri.as_str());
-    session.client.notification("textDocument/publishDiagnostics", |p| p["uri"] == uri.as_str());
+    session.published("a.nc", 1);
     assert_eq!(ask(&mut session, "textDocument/inlayHint", params), json!([]));
 }
 

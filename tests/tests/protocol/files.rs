@@ -96,22 +96,3 @@ fn symbols_of_the_whole_workspace_are_found() {
     uris.dedup();
     assert_eq!(uris, [&json!(session.uri("100.nc")), &json!(session.uri("other/100.nc"))]);
 }
-
-#[test]
-fn a_finding_in_a_called_program_has_its_place_there() {
-    // The called program leaves incremental mode on, and the caller moves on in it.
-    let called = "(gcheck: control=haas-mill)\nO100\nG41 D1\nG1 X1. F100.\nM99\n";
-    let mut session = Session::new(&[("100.nc", called)]);
-    let caller = "(gcheck: control=haas-mill)\n%\nO1\nG21 G17 G40 G49 G80 G90 G94\nT1 M6\nG54\nG0 X0. Y0.\nM98 P100\nM30\n%\n";
-    session.open("a.nc", caller);
-    let all = session.published_whole("a.nc", 1);
-    let uri = json!(session.uri("100.nc"));
-    let places: Vec<&Value> = all
-        .iter()
-        .flat_map(|found| found["relatedInformation"].as_array().map(Vec::as_slice).unwrap_or_default())
-        .map(|related| &related["location"])
-        .filter(|location| location["uri"] == uri)
-        .collect();
-    assert!(!places.is_empty(), "{all:#?}");
-    assert_eq!(places[0]["range"]["start"]["line"], 2);
-}

@@ -3,7 +3,7 @@
 //! Knows: their forms in the protocol. Must not know: what is changed how.
 
 use gcheck_db::Snapshot;
-use gcheck_ide::{ActionKind, FileEdits};
+use gcheck_ide::{ActionKind, FileEdits, Style};
 
 use super::commands::OPEN_PAGE;
 use super::navigating::workspace_edit;
@@ -93,15 +93,15 @@ impl Owner {
 
     pub(crate) fn formatting(&mut self, params: &DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
         let uri = &params.text_document.uri;
-        self.format(uri, |snapshot, _| gcheck_ide::format(snapshot, None))
+        self.format(uri, |snapshot, _, style| gcheck_ide::format_in(snapshot, style, None))
     }
 
     pub(crate) fn range_formatting(
         &mut self,
         params: &DocumentRangeFormattingParams,
     ) -> Result<Option<Vec<TextEdit>>> {
-        self.format(&params.text_document.uri, |snapshot, places| {
-            gcheck_ide::format(snapshot, Some(places.bytes(params.range)))
+        self.format(&params.text_document.uri, |snapshot, places, style| {
+            gcheck_ide::format_in(snapshot, style, Some(places.bytes(params.range)))
         })
     }
 
@@ -110,20 +110,22 @@ impl Owner {
         params: &DocumentOnTypeFormattingParams,
     ) -> Result<Option<Vec<TextEdit>>> {
         let at = &params.text_document_position;
-        self.format(&at.text_document.uri, |snapshot, places| {
-            gcheck_ide::format_on_type(snapshot, places.offset(at.position))
+        self.format(&at.text_document.uri, |snapshot, places, style| {
+            gcheck_ide::format_on_type_in(snapshot, style, places.offset(at.position))
         })
     }
 
     fn format(
         &mut self,
         uri: &Uri,
-        edits: impl FnOnce(&Snapshot, &Places<'_>) -> Vec<gcheck_ide::Edit>,
+        edits: impl FnOnce(&Snapshot, &Places<'_>, &Style) -> Vec<gcheck_ide::Edit>,
     ) -> Result<Option<Vec<TextEdit>>> {
         self.choose_settings(uri);
         let snapshot = self.snapshot(uri)?;
         let mut places = self.places(&snapshot);
-        let edits = edits(&snapshot, &places);
+        let style = self.document(uri)?.in_force.style.clone();
+        let style = style.unwrap_or_else(|| Style::of(snapshot.control()));
+        let edits = edits(&snapshot, &places, &style);
         Ok(Some(text_edits(edits, &mut places)))
     }
 }

@@ -119,8 +119,8 @@ impl Owner {
         let encoding = self.abilities.encoding;
         let bytes = range.map(|range| self.places(&snapshot).bytes(range));
         let size = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end - bytes.start);
-        let end = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end);
         let analysis = self.known_analysis(uri);
+        let end = bytes.as_ref().map_or(snapshot.len(), |bytes| bytes.end);
         let unreachable =
             analysis.map(|analysis| gcheck_ide::unreachable_ranges(&analysis)).unwrap_or_default();
         self.answer_elsewhere(uri, size > LARGE, reply, move |_| {

@@ -97,7 +97,7 @@ impl Owner {
         let mailbox = self.mailbox.clone();
         self.outbox.ask::<WorkspaceConfiguration>(ConfigurationParams { items }, move |answer| {
             let Ok(values) = answer else { return };
-            mailbox.post("settings", Kind::Change, move |owner| {
+            mailbox.post("settings", Kind::Question, move |owner| {
                 let scopes = std::iter::once(None).chain(folders.into_iter().map(Some));
                 owner.put_client_settings(scopes.zip(values).collect());
             });
@@ -210,6 +210,7 @@ impl Owner {
         let is_same = stale == Stale::Head
             && before.settings.is_some() == in_force.settings.is_some()
             && before.choice == in_force.choice
+            && before.style == in_force.style
             && before.problems == in_force.problems;
         if is_same {
             return;

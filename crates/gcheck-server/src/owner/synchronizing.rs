@@ -42,6 +42,7 @@ impl Owner {
             in_force: InForce {
                 settings: None,
                 choice: Choice::default(),
+                style: None,
                 folders: Vec::new(),
                 configuration: None,
                 problems: Vec::new(),

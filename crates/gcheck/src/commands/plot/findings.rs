@@ -4,17 +4,16 @@
 
 use std::sync::Arc;
 
-use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlSource, LineIndex};
 use gcheck_rules::{Execution, Job, Scene, check};
 use gcheck_toolpath::plot::Finding;
 
-use crate::Problem;
 use crate::args::{Global, PlotOptions};
 use crate::config::{Configs, RuleWishes, unknown_rule};
-use crate::execution::{Equipment, Prepared, Start};
+use crate::execution::Prepared;
 use crate::programs::Reachable;
+use crate::{Problem, in_force};
 
 /// More findings are counted, not shown.
 const MOST: usize = 1_000;
@@ -56,21 +55,17 @@ impl Found {
 /// Checks the program that is plotted, as `gcheck check` does.
 pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) -> Result<Found, Problem> {
     let path = &prepared.path;
-    let mut settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
+    let settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
     let selection =
         settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     let dialect = Dialect::new(&prepared.control);
-    let model = Model::new(&prepared.control);
     let programs = Reachable::new(Arc::default(), path, &prepared.search);
-    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
-    equipment.set(&options.execution.set);
-    settings.machine.units_are_told = !equipment.units_assumed;
-    settings.machine.engine = equipment.machine;
+    let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;
     let outcome = check(&Job {
         source: &prepared.source,
         scene: Scene {
             dialect: &dialect,
-            machine: &settings.machine,
+            machine: &machine,
             programs: &programs,
             control_is_guessed: matches!(
                 prepared.choice.source,
