@@ -2,6 +2,8 @@
 //!
 //! Knows: the steps and their tools. Must not know: what is tested.
 
+mod book;
+
 use std::env;
 use std::fs;
 use std::path::Path;
@@ -93,6 +95,7 @@ fn has_cargo_command(name: &str) -> bool {
 
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
+    book::install(&workspace::root().join(TOOLS));
     install_interpreter();
     install_validator()
 }
