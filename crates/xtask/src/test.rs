@@ -2,6 +2,7 @@
 //!
 //! Knows: the steps and their tools. Must not know: what is tested.
 
+mod book;
 mod editors;
 
 use std::env;
@@ -121,6 +122,7 @@ fn has_cargo_command(name: &str) -> bool {
 
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
+    book::install(&workspace::root().join(TOOLS));
     install_interpreter();
     install_browser()?;
     editors::install(&workspace::root().join(TOOLS));

@@ -110,11 +110,11 @@ mod tests {
         expect![[r#"
             <?xml version="1.0" encoding="UTF-8"?>
             <testsuites name="gcheck" tests="3" failures="1" errors="0">
-              <testsuite name="empty.nc" tests="1" failures="0" errors="0">
+              <testsuite name="empty.nc" tests="1" failures="0" errors="0" file="empty.nc">
                 <testcase name="no findings" classname="empty.nc"/>
               </testsuite>
-              <testsuite name="part.nc" tests="2" failures="1" errors="0">
-                <testcase name="4:5 feed-missing" classname="part.nc" file="part.nc" line="4">
+              <testsuite name="part.nc" tests="2" failures="1" errors="0" file="part.nc">
+                <testcase name="4:5 feed-missing" classname="part.nc">
                   <failure type="error" message="no feed rate is in effect">part.nc:4:5: error[feed-missing] no feed rate is in effect
             note: the control stops without a feed rate
             note: from the manual:
@@ -123,7 +123,7 @@ mod tests {
             note: assuming setting 162 is off
             help: write a feed rate, e.g. `F200.`</failure>
                 </testcase>
-                <testcase name="5:5 arc-end-off-circle" classname="part.nc" file="part.nc" line="5">
+                <testcase name="5:5 arc-end-off-circle" classname="part.nc">
                   <system-out>part.nc:5:5: info[arc-end-off-circle] arc may end off the circle</system-out>
                 </testcase>
               </testsuite>

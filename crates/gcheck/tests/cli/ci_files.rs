@@ -239,3 +239,20 @@ fn crates_say_what_a_registry_asks_for() {
         }
     }
 }
+
+#[test]
+fn the_book_builds_without_a_warning() {
+    let installed = root().join(".test-tools/python/bin/mdbook");
+    let mdbook = if installed.exists() { installed } else { PathBuf::from("mdbook") };
+    let shop = Shop::new();
+    let mut command = Command::new(mdbook);
+    command.arg("build").arg(root().join("docs")).arg("--dest-dir").arg(shop.path("book"));
+    let Ok(output) = command.output() else {
+        eprintln!("skipped: the_book_builds_without_a_warning (no mdbook; `cargo xtask test` installs it)");
+        return;
+    };
+    let said =
+        String::from_utf8_lossy(&output.stderr).into_owned() + &String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && !said.contains("WARN") && !said.contains("ERROR"), "{said}");
+    assert!(shop.path("book/index.html").is_file() && shop.path("book/rules/index.html").is_file());
+}

@@ -317,7 +317,20 @@ fn the_machine_in_force_can_be_looked_at() {
         ),
         ("part.nc", GOOD),
     ]);
-    expect![[r#""#]].assert_eq(&shop.gcheck("check --show-settings --select arcs").to_string());
+    expect![[r#"
+        part.nc
+          control: haas-mill, by configuration (gcheck.toml)
+          configuration: gcheck.toml
+          travel X: -762 to 0 mm
+          travel B: -32 to 32 degrees
+          speed: at most 8100 rpm
+          feed: at most 12700 mm/min
+          work offsets known: 1
+          tools known: 2
+          rules (8): arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, full-circle-by-radius, zero-radius-arc
+
+        exit 0
+    "#]].assert_eq(&shop.gcheck("check --show-settings --select arcs").to_string());
 }
 
 #[test]
