@@ -6,8 +6,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, Ends, Letter, LetterSet, WordKind};
-use gcheck_program::{Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Outline, StatementKind, Value, Word};
+use gcheck_controls::{CodeIx, Ends, Letter, LetterSet, Variable, WordKind};
+use gcheck_program::{Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Op, Outline, StatementKind, Value, Word};
 
 /// A sequence number at the head of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,6 +46,8 @@ pub(crate) enum Target {
     Other,
     /// Computed, or written in a form that is not certain.
     Computed,
+    /// No block: it reads the number of one.
+    Reads,
     /// The block has a mistake in form, so that what it names is not certain.
     Unclear,
 }
@@ -149,7 +151,10 @@ impl Labels {
                 code.is_user() || code.entry().words.iter().any(|word| word.kind == WordKind::Label)
             });
         let is_known = |reference: &Reference| {
-            !matches!(reference.target, Target::Other | Target::Computed | Target::Unclear)
+            !matches!(
+                reference.target,
+                Target::Other | Target::Computed | Target::Reads | Target::Unclear
+            )
         };
         if names_blocks && (self.calls_others || !self.references.iter().all(is_known)) {
             return;
@@ -189,7 +194,11 @@ impl Found {
         let inside = |block: &Block| base + block.range.start < region_end;
         let first = self.blocks;
         self.blocks += table.blocks().filter(|(_, block)| inside(block)).count() as u32;
-        let interesting = BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::STATEMENT | BlockFlags::ERROR;
+        let interesting = BlockFlags::CODE
+            | BlockFlags::LABEL
+            | BlockFlags::STATEMENT
+            | BlockFlags::EXPRESSION
+            | BlockFlags::ERROR;
         if !table.flags().intersects(interesting) {
             return;
         }
@@ -220,6 +229,16 @@ impl Found {
                 let digits = target.and_then(|range| place.digits(&range));
                 let target = place.number(digits).map_or(Target::Computed, Target::Own);
                 self.refer(number, target, place.shift(&statement.range));
+            }
+        }
+        let computed = words.iter().filter_map(|word| match word.value {
+            Value::Expr(expr) => Some(expr),
+            Value::Number(_) | Value::Missing => None,
+        });
+        let statements = table.statements(ix).flat_map(|statement| statement.kind.expressions());
+        for expr in computed.chain(statements).map(|expr| table.expr(expr)) {
+            if table.ops(expr).iter().any(|op| place.holds_number(op)) {
+                self.refer(number, Target::Reads, place.shift(&expr.range));
             }
         }
         // In a block with a mistake in form nobody knows what was meant.
@@ -343,6 +362,12 @@ impl Place<'_> {
         let digits = digits?;
         let value = self.slice(&(digits.start - self.base..digits.end - self.base)).parse().ok()?;
         Some(Number { value, digits })
+    }
+
+    /// Does the operation read a variable that holds the number of a block?
+    fn holds_number(&self, op: &Op) -> bool {
+        let Op::Variable(number) = op else { return false };
+        matches!(self.dialect.control().variable(*number), Variable::Known(entry) if entry.sequence_number)
     }
 
     /// Does the text of the block hold the word of a jump, comments taken for text as well?

@@ -54,6 +54,8 @@ pub enum Refusal {
     OtherProgram,
     /// This number names a program, and a block of its own program would get it.
     TakenByProgram(u32),
+    /// A variable is read that holds the number of a block.
+    ReadsNumber,
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -91,6 +93,9 @@ impl fmt::Display for Refusal {
             }
             Self::TakenByProgram(number) => {
                 write!(f, "this names program O{number}, and a block would get that number")
+            }
+            Self::ReadsNumber => {
+                f.write_str("this reads the number of a block, which would be another one")
             }
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
@@ -169,6 +174,7 @@ fn follow<'l>(
         Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => number,
         Target::Other => return Err(Refusal::OtherProgram),
         Target::Computed => return Err(Refusal::Computed),
+        Target::Reads => return Err(Refusal::ReadsNumber),
         Target::Unclear => return Err(Refusal::Unclear),
     };
     let mut new = None;

@@ -21,8 +21,11 @@ pub fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool
     let output = child.wait_with_output().unwrap();
     writer.join().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
-    // The number before a call counts blocks, the one with N is the block's own.
-    let calls = text.lines().map(|line| line.split_whitespace().skip(2).collect::<Vec<_>>().join(" "));
+    // The number before a call counts blocks, the one with N is the block's own, and a long one touches the call.
+    let calls = text.lines().map(|line| {
+        let call = line.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ').trim_start_matches('N');
+        call.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.').trim().to_owned()
+    });
     let said = |call: &String| !call.starts_with("COMMENT") && !call.starts_with("MESSAGE");
     (calls.filter(said).collect(), output.status.code() == Some(0))
 }
