@@ -256,11 +256,10 @@ impl<F: FnMut(Range<u32>, &str)> Sink for Layout<'_, '_, F> {
     fn finish_node(&mut self) {
         match self.open.pop() {
             Some(SyntaxKind::PRINT_STATEMENT) => self.verbatim -= 1,
-            Some(_) => {}
             None if self.parts.last().is_some_and(|part| part.kind == SyntaxKind::NEWLINE) => {
                 self.finish_line();
             }
-            None => {}
+            Some(_) | None => {}
         }
     }
 

@@ -20,7 +20,11 @@ fn edits(control: &str, style: Option<&Style>, text: &str, lines: Option<std::op
 /// Formats, and makes sure that a second time changes nothing.
 fn tidy(control: &str, style: Option<&Style>, text: &str) -> String {
     let once = apply(text, &edits(control, style, text, None));
-    assert_eq!(apply(&once, &edits(control, style, &once, None)), once, "formatting twice is formatting once");
+    assert_eq!(
+        apply(&once, &edits(control, style, &once, None)),
+        once,
+        "formatting twice is formatting once"
+    );
     once
 }
 
@@ -194,7 +198,8 @@ fn blanks_between_words_are_taken_away_where_nothing_hangs_on_them() {
 
 #[test]
 fn a_number_with_blanks_inside_stays_as_it_is() {
-    let style = Style { trailing_zeros: TrailingZeros::Drop, leading_zeros: LeadingZeros::Add, ..Style::KEEP };
+    let style =
+        Style { trailing_zeros: TrailingZeros::Drop, leading_zeros: LeadingZeros::Add, ..Style::KEEP };
     let style = Style { word_spacing: WordSpacing::One, ..style };
     assert_eq!(with(&style, "X1. 500  Y2.500\nG 1  X 1.500\n"), "X1. 500 Y2.5\nG01 X1.5\n");
 }
@@ -328,10 +333,7 @@ fn small_letters_are_not_written_where_they_are_not_read() {
 #[test]
 fn edits_are_as_small_as_they_can_be() {
     let edit = |range, text: &str| Edit { range, text: text.to_owned() };
-    assert_eq!(
-        edits("haas-mill", None, "G1X1.  y2.\n", None),
-        [edit(2..2, " "), edit(6..8, "Y")]
-    );
+    assert_eq!(edits("haas-mill", None, "G1X1.  y2.\n", None), [edit(2..2, " "), edit(6..8, "Y")]);
     assert_eq!(edits("haas-mill", None, "G1 X1. Y2.\n", None), []);
 }
 
@@ -358,7 +360,8 @@ fn a_range_of_lines_becomes_what_the_whole_would_make_of_it() {
 fn bytes_that_are_no_utf_8_stay() {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
-    let source = SourceText::from_bytes(b"\xEF\xBB\xBFg0x1. (D\xE9P\x1A\xFC)\r\ng1x2. (\xB5)".to_vec()).unwrap();
+    let source =
+        SourceText::from_bytes(b"\xEF\xBB\xBFg0x1. (D\xE9P\x1A\xFC)\r\ng1x2. (\xB5)".to_vec()).unwrap();
     let bytes = formatted(&source, &dialect, &Style::of(&control)).unwrap();
     assert_eq!(bytes, b"\xEF\xBB\xBFG0 X1. (D\xE9P\x1A\xFC)\r\nG1 X2. (\xB5)");
     let source = SourceText::from_bytes(bytes).unwrap();

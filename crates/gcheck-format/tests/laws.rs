@@ -1,7 +1,11 @@
 //! What holds for every text, on every control, in several styles: blocks are read as before, comments stay, twice is once,
 //! a part is formatted as the whole; renumbered jumps lead where they led.
 
-#![expect(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
 
 use std::fmt::Write as _;
 
@@ -10,7 +14,7 @@ use gcheck_format::{
     Edit, Indentation, LeadingZeros, LetterCase, Numbering, SequenceNumbers, Style, TrailingZeros,
     WordSpacing, apply, format, formatted, renumber,
 };
-use gcheck_program::{BlockTable, Dialect, ExprIx, Loaded, Op, OLabel, StatementKind, Target, Value, lower};
+use gcheck_program::{BlockTable, Dialect, ExprIx, Loaded, OLabel, Op, StatementKind, Target, Value, lower};
 use gcheck_syntax::{SourceText, SyntaxKind, parse};
 use proptest::prelude::*;
 
@@ -171,7 +175,8 @@ fn drops_only_numbers(text: &str, dialect: &Dialect<'_>) {
     assert_eq!(apply(&once, &format(&once, dialect, &style, None)), once, "twice is once: {text:?}");
     let without = |text: &str| -> Vec<String> {
         let is_number = |word: &&str| word.starts_with("N=");
-        let block = |block: String| block.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ");
+        let block =
+            |block: String| block.split(' ').filter(|word| !is_number(word)).collect::<Vec<_>>().join(" ");
         blocks(text, dialect).into_iter().map(block).collect()
     };
     assert_eq!(without(&once), without(text), "{text:?} is {once:?}");
@@ -266,11 +271,48 @@ fn for_every_word_that_names_a_block() {
         for code in control.codes() {
             for word in &code.entry().words {
                 assert!(
-                    word.kind != gcheck_controls::WordKind::Label || Letter::parse(&word.letter) != Some(Letter::of('N')),
+                    word.kind != gcheck_controls::WordKind::Label
+                        || Letter::parse(&word.letter) != Some(Letter::of('N')),
                     "{name}: {}",
                     code.number()
                 );
             }
+        }
+    }
+}
+
+/// A line may be as long as a file, and whatever stands in it is laid out in a moment.
+#[test]
+fn for_lines_as_long_as_a_file() {
+    for piece in [
+        "N1 ",
+        "M97P1",
+        "(A)",
+        "O1 SUB ",
+        "o1 while[1]",
+        "G10 G11 ",
+        "#1=1",
+        "X[1]",
+        "X 1 2",
+        "/",
+        ";",
+        "GOTO#1 ",
+        "[[",
+        "<",
+    ] {
+        for name in ["haas-mill", "fanuc-mill", "linuxcnc"] {
+            let text = format!("{}\nN1 G0\n", piece.repeat(40_000));
+            let control = gcheck_controls::load(name).unwrap();
+            let dialect = Dialect::new(&control);
+            let start = std::time::Instant::now();
+            for style in styles(&dialect) {
+                format(&text, &dialect, &style, None);
+            }
+            let dropping = Style { sequence_numbers: SequenceNumbers::Drop, ..Style::KEEP };
+            format(&text, &dialect, &dropping, None);
+            let _ = renumber(&text, &dialect, &Numbering { start: 1, step: 1 });
+            // A minute is far from what it takes, and near to what a square would.
+            assert!(start.elapsed().as_secs() < 60, "{name}: {piece} takes {:?}", start.elapsed());
         }
     }
 }

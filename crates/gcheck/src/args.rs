@@ -387,9 +387,9 @@ fn numbering(text: &str) -> Result<Numbering, String> {
     let numbers = text.split_once(':').and_then(|(start, step)| {
         Some(Numbering { start: start.trim().parse().ok()?, step: step.trim().parse().ok()? })
     });
-    numbers.filter(|n| n.start > 0 && n.step > 0).ok_or_else(|| {
-        "write the first number and the step, both whole and from 1, as in `10:10`".to_owned()
-    })
+    numbers
+        .filter(|n| n.start > 0 && n.step > 0)
+        .ok_or_else(|| "write the first number and the step, both whole and from 1, as in `10:10`".to_owned())
 }
 
 fn block_skip(text: &str) -> Result<BlockSkip, String> {

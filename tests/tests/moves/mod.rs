@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::{env, fs};
 
 /// The moves of a program, and whether it came to its end.
-pub fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
+pub(crate) fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
     command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command.args(["run", "--isolated", "--control", control, "--output-format", "canonical"]);
@@ -31,7 +31,7 @@ pub fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool
 }
 
 /// Our own programs under `fixtures`, with the folder of each.
-pub fn own_programs() -> Vec<PathBuf> {
+pub(crate) fn own_programs() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut files: Vec<PathBuf> = Vec::new();
     let mut folders = vec![root.join("fixtures")];

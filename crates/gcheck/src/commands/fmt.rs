@@ -8,7 +8,9 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gcheck_format::{Numbering, RenumberRefused, SequenceNumbers, Style, apply_to_bytes, formatted, renumber};
+use gcheck_format::{
+    Numbering, RenumberRefused, SequenceNumbers, Style, apply_to_bytes, formatted, renumber,
+};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 use rayon::prelude::*;
@@ -191,7 +193,7 @@ fn reform(
     let dialect = Dialect::new(&control);
     let style = settings.format.style(&control);
     let before = source.to_bytes();
-    let after = match &options.renumber {
+    let after = match options.renumber {
         None => formatted(&source, &dialect, &style),
         Some(numbering) => Some(renumbered(target, source, &dialect, &style, numbering)?),
     };
@@ -204,14 +206,14 @@ fn renumbered(
     source: SourceText,
     dialect: &Dialect<'_>,
     style: &Style,
-    numbering: &Numbering,
+    numbering: Numbering,
 ) -> Result<Vec<u8>, Problem> {
     // Numbers that go leave gaps in the numbering, which closes them then.
     let rounds = if style.sequence_numbers == SequenceNumbers::Drop { 2 } else { 1 };
     let mut source = source;
     for _ in 0..rounds {
-        let edits =
-            renumber(source.text(), dialect, numbering).map_err(|refused| refusal(target, &source, &refused))?;
+        let edits = renumber(source.text(), dialect, &numbering)
+            .map_err(|refused| refusal(target, &source, &refused))?;
         source = text(target, apply_to_bytes(&source.to_bytes(), &edits))?;
         if let Some(bytes) = formatted(&source, dialect, style) {
             source = text(target, bytes)?;

@@ -188,7 +188,10 @@ mod tests {
             "[format]\nword-spacing = \"two\"\n",
             "gcheck.toml:2:16: unknown value `two`; did you mean `one`?",
         );
-        check("[format]\nword_spacing = 1\n", "gcheck.toml:2:1: unknown key `word_spacing`; did you mean `word-spacing`?");
+        check(
+            "[format]\nword_spacing = 1\n",
+            "gcheck.toml:2:1: unknown key `word_spacing`; did you mean `word-spacing`?",
+        );
         check(
             "[format]\ncomment-column = 300\n",
             "gcheck.toml:2:18: wrong value: number `300`, expected a whole number from 0 to 255",

@@ -14,14 +14,16 @@ fn programs_are_formatted_and_the_others_left_alone() {
         ! a.nc: formatted for haas-mill
         ! 1 file formatted, 1 left unchanged
         exit 0
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill").to_string());
     assert_eq!((shop.read("a.nc"), shop.read("b.nc")), (SMOOTH.to_owned(), SMOOTH.to_owned()));
     assert_eq!(shop.read("notes.txt"), "g0  x1.\n");
     assert_eq!(shop.names(), ["a.nc", "b.nc", "notes.txt"], "nothing else stays behind");
     expect![[r#"
         ! 2 files already formatted
         exit 0
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill").to_string());
 }
 
 #[test]
@@ -32,12 +34,14 @@ fn a_check_lists_and_changes_nothing() {
         c.nc
         ! 2 files would change, 1 already formatted
         exit 1
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --check").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill --check").to_string());
     assert_eq!(shop.read("a.nc"), ROUGH);
     expect![[r#"
         ! 1 file already formatted
         exit 0
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --check b.nc").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill --check b.nc").to_string());
 }
 
 #[test]
@@ -61,7 +65,8 @@ fn a_difference_changes_nothing() {
          %
         ! 1 file would change, 1 already formatted
         exit 1
-    "#]].assert_eq(&run.to_string().replace('\r', ""));
+    "#]]
+    .assert_eq(&run.to_string().replace('\r', ""));
     assert_eq!(shop.read("a.nc"), ROUGH);
     assert_eq!(shop.gcheck("fmt --control haas-mill --diff --check").code, 2);
 }
@@ -73,14 +78,16 @@ fn standard_input_goes_to_standard_output() {
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, SMOOTH, ""));
     let run = shop.gcheck_reading("fmt --control haas-mill -", SMOOTH.as_bytes());
     assert_eq!((run.code, run.stdout.as_str()), (0, SMOOTH));
-    let run = shop.gcheck_reading("fmt --control haas-mill --check --stdin-filename x/a.nc -", ROUGH.as_bytes());
+    let run =
+        shop.gcheck_reading("fmt --control haas-mill --check --stdin-filename x/a.nc -", ROUGH.as_bytes());
     assert_eq!((run.code, run.stdout.as_str()), (1, "x/a.nc\n"));
     let run = shop.gcheck_reading("fmt --control haas-mill --diff -", ROUGH.as_bytes());
     assert!(run.code == 1 && run.stdout.contains("+O0001 (PART)"), "{run}");
     expect![[r#"
         ! error: standard input is formatted alone, without other files
         exit 2
-    "#]].assert_eq(&shop.gcheck("fmt - a.nc").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt - a.nc").to_string());
 }
 
 #[test]
@@ -104,7 +111,8 @@ fn the_style_of_the_shop_is_configured() {
         ! 2 | leading_zeros = "add"
         !   | ^^^^^^^^^^^^^
         exit 2
-    "#]].assert_eq(&shop.gcheck("fmt a.nc").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt a.nc").to_string());
 }
 
 #[test]
@@ -128,12 +136,14 @@ fn blocks_are_numbered_anew_with_all_that_names_them() {
          M99
         ! 1 file would change
         exit 1
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100:10 --diff").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100:10 --diff").to_string());
     expect![[r#"
         ! a.nc: renumbered and formatted for haas-mill
         ! 1 file formatted
         exit 0
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100:10").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100:10").to_string());
     assert_eq!(
         shop.read("a.nc"),
         "O1\nN100 G0 X1.\nN110 M97 P120\nIF [#1 EQ 1] GOTO 110\nM30\nN120 G1 X2.\nM99\n"
@@ -168,7 +178,8 @@ fn what_cannot_be_renumbered_stays_as_it_is_and_the_place_is_said() {
         ! error: b.nc: cannot renumber: block numbers of the control go from 1 to 99999, in steps of 1 or more
         !   note: the file was left as it is
         exit 2
-    "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100000:10 b.nc").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100000:10 b.nc").to_string());
     for wrong in ["10", "0:10", "10:0", "a:b", "10:"] {
         assert_eq!(shop.gcheck(&format!("fmt --renumber {wrong}")).code, 2, "{wrong}");
     }
@@ -192,16 +203,19 @@ fn files_that_cannot_be_read_or_are_no_programs() {
     expect![[r#"
         ! error: picture.nc: is no text, so no part program
         exit 2
-    "#]].assert_eq(&run.to_string());
+    "#]]
+    .assert_eq(&run.to_string());
     assert_eq!(shop.read("a.nc"), SMOOTH);
     expect![[r#"
         ! error: missing.nc: no such file or folder
         exit 2
-    "#]].assert_eq(&shop.gcheck("fmt missing.nc").to_string());
+    "#]]
+    .assert_eq(&shop.gcheck("fmt missing.nc").to_string());
     expect![[r#"
         ! no programs found
         exit 0
-    "#]].assert_eq(&Shop::new().gcheck("fmt").to_string());
+    "#]]
+    .assert_eq(&Shop::new().gcheck("fmt").to_string());
 }
 
 #[cfg(unix)]
@@ -220,7 +234,8 @@ fn a_read_only_file_is_left_alone_and_permissions_stay() {
         ! 2 files formatted
         ! error: locked.nc: cannot format: the file is read-only
         exit 2
-    "#]].assert_eq(&run.to_string());
+    "#]]
+    .assert_eq(&run.to_string());
     assert_eq!((shop.read("locked.nc").as_str(), shop.read("part.nc").as_str()), (ROUGH, SMOOTH));
     assert_eq!(shop.path("part.nc").metadata().unwrap().permissions().mode() & 0o777, 0o640);
     assert!(shop.path("link.nc").symlink_metadata().unwrap().is_symlink());

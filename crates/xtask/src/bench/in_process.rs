@@ -56,7 +56,8 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
     let format = |source: &SourceText| black_box(formatted(source, &dialect, &style));
     // Nothing to do, an edit for each word, and what takes longest to read.
     let packed = SourceText::from(surfacing.replace(' ', "").as_str());
-    let (formatted_already, dense) = (SourceText::from(surfacing.as_str()), SourceText::from(macros.as_str()));
+    let (formatted_already, dense) =
+        (SourceText::from(surfacing.as_str()), SourceText::from(macros.as_str()));
     for (name, source) in [
         ("fmt, surfacing that is formatted already", &formatted_already),
         ("fmt, surfacing without blanks", &packed),
