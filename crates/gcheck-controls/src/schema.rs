@@ -723,6 +723,9 @@ pub struct VariableEntry {
     pub access: Access,
     /// How long it lives.
     pub kind: VariableKind,
+    /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
+    #[serde(default)]
+    pub sequence_number: bool,
     /// Where the entry stands.
     pub source: String,
     /// How sure it is.

@@ -227,6 +227,10 @@ impl<'s> Writer<'s> {
         let is_comment = |item: &Item| item.kind == ItemKind::Comment;
         let is_program = items.iter().any(|item| item.kind == ItemKind::ProgramNumber);
         let words_end = items.iter().rposition(|item| !is_comment(item)).map_or(0, |at| at + 1);
+        let label = items
+            .iter()
+            .position(|item| item.kind != ItemKind::BlockDelete)
+            .filter(|ix| items.get(*ix).is_some_and(|item| item.kind == ItemKind::SequenceNumber));
         let mut before = None;
         let mut has_code = false;
         for (ix, item) in items.iter().enumerate() {
@@ -235,8 +239,12 @@ impl<'s> Writer<'s> {
                 let is_remark = ix >= words_end && has_code;
                 let blanks = match before {
                     None => self.indentation(item.kind, depth),
-                    Some(_) if is_remark && is_program => None,
-                    Some(_) if is_remark => self.column(self.style.comment_column),
+                    Some(_) if is_remark && (is_program || self.style.comment_column == 0) => None,
+                    Some(_) if is_remark && ix == words_end => Some(self.up_to(self.style.comment_column)),
+                    Some(_) if is_remark => Some(1),
+                    Some(_) if label.is_some_and(|label| label + 1 == ix) && self.style.word_column > 0 => {
+                        Some(self.up_to(self.style.word_column))
+                    }
                     Some(before) => self.between(before, item.kind),
                 };
                 match blanks {
@@ -277,9 +285,6 @@ impl<'s> Writer<'s> {
         if ends(before) || ends(after) {
             return None;
         }
-        if before == ItemKind::SequenceNumber && self.style.word_column > 0 {
-            return self.column(self.style.word_column);
-        }
         match self.style.word_spacing {
             WordSpacing::Keep => None,
             WordSpacing::One => Some(1),
@@ -288,9 +293,8 @@ impl<'s> Writer<'s> {
     }
 
     /// Blanks up to a column, one at least.
-    fn column(&self, column: u8) -> Option<usize> {
-        let width = self.line.chars().count();
-        (column > 0).then(|| usize::from(column - 1).saturating_sub(width).max(1))
+    fn up_to(&self, column: u8) -> usize {
+        usize::from(column).saturating_sub(1).saturating_sub(self.line.chars().count()).max(1)
     }
 
     fn item(&mut self, text: &str, item: &Item, parts: &[Part]) {

@@ -3,7 +3,7 @@
 //! Knows: where numbers stand and what names them (see [`crate::labels`]), which numbers a control takes. Must not know: who
 //! asked. It is done as a whole or refused: a jump to the wrong block is worse than a crooked number.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::ops::Range;
 
@@ -54,6 +54,8 @@ pub enum Refusal {
     OtherProgram,
     /// This number names a program, and a block of its own program would get it.
     TakenByProgram(u32),
+    /// A variable is read that holds the number of a block.
+    ReadsNumber,
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -92,6 +94,7 @@ impl fmt::Display for Refusal {
             Self::TakenByProgram(number) => {
                 write!(f, "this names program O{number}, and a block would get that number")
             }
+            Self::ReadsNumber => f.write_str("this reads the number of a block, which would be another one"),
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
             }
@@ -125,7 +128,7 @@ pub fn renumber(
 
     let mut edits = Vec::new();
     // By program and old number.
-    let mut numbers: HashMap<(u32, u32), New> = HashMap::new();
+    let mut numbers = Numbers::default();
     let (mut program, mut next) = (None, u64::from(start));
     for label in &labels.list {
         if program != Some(label.program) {
@@ -137,7 +140,7 @@ pub fn renumber(
             return Err(too_large(&label.range, next, most));
         }
         next += u64::from(step);
-        numbers.entry((label.program, old)).and_modify(|new| *new = New::Several).or_insert(New::One(new));
+        numbers.put(label.program, old, new);
         write(text, &label.digits, new, &mut edits);
     }
     for reference in &labels.references {
@@ -149,6 +152,23 @@ pub fn renumber(
     edits.sort_by_key(|edit| edit.range.start);
     edits.dedup();
     Ok(edits)
+}
+
+/// The numbers of a file, old and new.
+#[derive(Default)]
+struct Numbers {
+    /// By program and old number.
+    new: HashMap<(u32, u32), New>,
+    /// Programs with the new numbers of their blocks.
+    taken: HashSet<(u32, u32)>,
+}
+
+impl Numbers {
+    fn put(&mut self, program: u32, old: u32, new: u32) {
+        let several = |new: &mut New| *new = New::Several;
+        self.new.entry((program, old)).and_modify(several).or_insert(New::One(new));
+        self.taken.insert((program, new));
+    }
 }
 
 /// What an old number becomes.
@@ -163,22 +183,21 @@ enum New {
 fn follow<'l>(
     reference: &'l Reference,
     labels: &Labels,
-    numbers: &HashMap<(u32, u32), New>,
+    numbers: &Numbers,
 ) -> Result<(&'l Number, u32), Refusal> {
     let number = match &reference.target {
         Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => number,
         Target::Other => return Err(Refusal::OtherProgram),
         Target::Computed => return Err(Refusal::Computed),
+        Target::Reads => return Err(Refusal::ReadsNumber),
         Target::Unclear => return Err(Refusal::Unclear),
     };
     let mut new = None;
     for program in labels.programs_named_by(reference) {
-        match numbers.get(&(program, number.value)) {
+        match numbers.new.get(&(program, number.value)) {
             // It stays the number of a program as long as no block gets that number.
             None if matches!(reference.target, Target::OwnOrProgram(_)) => {
-                let is_taken = numbers.iter().any(|((of, _), new)| {
-                    *of == program && matches!(new, New::One(new) if *new == number.value)
-                });
+                let is_taken = numbers.taken.contains(&(program, number.value));
                 return if is_taken {
                     Err(Refusal::TakenByProgram(number.value))
                 } else {

@@ -145,6 +145,13 @@ fn blank_lines_are_counted_and_stay_behind_a_directive() {
 }
 
 #[test]
+fn blank_lines_stay_where_a_program_asks_for_the_number_of_its_line() {
+    let text = "G0 X1\n\n\n\nG0 X#< _LINE >\n";
+    assert_eq!(tidy("linuxcnc", None, text), text);
+    assert_eq!(tidy("linuxcnc", None, "G0 X#<_lines>\n\n\n\n"), "G0 X#<_lines>\n\n");
+}
+
+#[test]
 fn line_ends_stay() {
     check("haas-mill", "g0x1.\r\n\r\n\r\n\r\nx2. \rx3.", &expect![["G0 X1.\r\n\r\nX2.\rX3."]]);
 }
@@ -286,6 +293,7 @@ fn numbers_that_nothing_names_are_dropped() {
     for keeps_all in [
         "N0N0M97 P0\n",
         "N1 G0 ; N2 G1\n",
+        "N1 #1=#4114\n",
         "N10 GOTO #1\nN20 G0\n",
         "N10 M98 P1234\nN20 G0\n",
         "N10 GOTO N20\nN20 G0\n",

@@ -280,3 +280,39 @@ fn for_every_word_that_names_a_block() {
         }
     }
 }
+
+/// A line may be as long as a file, and whatever stands in it is laid out in a moment.
+#[test]
+fn for_lines_as_long_as_a_file() {
+    for piece in [
+        "N1 ",
+        "M97P1",
+        "(A)",
+        "O1 SUB ",
+        "o1 while[1]",
+        "G10 G11 ",
+        "#1=1",
+        "X[1]",
+        "X 1 2",
+        "/",
+        ";",
+        "GOTO#1 ",
+        "[[",
+        "<",
+    ] {
+        for name in ["haas-mill", "fanuc-mill", "linuxcnc"] {
+            let text = format!("{}\nN1 G0\n", piece.repeat(40_000));
+            let control = gcheck_controls::load(name).unwrap();
+            let dialect = Dialect::new(&control);
+            let start = std::time::Instant::now();
+            for style in styles(&dialect) {
+                format(&text, &dialect, &style, None);
+            }
+            let dropping = Style { sequence_numbers: SequenceNumbers::Drop, ..Style::KEEP };
+            format(&text, &dialect, &dropping, None);
+            let _ = renumber(&text, &dialect, &Numbering { start: 1, step: 1 });
+            // A minute is far from what it takes, and near to what a square would.
+            assert!(start.elapsed().as_secs() < 60, "{name}: {piece} takes {:?}", start.elapsed());
+        }
+    }
+}

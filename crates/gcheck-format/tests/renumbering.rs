@@ -251,6 +251,20 @@ fn what_is_not_certain_is_refused_at_its_place() {
         ),
         (
             "fanuc-mill",
+            "N1 #1=[#4114+1]\n",
+            expect![[r#"
+            refused at `[#4114+1]`: this reads the number of a block, which would be another one
+        "#]],
+        ),
+        (
+            "haas-mill",
+            "N1 G0 X[#4114]\n",
+            expect![[r#"
+            refused at `[#4114]`: this reads the number of a block, which would be another one
+        "#]],
+        ),
+        (
+            "fanuc-mill",
             "O1\nN1 M98 P2 H5\nM30\n",
             expect![[r#"
             refused at `H5`: this may name a block of another program, which would not be renumbered with it

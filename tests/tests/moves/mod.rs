@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use std::{env, fs};
 
 /// The moves of a program, and whether it came to its end.
-pub fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
+pub(crate) fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
     command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
     command.args(["run", "--isolated", "--control", control, "--output-format", "canonical"]);
@@ -21,14 +21,17 @@ pub fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool
     let output = child.wait_with_output().unwrap();
     writer.join().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
-    // The number before a call counts blocks, the one with N is the block's own.
-    let calls = text.lines().map(|line| line.split_whitespace().skip(2).collect::<Vec<_>>().join(" "));
+    // The number before a call counts blocks, the one with N is the block's own, and a long one touches the call.
+    let calls = text.lines().map(|line| {
+        let call = line.trim_start_matches(|c: char| c.is_ascii_digit() || c == ' ').trim_start_matches('N');
+        call.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.').trim().to_owned()
+    });
     let said = |call: &String| !call.starts_with("COMMENT") && !call.starts_with("MESSAGE");
     (calls.filter(said).collect(), output.status.code() == Some(0))
 }
 
 /// Our own programs under `fixtures`, with the folder of each.
-pub fn own_programs() -> Vec<PathBuf> {
+pub(crate) fn own_programs() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
     let mut files: Vec<PathBuf> = Vec::new();
     let mut folders = vec![root.join("fixtures")];

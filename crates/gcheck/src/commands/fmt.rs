@@ -2,6 +2,8 @@
 //!
 //! Knows: which files, what becomes of their new text. Must not know: how a program is formatted or renumbered.
 
+use std::collections::BTreeSet;
+use std::fs;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -39,7 +41,12 @@ pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> 
     }
     let Found { files, mut problems } = discovery::find(&options.paths, &mut configs);
     let mut targets = Vec::with_capacity(files.len());
+    let mut seen = BTreeSet::new();
     for path in files {
+        // A file and a link to it are one file to write.
+        if !seen.insert(fs::canonicalize(&path).unwrap_or_else(|_| path.clone())) {
+            continue;
+        }
         match configs.of_file(&path) {
             Ok(config) => targets.push(Target { shown: paths::shown(&path), path, config }),
             Err(problem) => problems.push(problem),
@@ -66,10 +73,12 @@ pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> 
     if !global.quiet {
         if !is_dry {
             for (target, change) in &changed {
-                say(&format!("{}: formatted for {}", target.shown, change.control));
+                let done = if options.renumber.is_some() { "renumbered and formatted" } else { "formatted" };
+                say(&format!("{}: {done} for {}", target.shown, change.control));
             }
         }
-        if !targets.is_empty() || problems.is_empty() {
+        // Where no program could be formatted, it is the problems that say why.
+        if changed.len() + unchanged > 0 || problems.is_empty() {
             say(&closing_line(changed.len(), unchanged, is_dry));
         }
     }
@@ -184,7 +193,7 @@ fn reform(
     let dialect = Dialect::new(&control);
     let style = settings.format.style(&control);
     let before = source.to_bytes();
-    let after = match &options.renumber {
+    let after = match options.renumber {
         None => formatted(&source, &dialect, &style),
         Some(numbering) => Some(renumbered(target, source, &dialect, &style, numbering)?),
     };
@@ -197,13 +206,13 @@ fn renumbered(
     source: SourceText,
     dialect: &Dialect<'_>,
     style: &Style,
-    numbering: &Numbering,
+    numbering: Numbering,
 ) -> Result<Vec<u8>, Problem> {
     // Numbers that go leave gaps in the numbering, which closes them then.
     let rounds = if style.sequence_numbers == SequenceNumbers::Drop { 2 } else { 1 };
     let mut source = source;
     for _ in 0..rounds {
-        let edits = renumber(source.text(), dialect, numbering)
+        let edits = renumber(source.text(), dialect, &numbering)
             .map_err(|refused| refusal(target, &source, &refused))?;
         source = text(target, apply_to_bytes(&source.to_bytes(), &edits))?;
         if let Some(bytes) = formatted(&source, dialect, style) {
@@ -226,5 +235,5 @@ fn refusal(target: &Target, source: &SourceText, refused: &RenumberRefused) -> P
     } else {
         Problem::at(&target.shown, source.text(), &range, format!("cannot renumber: {refused}"))
     };
-    problem.help("nothing of the file was changed")
+    problem.note("the file was left as it is")
 }

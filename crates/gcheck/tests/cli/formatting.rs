@@ -139,7 +139,7 @@ fn blocks_are_numbered_anew_with_all_that_names_them() {
     "#]]
     .assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100:10 --diff").to_string());
     expect![[r#"
-        ! a.nc: formatted for haas-mill
+        ! a.nc: renumbered and formatted for haas-mill
         ! 1 file formatted
         exit 0
     "#]]
@@ -164,20 +164,19 @@ fn what_cannot_be_renumbered_stays_as_it_is_and_the_place_is_said() {
     let program = "O1\nN1 G0 X1.\nIF [#1 EQ 1] GOTO #2\nM30\n";
     let shop = Shop::with(&[("a.nc", program), ("b.nc", "O2\nN1 G0 X1.\nM30\n")]);
     expect![[r#"
-        ! b.nc: formatted for haas-mill
+        ! b.nc: renumbered and formatted for haas-mill
         ! 1 file formatted
         ! error: a.nc:3:14: cannot renumber: the block that this names is computed, so its number cannot be followed
         !   |
         ! 3 | IF [#1 EQ 1] GOTO #2
         !   |              ^^^^^^^
-        !   help: nothing of the file was changed
+        !   note: the file was left as it is
         exit 2
     "#]].assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 10:10").to_string());
     assert_eq!((shop.read("a.nc").as_str(), shop.read("b.nc").as_str()), (program, "O2\nN10 G0 X1.\nM30\n"));
     expect![[r#"
-        ! no programs found
         ! error: b.nc: cannot renumber: block numbers of the control go from 1 to 99999, in steps of 1 or more
-        !   help: nothing of the file was changed
+        !   note: the file was left as it is
         exit 2
     "#]]
     .assert_eq(&shop.gcheck("fmt --control haas-mill --renumber 100000:10 b.nc").to_string());
@@ -241,6 +240,19 @@ fn a_read_only_file_is_left_alone_and_permissions_stay() {
     assert_eq!(shop.path("part.nc").metadata().unwrap().permissions().mode() & 0o777, 0o640);
     assert!(shop.path("link.nc").symlink_metadata().unwrap().is_symlink());
     assert_eq!(shop.read("real/c.nc"), SMOOTH);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_and_a_link_to_it_are_one_file() {
+    let shop = Shop::with(&[("real/c.nc", ROUGH)]);
+    std::os::unix::fs::symlink("real/c.nc", shop.path("link.nc")).unwrap();
+    expect![[r#"
+        ! link.nc: formatted for haas-mill
+        ! 1 file formatted
+        exit 0
+    "#]]
+    .assert_eq(&shop.gcheck("fmt --control haas-mill").to_string());
 }
 
 #[test]
