@@ -7,10 +7,11 @@ use std::sync::Arc;
 
 use gcheck_engine::{Model, Options, Program, flow};
 use gcheck_program::{Dialect, Loaded};
-use gcheck_rules::{Finding, Job, Ledger, RuleMeta, Scene, Severity, check};
+use gcheck_rules::{Edited, Finding, Incremental, Ledger, RuleMeta, Severity, Work};
 use gcheck_syntax::{Document, OutOfRange};
 use rustc_hash::FxHashMap;
 
+use crate::chunks::{Asking, Chunks, Storage, scene};
 use crate::snapshot::Others;
 use crate::states::Keeper;
 use crate::{Settings, Snapshot, StateAt};
@@ -39,10 +40,11 @@ pub struct Analysis {
 }
 
 /// The documents that are open, and what is known of them. One thread owns it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Database {
     next: u32,
     documents: FxHashMap<DocumentId, Open>,
+    storage: Storage,
 }
 
 #[derive(Debug)]
@@ -51,6 +53,8 @@ struct Open {
     settings: Settings,
     snapshot: Option<Snapshot>,
     analysis: Option<Arc<Analysis>>,
+    chunks: Chunks,
+    incremental: Incremental,
 }
 
 impl Open {
@@ -59,30 +63,97 @@ impl Open {
         self.analysis = None;
     }
 
+    /// What is in force has changed: nothing holds but the chunks.
+    fn forget(&mut self) {
+        self.changed();
+        self.incremental = Incremental::new();
+    }
+
     fn snapshot(&mut self) -> Snapshot {
-        let new = || Snapshot::new(self.document.clone(), self.settings.clone());
+        let whole = self.analysis.as_ref().and_then(|_| self.incremental.whole().cloned());
+        let new = || Snapshot::new(self.document.clone(), self.settings.clone(), whole);
         self.snapshot.get_or_insert_with(new).clone()
+    }
+
+    fn analyse(&mut self, storage: &mut Storage, stop: &dyn Fn() -> bool) -> Result<Arc<Analysis>, Cancelled> {
+        if let Some(known) = &self.analysis {
+            return Ok(Arc::clone(known));
+        }
+        if stop() {
+            return Err(Cancelled);
+        }
+        self.chunks.follow(storage, self.document.chunks());
+        let dialect = Dialect::new(&self.settings.control);
+        let source = Asking { storage, chunks: &self.chunks };
+        let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
+        let outcome = self.incremental.check(&edited).map_err(|_| Cancelled)?;
+        let analysis = Arc::new(Analysis {
+            findings: outcome.findings,
+            omitted: outcome.omitted,
+            suppressed: outcome.suppressed,
+            ledger: outcome.ledger,
+            out_of_fuel: outcome.out_of_fuel,
+        });
+        self.analysis = Some(Arc::clone(&analysis));
+        // One that was taken before would have to find out for itself what is known now.
+        self.snapshot = None;
+        Ok(analysis)
+    }
+}
+
+fn edited<'a>(
+    document: &'a Document,
+    settings: &'a Settings,
+    dialect: &'a Dialect<'a>,
+    source: &'a Asking<'a>,
+    stop: &'a dyn Fn() -> bool,
+) -> Edited<'a> {
+    Edited {
+        chunks: document.chunks(),
+        source,
+        scene: scene(settings, dialect),
+        selection: &settings.selection,
+        suppressions: settings.suppressions,
+        execution: settings.execution,
+        stop,
+    }
+}
+
+impl Default for Database {
+    fn default() -> Self {
+        Self::new()
     }
 }
 
 impl Database {
     /// Without documents.
     pub fn new() -> Self {
-        Self::default()
+        Self { next: 0, documents: FxHashMap::default(), storage: Storage::new(None) }
+    }
+
+    /// As [`Database::new`]; `told` is called with the name of each query about a chunk that is executed.
+    pub fn telling(told: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self { storage: Storage::new(Some(Box::new(told))), ..Self::new() }
     }
 
     /// Takes a document in.
     pub fn open(&mut self, text: &str, settings: Settings) -> DocumentId {
         let id = DocumentId(self.next);
         self.next += 1;
-        let open = Open { document: Document::new(text), settings, snapshot: None, analysis: None };
+        let chunks = Chunks::new(&self.storage, settings.clone());
+        let document = Document::new(text);
+        let incremental = Incremental::new();
+        let open = Open { document, settings, snapshot: None, analysis: None, chunks, incremental };
         self.documents.insert(id, open);
         id
     }
 
     /// Forgets a document.
     pub fn close(&mut self, id: DocumentId) {
-        self.documents.remove(&id);
+        if let Some(mut open) = self.documents.remove(&id) {
+            // Salsa keeps its inputs; without text they hold next to nothing.
+            open.chunks.empty(&mut self.storage);
+        }
     }
 
     /// Replaces the whole text.
@@ -108,8 +179,9 @@ impl Database {
     /// Changes what is in force for a document, or what other programs hold that it may call.
     pub fn set_settings(&mut self, id: DocumentId, settings: Settings) {
         if let Some(open) = self.documents.get_mut(&id) {
+            open.chunks.set_settings(&mut self.storage, settings.clone());
             open.settings = settings;
-            open.changed();
+            open.forget();
         }
     }
 
@@ -125,36 +197,12 @@ impl Database {
     /// [`Cancelled`] when `stop` said yes, or there is no such document.
     pub fn analysis(&mut self, id: DocumentId, stop: &dyn Fn() -> bool) -> Result<Arc<Analysis>, Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
-        if let Some(known) = &open.analysis {
-            return Ok(Arc::clone(known));
-        }
-        if stop() {
-            return Err(Cancelled);
-        }
-        let settings = &open.settings;
-        let source = gcheck_syntax::SourceText::from(&*open.document.text());
-        let dialect = Dialect::new(&settings.control);
-        let outcome = check(&Job {
-            source: &source,
-            scene: Scene {
-                dialect: &dialect,
-                machine: &settings.machine,
-                programs: &*settings.programs,
-                control_is_guessed: settings.control_is_guessed,
-            },
-            selection: &settings.selection,
-            suppressions: settings.suppressions,
-            execution: settings.execution,
-        });
-        let analysis = Arc::new(Analysis {
-            findings: outcome.findings,
-            omitted: outcome.omitted,
-            suppressed: outcome.suppressed,
-            ledger: outcome.ledger,
-            out_of_fuel: outcome.out_of_fuel,
-        });
-        open.analysis = Some(Arc::clone(&analysis));
-        Ok(analysis)
+        open.analyse(&mut self.storage, stop)
+    }
+
+    /// How much of the paths the last analysis executed, and how much it did not.
+    pub fn work(&self, id: DocumentId) -> Option<Work> {
+        self.documents.get(&id).map(|open| open.incremental.work())
     }
 
     /// What may be the state before and after each of some blocks, in their order, with the block delete switches off;
@@ -169,18 +217,25 @@ impl Database {
         stop: &dyn Fn() -> bool,
     ) -> Result<Vec<StateAt>, Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
+        open.analyse(&mut self.storage, stop)?;
+        let settings = &open.settings;
+        let dialect = Dialect::new(&settings.control);
+        let source = Asking { storage: &self.storage, chunks: &open.chunks };
+        let edited = edited(&open.document, settings, &dialect, &source, stop);
+        let mut keeper = Keeper::new(blocks.clone());
+        if !open.incremental.show_again(&edited, &blocks, &mut keeper) {
+            // The analysis had no path rules, or the switches of block delete are on for good.
+            keeper = Keeper::new(blocks);
+            let model = Model::new(&settings.control);
+            let library = Others(settings);
+            let loaded = Loaded::new(open.document.text(), &dialect, |_, _, _| ());
+            let program = Program::new(loaded, &dialect, &library);
+            let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
+            flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
+        }
         if stop() {
             return Err(Cancelled);
         }
-        let settings = &open.settings;
-        let dialect = Dialect::new(&settings.control);
-        let model = Model::new(&settings.control);
-        let library = Others(settings);
-        let loaded = Loaded::new(open.document.text(), &dialect, |_, _, _| ());
-        let program = Program::new(loaded, &dialect, &library);
-        let mut keeper = Keeper::new(blocks);
-        let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
-        flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
         Ok(keeper.seen.into_values().collect())
     }
 }

@@ -17,6 +17,7 @@
 //! assert!(analysis.findings.iter().any(|finding| finding.rule.id == "feed-missing"));
 //! ```
 
+mod chunks;
 mod database;
 mod looking;
 mod settings;

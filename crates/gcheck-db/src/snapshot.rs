@@ -8,9 +8,8 @@ use std::sync::{Arc, OnceLock};
 
 use gcheck_controls::Control;
 use gcheck_engine::{Concrete, Library, Model, Observer, Options, Program, RunResult, SourceFile, run};
-use gcheck_program::{
-    Block, BlockIx, BlockTable, Dialect, Loaded, Outline, Survey, code_region, lower, profile,
-};
+use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Loaded, Outline, Survey, lower, profile};
+use gcheck_rules::Whole;
 use gcheck_syntax::{Document, Parse, SourceText, line_len, parse};
 
 use crate::Settings;
@@ -27,14 +26,7 @@ struct Inner {
     starts: Vec<u32>,
     /// Number of the first line of each chunk, and the number of line ends.
     lines: Vec<u32>,
-    whole: OnceLock<Whole>,
-}
-
-/// What needs the whole file.
-#[derive(Debug)]
-struct Whole {
-    survey: Survey,
-    outline: Outline,
+    whole: OnceLock<Arc<Whole>>,
 }
 
 /// A chunk of whole lines.
@@ -83,7 +75,7 @@ impl BlockPlace {
 }
 
 impl Snapshot {
-    pub(crate) fn new(document: Document, settings: Settings) -> Self {
+    pub(crate) fn new(document: Document, settings: Settings, whole: Option<Arc<Whole>>) -> Self {
         let (mut at, mut line) = (0, 0);
         let (mut starts, mut lines) = (vec![0], vec![0]);
         for chunk in document.chunks() {
@@ -92,7 +84,8 @@ impl Snapshot {
             starts.push(at);
             lines.push(line);
         }
-        Self(Arc::new(Inner { document, settings, starts, lines, whole: OnceLock::new() }))
+        let whole = whole.map_or_else(OnceLock::new, OnceLock::from);
+        Self(Arc::new(Inner { document, settings, starts, lines, whole }))
     }
 
     /// What is in force.
@@ -235,18 +228,7 @@ impl Snapshot {
     }
 
     fn whole(&self) -> &Whole {
-        self.0.whole.get_or_init(|| {
-            let dialect = self.dialect();
-            let end = code_region(&self.text()).end as u32;
-            let mut survey = Survey::default();
-            let mut outline = Outline::builder();
-            for chunk in self.chunks().take_while(|chunk| chunk.base < end || chunk.index == 0) {
-                let table = lower(chunk.text, &dialect);
-                survey.add(&table, chunk.base, end, &dialect);
-                outline.add(&table, chunk.base, end, chunk.text, &dialect);
-            }
-            Whole { survey, outline: outline.finish() }
-        })
+        self.0.whole.get_or_init(|| Arc::new(Whole::of_text(self.0.document.chunks(), &self.dialect())))
     }
 
     /// The last block that begins at a byte or before it, on the byte's line or an earlier one.

@@ -199,21 +199,21 @@ mod tests {
             text,
             &[ActionKind::Source],
             &expect![[r#"
-            # Source: write 1 numbers with decimal points, as the control counts them
-            O1
-            G21 G90 G54 G0 X1. Y0
-            G4 P500
-            G1 Z-1. F200
-            G65 P9010 A1
-            M30
-            # Source: write a decimal point behind 1 numbers that have none (changes their values)
-            O1
-            G21 G90 G54 G0 X1000. Y0
-            G4 P500
-            G1 Z-1. F200
-            G65 P9010 A1
-            M30
-        "#]],
+                # Source: write 1 number with decimal points, as the control counts them
+                O1
+                G21 G90 G54 G0 X1. Y0
+                G4 P500
+                G1 Z-1. F200
+                G65 P9010 A1
+                M30
+                # Source: write decimal points behind 1 number without one (changes what they count)
+                O1
+                G21 G90 G54 G0 X1000. Y0
+                G4 P500
+                G1 Z-1. F200
+                G65 P9010 A1
+                M30
+            "#]],
         );
     }
 
@@ -258,17 +258,17 @@ mod tests {
             "O1\nG20 G54 G18 G0 X1. Z0.\nG3 X1.5 Z-.25 R.2$05 F.01\nM30\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: write this arc with its centre
-            O1
-            G20 G54 G18 G0 X1. Z0.
-            G3 X1.5 Z-.25 K-0.25 I0. F.01
-            M30
-            # Rewrite: put block skip on this block
-            O1
-            G20 G54 G18 G0 X1. Z0.
-            /G3 X1.5 Z-.25 R.25 F.01
-            M30
-        "#]],
+                # Rewrite: write this arc with its centre
+                O1
+                G20 G54 G18 G0 X1. Z0.
+                G3 X1.5 Z-.25 I0. K-0.25 F.01
+                M30
+                # Rewrite: put block skip on this block
+                O1
+                G20 G54 G18 G0 X1. Z0.
+                /G3 X1.5 Z-.25 R.25 F.01
+                M30
+            "#]],
         );
         check(
             "linuxcnc",
@@ -352,14 +352,68 @@ mod tests {
             text,
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: put block skip on this block
-            G21 G90 G0 X0 Y0 Z10
-            /G98 G82 X1 Y2 Z-6 R2 P0.5 F100
-            G80
-            G0 Z50
-            M2
-        "#]],
+                # Rewrite: write this cycle as 5 plain moves
+                G21 G90 G0 X0 Y0 Z10
+                G98 G0 X1. Y2.
+                G0 Z2.
+                G1 Z-6. F100.
+                G4 P0.5
+                G0 Z10.
+                G80
+                G0 Z50
+                M2
+                # Rewrite: put block skip on this block
+                G21 G90 G0 X0 Y0 Z10
+                /G98 G82 X1 Y2 Z-6 R2 P0.5 F100
+                G80
+                G0 Z50
+                M2
+            "#]],
         );
+    }
+
+    #[test]
+    fn what_is_written_otherwise_moves_as_before() {
+        let moves = |control: &str, text: &str| {
+            let snapshot = Fixture::new(control, text).snapshot();
+            let mut moves: Vec<String> = Vec::new();
+            let rounded = |position: &gcheck_engine::Position| {
+                position.values().map(|value| (value * 1_000.0).round() / 1_000.0 + 0.0)
+            };
+            crate::running::run_through(&snapshot, 10_000, &mut |step| match step.event {
+                gcheck_engine::Event::Travel(travel) if travel.from != travel.to => {
+                    moves.push(format!("{:?} {:?}", travel.kind, rounded(&travel.to)));
+                }
+                gcheck_engine::Event::Arc(arc) => {
+                    moves.push(format!("arc {:.2} {:?}", arc.sweep, rounded(&arc.to)));
+                }
+                gcheck_engine::Event::Dwell(time) => moves.push(format!("dwell {}", time.0)),
+                _ => {}
+            });
+            moves
+        };
+        for (control, text) in [
+            (
+                "haas-mill",
+                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG98 G73$0 X1. Y2. Z-6. R2. Q3. F100.\nX5. Y7.\nG80\nG0 Z50.\nM30\n",
+            ),
+            (
+                "fanuc-mill",
+                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG99 G81$0 X1. Y2. Z-6. R2. F100.\nY7.\nG0 Z50.\nM30\n",
+            ),
+            ("linuxcnc", "G20 G90 G0 X0 Y0 Z1\nG98 G82$0 X1 Y2 Z-.6 R.2 P.5 F10 L1\nX3\nG80\nG0 Z5\nM2\n"),
+            ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R1.1 F10.\nM30\n"),
+            ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R-1.1 F10.\nM30\n"),
+            ("fanuc-mill", "O1\nG21 G18 G90 G54 G0 X0. Z0.\nG2$0 X10. Z10. K10. I0. F10.\nM30\n"),
+        ] {
+            let mut fixture = Fixture::new(control, text);
+            let at = fixture.offset..fixture.offset;
+            let actions = code_actions(&mut fixture.database, fixture.document, at, None, &|| false).unwrap();
+            let before = fixture.snapshot().text();
+            let action = actions.iter().find(|action| action.title.starts_with("write this"));
+            let after = applied(&before, &action.unwrap_or_else(|| panic!("nothing offered: {text}")).edits);
+            assert_eq!(moves(control, &before), moves(control, &after), "{before}\nbecame\n{after}");
+        }
     }
 
     #[test]

@@ -2,20 +2,25 @@
 //!
 //! Knows: pairs of tool and offset number. Must not know: which offset it is, any rule.
 
+use crate::memory::remembers;
 use crate::Finding;
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
 }
 
-#[derive(Debug)]
+remembers!(Pairs: pairs);
+
+#[derive(Debug, Clone, PartialEq)]
 struct Pair {
     tool: u32,
     offset: u32,
     finding: Finding,
 }
+
+remembers!(Pair: finding);
 
 /// What the other tools of the program do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,6 +5,7 @@
 
 mod command_line;
 mod in_process;
+mod keystrokes;
 mod language_server;
 mod peer;
 mod row;
@@ -26,7 +27,11 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     if cfg!(debug_assertions) {
         return product::rerun("bench", arguments, true);
     }
-    let mut rows = if only_server { Vec::new() } else { in_process::rows()? };
+    let mut rows = Vec::new();
+    if !only_server {
+        rows.extend(in_process::rows()?);
+        rows.extend(keystrokes::rows()?);
+    }
     match command_line::build() {
         Ok((gcheck, inputs)) => {
             if !only_server {

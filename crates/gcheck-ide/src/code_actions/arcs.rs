@@ -95,11 +95,12 @@ fn rewritten(
             if difference > rules.radius_difference.max(rules.relative * shape.radius) {
                 return None;
             }
-            let texts: Vec<String> = centre_letters
+            let mut texts: Vec<String> = centre_letters
                 .iter()
                 .zip(values)
                 .map(|(letter, value)| format!("{letter}{}", pointed(value)))
                 .collect();
+            texts.sort();
             let range = place.in_file(radius.range());
             let edit = Edit { range, text: texts.join(" ") };
             Some(CodeAction::change("write this arc with its centre", ActionKind::Rewrite, vec![edit]))

@@ -161,10 +161,14 @@ fn expanded(
     let model = look.model();
     let reading = Reading::new(snapshot, model);
     let before = &state.before;
-    let compensation = before.mode(Role::Compensation).only()?;
+    let is_off = |role: Role, off: Effect| {
+        let mode = before.mode(role).only();
+        mode.is_some_and(|code| !code.is_some() || model.effect(code) == off)
+    };
     let is_plain = *before.transform() == Transform::NONE
         && before.is_incremental(model) == Some(false)
-        && (!compensation.is_some() || model.effect(compensation) == Effect::CompensationOff);
+        && is_off(Role::Compensation, Effect::CompensationOff)
+        && is_off(Role::Polar, Effect::PolarOff);
     if !is_plain {
         return None;
     }
@@ -206,7 +210,7 @@ fn expanded(
                 }
             }
             Event::Dwell(seconds) => dwell(snapshot, *seconds)?,
-            Event::Modal(_) | Event::FeedRate(_) | Event::FeedMode(_) => continue,
+            Event::Modal(_) | Event::FeedRate(_) | Event::FeedMode(_) | Event::PathMode(_) => continue,
             _ => return None,
         };
         lines.push(format!("{}{text}", std::mem::take(&mut head)));

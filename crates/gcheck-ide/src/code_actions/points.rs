@@ -36,14 +36,24 @@ pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
         })
         .collect();
     if let Some(edits) = counted.filter(|_| numbers.unpointed == Unpointed::LeastIncrement) {
-        let title = format!("write {} numbers with decimal points, as the control counts them", words.len());
+        let title = format!(
+            "write {} with decimal points, as the control counts them",
+            numbers_in_words(words.len())
+        );
         actions.push(CodeAction::change(title, ActionKind::Source, edits));
     }
     let behind =
         words.iter().map(|word| Edit { range: word.digits.end..word.digits.end, text: ".".to_owned() });
-    let title =
-        format!("write a decimal point behind {} numbers that have none (changes their values)", words.len());
+    let title = format!(
+        "write decimal points behind {} without one (changes what they count)",
+        numbers_in_words(words.len())
+    );
     actions.push(CodeAction::change(title, ActionKind::Source, behind.collect()));
+}
+
+/// `1 number`, `5 numbers`.
+fn numbers_in_words(count: usize) -> String {
+    if count == 1 { "1 number".to_owned() } else { format!("{count} numbers") }
 }
 
 /// A number with a decimal point, whole or not.

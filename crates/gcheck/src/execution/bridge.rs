@@ -97,11 +97,11 @@ impl<'s, S: Steps> Bridge<'s, S> {
         let session = self.session;
         let lines = slot.get_or_insert_with(|| {
             let file = session.program.file(origin.at.file);
-            let text = file.as_ref().map_or("", |file| file.loaded.text());
+            let text = file.as_ref().map(|file| file.loaded.text()).unwrap_or_default();
             let name = file.as_ref().map_or("", |file| &*file.name);
             let name =
                 if name.is_empty() { Rc::from(session.prepared.shown.as_str()) } else { Rc::from(name) };
-            Lines { name, index: LineIndex::new(text), last: (0, 1) }
+            Lines { name, index: LineIndex::new(&text), last: (0, 1) }
         });
         (Rc::clone(&lines.name), lines.line(origin.start))
     }

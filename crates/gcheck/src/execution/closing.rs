@@ -93,11 +93,11 @@ pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Faul
     };
     let file = session.program.file(result.origin.at.file);
     let (name, text) = match &file {
-        Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text()),
-        _ => (session.prepared.shown.as_str(), session.prepared.source.text()),
+        Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text().into_owned()),
+        _ => (session.prepared.shown.as_str(), session.prepared.source.text().to_owned()),
     };
     let range = range(session, result.origin, culprit);
-    Some(Fault { words, range, name: name.to_owned(), text: text.to_owned() })
+    Some(Fault { words, range, name: name.to_owned(), text })
 }
 
 /// The word that a fault is about, else the block.
@@ -159,7 +159,7 @@ fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     let file = session.program.file(origin.at.file)?;
     let place = file.loaded.place(origin.at.block, session.program.dialect())?;
     // A comment behind a statement is no part of the block's own range.
-    let text = file.loaded.text().get(place.range().start as usize..)?.lines().next()?;
+    let text = file.loaded.line_from(place.range().start);
     let (_, rest) = text.split_once('(')?;
     let comment = rest.split(')').next()?.trim();
     (!comment.is_empty()).then(|| comment.to_owned())

@@ -6,6 +6,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
+use crate::memory::{Remembers, remembers};
 use crate::boundary::{Boundary, LeftOn};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
@@ -55,7 +56,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct IncrementalLeftOn {
     /// The work before was in positions.
     was_absolute: bool,
@@ -68,7 +69,13 @@ struct IncrementalLeftOn {
     has_moved: bool,
 }
 
+remembers!(IncrementalLeftOn: change, in_subprogram);
+
 impl PathRule for IncrementalLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::Incremental)
     }

@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Event, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::boundary::Boundary;
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
@@ -51,11 +52,14 @@ declare_rule! {
 }
 
 /// A tool's part of the program, before its first cut.
+#[derive(Clone, PartialEq)]
 struct Section {
     finding: Finding,
     /// What was stated since the tool change.
     stated: Vec<Needed>,
 }
+
+remembers!(Section: finding);
 
 /// What a section needs to be told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,12 +71,19 @@ enum Needed {
     Spindle,
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolSectionNotRestartSafe {
     section: Option<Section>,
     sections: usize,
 }
 
+remembers!(ToolSectionNotRestartSafe: section);
+
 impl PathRule for ToolSectionNotRestartSafe {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.boundary() != Some(Boundary::ToolChange) {
             return;

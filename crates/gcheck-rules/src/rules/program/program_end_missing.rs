@@ -87,10 +87,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// More than the program's number: a block with a `G` or `M` code.
 fn has_code(cx: &FileCx<'_>, section: &Section<'_>) -> bool {
-    let start = section.number.map_or(section.range.start, |n| n.range.end) as usize;
-    let text = cx.source.text().get(start..section.range.end as usize).unwrap_or_default();
+    let (start, end) = (section.number.map_or(section.range.start, |n| n.range.end), section.range.end);
+    let pieces = cx.text.from(start).take_while(|(from, _)| *from < end);
+    let lines = pieces.flat_map(|(from, piece)| {
+        let inside = ((end - from) as usize).min(piece.len());
+        piece.get(..inside).unwrap_or_default().lines()
+    });
     // Comments may hold anything; it is enough that some line is more than a comment.
-    text.lines().skip(usize::from(section.number.is_some())).any(|line| {
+    lines.skip(usize::from(section.number.is_some())).any(|line| {
         let line = line.trim_start();
         line.starts_with(|c: char| c.is_ascii_alphabetic() || c == '#' || c == '/')
     })

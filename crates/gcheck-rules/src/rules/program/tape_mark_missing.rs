@@ -40,7 +40,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
-    if crate::sections::is_tape_mark_line(cx.source.text(), mark) {
+    if crate::sections::is_tape_mark_line(cx, mark) {
         report.add(finding(mark.clone(), mark.start < first.start));
     }
 }

@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::Fact;
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -34,11 +35,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolChangeWithoutT {
     is_done: bool,
 }
 
+remembers!(ToolChangeWithoutT);
+
 impl PathRule for ToolChangeWithoutT {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_change = cx.has_effect(|effect| effect == Effect::ToolChange);
         if self.is_done || !is_change || !cx.model.semantics().tools.change_needs_t {

@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::five_axis::is_along_tool;
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
@@ -54,6 +55,7 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolLengthMissing {
     /// The tool change whose tool has not worked yet.
     changed: Option<At>,
@@ -61,7 +63,13 @@ struct ToolLengthMissing {
     is_done: bool,
 }
 
+remembers!(ToolLengthMissing: changed);
+
 impl PathRule for ToolLengthMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if let Event::ToolChange(number) = event {
             self.changed = (*number != Some(0)).then_some(cx.origin().at);
