@@ -171,8 +171,62 @@ mod tests {
 
     #[test]
     fn columns_are_counted_in_bytes_or_in_units_of_utf_16() {
-        expect_test::expect![[r""]].assert_eq(&columns(Encoding::Utf8));
-        expect_test::expect![[r""]].assert_eq(&columns(Encoding::Utf16));
+        expect_test::expect![[r#"
+            0:0 G
+            0:1 0
+            0:2  
+            0:3 X
+            0:4 1
+            0:5 .
+            0:6 \r
+            0:6 \n
+            1:0 (
+            1:1 µ
+            1:3  
+            1:4 日
+            1:7 本
+            1:10  
+            1:11 😀
+            1:15 )
+            1:16  
+            1:17 G
+            1:18 1
+            1:19 \r
+            2:0 M
+            2:1 3
+            2:2 0
+            2:3 \n
+            3:0 .
+        "#]]
+        .assert_eq(&columns(Encoding::Utf8));
+        expect_test::expect![[r#"
+            0:0 G
+            0:1 0
+            0:2  
+            0:3 X
+            0:4 1
+            0:5 .
+            0:6 \r
+            0:6 \n
+            1:0 (
+            1:1 µ
+            1:2  
+            1:3 日
+            1:4 本
+            1:5  
+            1:6 😀
+            1:8 )
+            1:9  
+            1:10 G
+            1:11 1
+            1:12 \r
+            2:0 M
+            2:1 3
+            2:2 0
+            2:3 \n
+            3:0 .
+        "#]]
+        .assert_eq(&columns(Encoding::Utf16));
     }
 
     #[test]

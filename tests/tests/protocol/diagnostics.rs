@@ -16,7 +16,7 @@ const NO_FEED: &str = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\n
 fn findings_follow_the_text() {
     let mut session = Session::new(&[]);
     session.open("a.nc", NO_FEED);
-    expect![[r""]].assert_eq(&session.published("a.nc", 1).join("\n"));
+    expect!["5:0-5:6 warning feed-missing"].assert_eq(&session.published("a.nc", 1).join("\n"));
     session.edit("a.nc", 2, [5, 6, 5, 6], " F100.");
     expect![[r""]].assert_eq(&session.published("a.nc", 2).join("\n"));
     session.edit("a.nc", 3, [5, 6, 5, 12], "");
@@ -29,7 +29,45 @@ fn a_diagnostic_says_where_why_and_where_to_read_more() {
     session.open("a.nc", "(gcheck: control=haas-mill)\n%\nO1\nG90 G1 G0 X1. F100.\nM30\n%\n");
     let all = session.published_whole("a.nc", 1);
     let found = all.iter().find(|found| found["code"] == "two-codes-of-one-group").unwrap();
-    expect![[r""]].assert_eq(&serde_json::to_string_pretty(found).unwrap());
+    let shown = serde_json::to_string_pretty(found).unwrap().replace(&session.uri(""), "file:///work/");
+    expect![[r#"
+        {
+          "code": "two-codes-of-one-group",
+          "codeDescription": {
+            "href": "https://github.com/gcheck/gcheck/blob/main/docs/rules/two-codes-of-one-group.md"
+          },
+          "message": "`G1` and `G0` belong to one modal group\nrapid positioning, the same group\nnote: `G1` and `G0` both set motion (group 01); only one can be active  [HM17 p.243; general knowledge (default)]\nhelp: keep one of the two, or put them in separate blocks",
+          "range": {
+            "end": {
+              "character": 9,
+              "line": 3
+            },
+            "start": {
+              "character": 7,
+              "line": 3
+            }
+          },
+          "relatedInformation": [
+            {
+              "location": {
+                "range": {
+                  "end": {
+                    "character": 6,
+                    "line": 3
+                  },
+                  "start": {
+                    "character": 4,
+                    "line": 3
+                  }
+                },
+                "uri": "file:///work/a.nc"
+              },
+              "message": "straight cut at feed"
+            }
+          ],
+          "severity": 1,
+          "source": "gcheck"
+        }"#]].assert_eq(&shown);
 }
 
 #[test]

@@ -56,7 +56,10 @@ fn a_program_is_renamed_in_its_callers_too() {
         })
         .collect();
     changed.sort();
-    expect_test::expect![[r""]].assert_eq(&changed.join("\n"));
+    expect_test::expect![[r#"
+        100.nc 1:1-1:4 "200"
+        a.nc 4:5-4:8 "200""#]]
+    .assert_eq(&changed.join("\n"));
 }
 
 #[test]

@@ -92,6 +92,30 @@ fn the_server_says_what_it_can_do() {
     let mut names: Vec<&str> = session.capabilities.as_object().unwrap().keys().map(String::as_str).collect();
     names.sort_unstable();
     expect_test::expect![[r#"
+        callHierarchyProvider
+        codeActionProvider
+        codeLensProvider
+        completionProvider
+        definitionProvider
+        documentFormattingProvider
+        documentHighlightProvider
+        documentLinkProvider
+        documentOnTypeFormattingProvider
+        documentRangeFormattingProvider
+        documentSymbolProvider
+        executeCommandProvider
+        foldingRangeProvider
+        hoverProvider
+        inlayHintProvider
+        positionEncoding
+        referencesProvider
+        renameProvider
+        selectionRangeProvider
+        semanticTokensProvider
+        signatureHelpProvider
+        textDocumentSync
+        workspace
+        workspaceSymbolProvider
     "#]]
     .assert_eq(&format!("{}\n", names.join("\n")));
     assert_eq!(session.capabilities["positionEncoding"], "utf-16");

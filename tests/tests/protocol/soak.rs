@@ -30,7 +30,9 @@ fn program() -> String {
         .collect();
     sized.sort();
     let real = sized.pop().and_then(|(_, path)| fs::read_to_string(path).ok());
-    real.unwrap_or_else(|| inputs::surfacing(3_000) + &inputs::macros(1_000))
+    let text = real.unwrap_or_else(|| inputs::surfacing(3_000) + &inputs::macros(1_000));
+    // This client knows one end of lines; the others have tests of their own.
+    text.replace("\r\n", "\n").replace('\r', "\n")
 }
 
 const PIECES: [&str; 22] = [
@@ -145,7 +147,9 @@ fn after_thousands_of_edits_the_server_knows_what_a_fresh_one_does() {
     version += 1;
     let change = mirror.random_edit(&mut dice, &PIECES);
     session.change("a.nc", version, &json!([change]));
-    assert_eq!(session.text("a.nc"), mirror.text);
+    let text = session.text("a.nc");
+    let same = text.bytes().zip(mirror.text.bytes()).take_while(|(a, b)| a == b).count();
+    assert!(text == mirror.text, "differs at {same} of {} and {} bytes", text.len(), mirror.text.len());
     let findings = session.published_whole("a.nc", version);
     let mut fresh = Session::with(&usual(), &[]);
     fresh.open("a.nc", &mirror.text);
