@@ -75,7 +75,11 @@ impl Open {
         self.snapshot.get_or_insert_with(new).clone()
     }
 
-    fn analyse(&mut self, storage: &mut Storage, stop: &dyn Fn() -> bool) -> Result<Arc<Analysis>, Cancelled> {
+    fn analyse(
+        &mut self,
+        storage: &mut Storage,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Arc<Analysis>, Cancelled> {
         if let Some(known) = &self.analysis {
             return Ok(Arc::clone(known));
         }

@@ -65,8 +65,10 @@ pub fn serve(
 ) -> std::io::Result<Ending> {
     let outbox = Arc::new(Outbox::new(output));
     let (mailbox, inbox) = mailbox();
-    let owner = Owner::new(host, Arc::clone(&outbox), mailbox.clone(), &inbox);
-    thread::Builder::new().name("owner".to_owned()).stack_size(STACK).spawn(move || owner.run(&inbox))?;
+    // Analyses that are kept between edits never leave the thread that makes them.
+    let (to_client, to_self) = (Arc::clone(&outbox), mailbox.clone());
+    let owner = move || Owner::new(host, to_client, to_self, &inbox).run(&inbox);
+    thread::Builder::new().name("owner".to_owned()).stack_size(STACK).spawn(owner)?;
 
     let (events, mut incoming) = channel(AHEAD);
     let gone = events.clone();
