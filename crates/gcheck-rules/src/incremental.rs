@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, LetterSet};
-use gcheck_engine::{FlowObserver, LookedUp, Model, Program};
+use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
 pub use chunk::{ChunkFacts, ChunkFindings};
@@ -348,12 +348,14 @@ impl Incremental {
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
-    /// an observer. `false` when nothing is known of the paths of the text as it is.
+    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when nothing is
+    /// known of the paths of the text as it is.
     pub fn show_again<O: FlowObserver>(
         &mut self,
         edited: &Edited<'_>,
         blocks: &Range<u32>,
         observer: &mut O,
+        then: impl FnOnce(&mut O, &mut Look<'_, '_>),
     ) -> bool {
         let Some(whole) = self.whole.clone() else { return false };
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
@@ -381,7 +383,11 @@ impl Incremental {
             layout: &self.layout,
             stop: edited.stop,
         };
-        let shown = self.paths.show_again(&ground, &edited.scene.machine.engine, blocks, observer);
+        let machine = &edited.scene.machine.engine;
+        let shown = self.paths.show_again(&ground, machine, blocks, observer);
+        if shown {
+            then(observer, &mut Look::new(&program, &model, machine));
+        }
         self.looked_up = program.into_looked_up();
         shown
     }
