@@ -117,7 +117,7 @@ fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
         .codes()
         .filter(|code| code.effect() == Effect::ProgramEnd && code.entry().ends == Some(Ends::Program));
     // `M30` where it does no more than that: it comes back to the head.
-    let codes: Vec<CodeNumber> = ends.map(|code| code.number()).collect();
+    let codes: Vec<CodeNumber> = ends.map(gcheck_controls::Code::number).collect();
     let code = codes.iter().find(|code| **code == CodeNumber::m(30)).or(codes.first())?;
     let text = cx.source.text();
     let rest = text.get(last.end as usize..)?;
