@@ -8,11 +8,11 @@ use std::ops::Range;
 
 use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, LetterSet, WordEntry, WordKind};
 use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Expr, Survey, Value, Word};
-use gcheck_syntax::{SourceText, SyntaxError};
+use gcheck_syntax::SyntaxError;
 
 use crate::suppression::Suppressions;
 use crate::writing::Writing;
-use crate::{Finding, Severity};
+use crate::{Finding, ProgramText, Severity};
 
 /// How a rule runs, by tier.
 pub enum Run {
@@ -342,8 +342,8 @@ fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
 pub struct FileCx<'a> {
     /// Control, machine, other programs.
     pub scene: Scene<'a>,
-    /// The file.
-    pub source: &'a SourceText,
+    /// The text.
+    pub text: &'a ProgramText<'a>,
     /// The part of the file that the control reads.
     pub region: Range<u32>,
     /// Labels, jumps, calls, loops, ends.
@@ -354,8 +354,8 @@ pub struct FileCx<'a> {
 
 impl<'a> FileCx<'a> {
     /// A file with its survey; `region` is the part that the control reads.
-    pub fn new(scene: Scene<'a>, source: &'a SourceText, region: Range<u32>, survey: &'a Survey) -> Self {
-        Self { scene, source, region, survey, writing: OnceCell::new() }
+    pub fn new(scene: Scene<'a>, text: &'a ProgramText<'a>, region: Range<u32>, survey: &'a Survey) -> Self {
+        Self { scene, text, region, survey, writing: OnceCell::new() }
     }
 
     /// How the file is written.
@@ -370,6 +370,6 @@ impl<'a> FileCx<'a> {
 
     /// Text of a range of the file.
     pub fn slice(&self, range: Range<u32>) -> &'a str {
-        self.source.text().get(range.start as usize..range.end as usize).unwrap_or_default()
+        self.text.slice(range)
     }
 }

@@ -77,9 +77,10 @@ impl FileCx<'_> {
 
     /// The line around a place, at most [`LINE`] bytes of it on either side.
     pub(crate) fn line_around(&self, place: Range<u32>) -> Range<u32> {
-        let text = self.source.text().as_bytes();
+        let (base, text) = self.text.around(place.start);
         let is_end = |byte: &&u8| matches!(byte, b'\n' | b'\r');
-        let (head, tail) = text.split_at_checked(place.start as usize).unwrap_or_default();
+        let inside = place.start.saturating_sub(base) as usize;
+        let (head, tail) = text.as_bytes().split_at_checked(inside).unwrap_or_default();
         let before = head.iter().rev().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
         let behind = tail.iter().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
         place.start - before..place.start + behind

@@ -139,6 +139,11 @@ pub struct DocExample {
 }
 
 impl RuleMeta {
+    /// Address of the rule's page.
+    pub fn page(&self) -> String {
+        format!("{}/blob/main/docs/rules/{}.md", env!("CARGO_PKG_REPOSITORY"), self.id)
+    }
+
     /// Is the rule in a set?
     pub fn is_in(&self, set: RuleSet) -> bool {
         self.other_sets.contains(&set) || set == RuleSet::Strict && self.recommended

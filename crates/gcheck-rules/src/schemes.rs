@@ -4,15 +4,18 @@
 
 use std::ops::Range;
 
+use crate::memory::remembers;
 use crate::{Finding, Fix};
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pairs {
     pairs: Vec<Pair>,
 }
 
-#[derive(Debug)]
+remembers!(Pairs: pairs);
+
+#[derive(Debug, Clone, PartialEq)]
 struct Pair {
     tool: u32,
     offset: u32,
@@ -20,6 +23,8 @@ struct Pair {
     /// The word that gives the offset by its number alone.
     word: Option<Range<u32>>,
 }
+
+remembers!(Pair: finding, word);
 
 /// What the other tools of the program do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,11 +37,16 @@ pub(crate) struct Scheme {
     owner: i64,
     /// How many tools follow it.
     followers: usize,
+    /// The program has that tool.
+    is_owned: bool,
 }
 
 impl Scheme {
     /// Whose the offset is: "the length offset of tool 2".
     pub(crate) fn label(&self, what: &str) -> String {
+        if !self.is_owned {
+            return format!("no tool of the program has this {what} by its number");
+        }
         format!("the {what} of tool {}", self.owner)
     }
 
@@ -58,6 +68,9 @@ impl Scheme {
         }
     }
 }
+
+/// So many tools with the offset of their own number make another number odd, whoever it belongs to.
+const MANY: usize = 3;
 
 /// More pairs than this say nothing clear.
 const MOST_PAIRS: usize = 1000;
@@ -82,8 +95,8 @@ impl Pairs {
         }
     }
 
-    /// The pairs that break the scheme which the other tools fix, and take another tool's offset. Their findings can be mended
-    /// where a word of this letter gives the offset.
+    /// The pairs that break the scheme which the other tools fix, and take another tool's offset, or one of no tool where
+    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset.
     pub(crate) fn take_odd(&mut self, letter: char) -> Vec<(Finding, Scheme)> {
         let Some((step, followers)) = self.step() else { return Vec::new() };
         let follows = |tool: u32| self.pairs.iter().any(|p| p.tool == tool && p.step() == step);
@@ -97,10 +110,16 @@ impl Pairs {
                 (
                     pair.tool,
                     pair.offset,
-                    Scheme { step, expected: i64::from(pair.tool) + step, owner, followers },
+                    Scheme {
+                        step,
+                        expected: i64::from(pair.tool) + step,
+                        owner,
+                        followers,
+                        is_owned: is_used(owner),
+                    },
                 )
             })
-            .filter(|(_, _, scheme)| is_used(scheme.owner))
+            .filter(|(_, _, scheme)| is_used(scheme.owner) || (step == 0 && followers >= MANY))
             .collect();
         let mut found = Vec::new();
         for pair in std::mem::take(&mut self.pairs) {

@@ -8,7 +8,7 @@ use std::ops::Range;
 use gcheck_controls::Unpointed;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::{BlockCx, Edit, FileCx, Finding, Fix, RuleMeta};
+use crate::{BlockCx, Edit, FileCx, Finding, Fix, ProgramText, RuleMeta};
 
 /// A thing that programs write in two ways.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -261,7 +261,9 @@ impl Odd<'_> {
 }
 
 /// The word around a place, with its bytes, for messages.
-pub(crate) fn word_around<'t>(text: &'t str, place: &Range<u32>) -> (Range<u32>, &'t str) {
+pub(crate) fn word_around<'t>(text: &ProgramText<'t>, place: &Range<u32>) -> (Range<u32>, &'t str) {
+    let (base, text) = text.around(place.start);
+    let place = place.start - base..place.end - base;
     let is_word = |c: &char| c.is_ascii_alphanumeric() || matches!(c, '.' | '+' | '-');
     let before = text.get(..place.start as usize).unwrap_or_default();
     let mut start = place.start as usize;
@@ -278,12 +280,13 @@ pub(crate) fn word_around<'t>(text: &'t str, place: &Range<u32>) -> (Range<u32>,
     let behind = text.get(place.end as usize..).unwrap_or_default();
     let number = |c: &char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
     let end = place.end as usize + behind.chars().take(32).take_while(number).count();
-    (start as u32..end as u32, text.get(start..end).unwrap_or_default())
+    (base + start as u32..base + end as u32, text.get(start..end).unwrap_or_default())
 }
 
 #[cfg(test)]
 mod tests {
     use super::{Habit, word_around};
+    use crate::ProgramText;
 
     #[test]
     fn the_rarer_way_is_odd_and_the_later_one_of_two_alike() {
@@ -301,9 +304,9 @@ mod tests {
 
     #[test]
     fn a_word_is_found_around_a_place_in_it() {
-        assert_eq!(word_around("N10 G01X-.5", &(5..6)), (4..7, "G01"));
-        assert_eq!(word_around("N10 G01X-.5", &(9..9)), (7..11, "X-.5"));
-        assert_eq!(word_around("S100M3", &(4..5)), (4..6, "M3"));
-        assert_eq!(word_around("", &(0..0)), (0..0, ""));
+        assert_eq!(word_around(&ProgramText::whole("N10 G01X-.5"), &(5..6)), (4..7, "G01"));
+        assert_eq!(word_around(&ProgramText::whole("N10 G01X-.5"), &(9..9)), (7..11, "X-.5"));
+        assert_eq!(word_around(&ProgramText::whole("S100M3"), &(4..5)), (4..6, "M3"));
+        assert_eq!(word_around(&ProgramText::whole(""), &(0..0)), (0..0, ""));
     }
 }

@@ -174,6 +174,24 @@ fn init_writes_a_configuration_that_is_valid() {
     assert_eq!(run.json()["files"][0]["control"]["source"], "configuration");
 }
 
+/// One line for all would be wrong for many of them.
+#[test]
+fn init_chooses_no_control_for_a_mixed_folder() {
+    let shop = Shop::with(&[
+        ("a.nc", "%\nO0001 (PART FOR HAAS VF-2)\nM30\n%\n"),
+        ("b.nc", "%\nO0002 (PART FOR HAAS VF-2)\nM30\n%\n"),
+        ("c.ngc", "o<sub> sub\n#<_x> = 1\no<sub> endsub\nM2\n"),
+    ]);
+    assert_eq!(shop.gcheck("init").code, 0);
+    let text = shop.read("gcheck.toml");
+    assert!(text.contains("# The programs here look like several: haas-mill (2), linuxcnc (1).\n"), "{text}");
+    assert!(text.contains("\n# control = \"haas-mill\"\n"), "{text}");
+    assert_eq!(
+        shop.gcheck("check --output-format json c.ngc").json()["files"][0]["control"]["source"],
+        "detected"
+    );
+}
+
 #[test]
 fn what_init_leaves_in_comments_is_valid_too() {
     for control in ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe", "linuxcnc", "generic-mill"] {

@@ -6,6 +6,7 @@ use gcheck_engine::{At, Fact, Role};
 use super::super::spindle::thread_at_surface_speed::is_thread;
 use super::compensation_left_on::is_on;
 use crate::boundary::LeftOn;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -45,12 +46,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationInThread {
     /// The block that switched on what was reported last.
     told: Option<At>,
 }
 
+remembers!(CompensationInThread: told);
+
 impl PathRule for CompensationInThread {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_on) && program.may(is_thread)
     }

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
 
@@ -47,12 +48,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationLeftOn {
     /// The block that switched on what was reported last.
     told: Option<At>,
 }
 
+remembers!(CompensationLeftOn: told);
+
 impl PathRule for CompensationLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             self.judge(cx, place, report);

@@ -3,6 +3,7 @@
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use super::compensation_left_on::is_on;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
 use crate::{FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -47,11 +48,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct DiameterOffsetOfAnotherTool {
     pairs: Pairs,
 }
 
+remembers!(DiameterOffsetOfAnotherTool: pairs);
+
 impl PathRule for DiameterOffsetOfAnotherTool {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(super::compensation_left_on::is_on)
     }

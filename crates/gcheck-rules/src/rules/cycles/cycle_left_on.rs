@@ -7,6 +7,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use super::cycle_words_lost::is_cycle;
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -63,13 +64,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleLeftOn {
     /// Blocks whose cycles were told of.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(CycleLeftOn: told);
+
 impl PathRule for CycleLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(end) = place(cx) else { return };
         let Some(LeftOn::Surely(code)) = cx.left_on(Role::Cycle, is_cycle) else { return };

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Role};
 
 use super::cycle_words_lost::is_cycle;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -41,11 +42,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CycleReturnNotStated {
     is_told: bool,
 }
 
+remembers!(CycleReturnNotStated);
+
 impl PathRule for CycleReturnNotStated {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_cycle)
     }

@@ -5,6 +5,7 @@ use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role};
 use gcheck_program::BlockFlags;
 
 use crate::boundary::is_before;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -45,10 +46,13 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct TappingFeedOffPitch {
     /// The tool change whose tool was told of.
     told: Option<At>,
 }
+
+remembers!(TappingFeedOffPitch: told);
 
 /// A holder that gives way is fed short by a few parts in a hundred.
 const SHORT: f64 = 0.93;
@@ -56,6 +60,10 @@ const SHORT: f64 = 0.93;
 const LONG: f64 = 1.03;
 
 impl PathRule for TappingFeedOffPitch {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_tapping)
     }

@@ -5,6 +5,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -51,12 +52,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct FiveAxisLengthLeftOn {
     /// The block that switched on what was reported last.
     told: Option<At>,
 }
 
+remembers!(FiveAxisLengthLeftOn: told);
+
 impl PathRule for FiveAxisLengthLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             let resets = place == Boundary::ProgramEnd && cx.end_resets(Role::Length);

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -53,12 +54,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ModalCallLeftOn {
     /// The block that began what was reported last.
     told: Option<At>,
 }
 
+remembers!(ModalCallLeftOn: told);
+
 impl PathRule for ModalCallLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::MacroModal)
     }

@@ -6,6 +6,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Cylinder, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -62,12 +63,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CylinderLeftOn {
     /// The block that began what was reported last.
     told: Option<At>,
 }
 
+remembers!(CylinderLeftOn: told);
+
 impl PathRule for CylinderLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(boundary) = cx.boundary() {
             self.judge(cx, Place::Boundary(boundary), report);

@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -44,11 +45,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct DistanceModeNotStated {
     is_done: bool,
 }
 
+remembers!(DistanceModeNotStated);
+
 impl PathRule for DistanceModeNotStated {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.first_move(cx, report);
     }

@@ -8,6 +8,7 @@ use gcheck_program::BlockFlags;
 
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -65,7 +66,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct IncrementalLeftOn {
     /// The work before was in positions.
     was_absolute: bool,
@@ -80,7 +81,13 @@ struct IncrementalLeftOn {
     has_moved: bool,
 }
 
+remembers!(IncrementalLeftOn: change, in_subprogram);
+
 impl PathRule for IncrementalLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::Incremental)
     }

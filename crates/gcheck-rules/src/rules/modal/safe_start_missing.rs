@@ -4,6 +4,7 @@ use gcheck_controls::{CodeNumber, Effect, LetterSet, Machine};
 use gcheck_engine::{Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -43,11 +44,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct SafeStartMissing {
     is_done: bool,
 }
 
+remembers!(SafeStartMissing);
+
 impl PathRule for SafeStartMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.first_move(cx, report);
     }

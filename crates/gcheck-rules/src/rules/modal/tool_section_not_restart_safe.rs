@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role};
 
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
 
@@ -52,11 +53,14 @@ declare_rule! {
 }
 
 /// A tool's part of the program, before its first cut.
+#[derive(Clone, PartialEq)]
 struct Section {
     finding: Finding,
     /// What was stated since the tool change.
     stated: Vec<Needed>,
 }
+
+remembers!(Section: finding);
 
 /// What a section needs to be told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -72,6 +76,7 @@ enum Needed {
     Coolant,
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolSectionNotRestartSafe {
     section: Option<Section>,
     sections: usize,
@@ -79,7 +84,13 @@ struct ToolSectionNotRestartSafe {
     has_coolant: bool,
 }
 
+remembers!(ToolSectionNotRestartSafe: section);
+
 impl PathRule for ToolSectionNotRestartSafe {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.boundary() != Some(Boundary::ToolChange) {
             return;

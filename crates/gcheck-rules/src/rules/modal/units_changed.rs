@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Role, Units};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -41,12 +42,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct UnitsChanged {
     has_moved: bool,
     is_told: bool,
 }
 
+remembers!(UnitsChanged);
+
 impl PathRule for UnitsChanged {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::Inch) && program.may(|effect| effect == Effect::Millimetre)
     }

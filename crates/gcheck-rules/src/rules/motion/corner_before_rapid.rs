@@ -5,6 +5,7 @@ use std::ops::Range;
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Event, TravelKind};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -42,12 +43,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CornerBeforeRapid {
     /// The corner that waits for its second move: its word.
     corner: Option<Range<u32>>,
 }
 
+remembers!(CornerBeforeRapid: corner);
+
 impl PathRule for CornerBeforeRapid {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.survey.letters.intersects(corners())
     }

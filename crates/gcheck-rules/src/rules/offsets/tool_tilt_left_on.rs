@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -40,12 +41,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolTiltLeftOn {
     /// By frame: the block that switched on what was reported last.
     told: [Option<At>; 3],
 }
 
+remembers!(ToolTiltLeftOn: told);
+
 impl PathRule for ToolTiltLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             self.judge(cx, place, report);

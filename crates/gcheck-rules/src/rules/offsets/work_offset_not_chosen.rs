@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -43,11 +44,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct WorkOffsetNotChosen {
     is_done: bool,
 }
 
+remembers!(WorkOffsetNotChosen);
+
 impl PathRule for WorkOffsetNotChosen {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;

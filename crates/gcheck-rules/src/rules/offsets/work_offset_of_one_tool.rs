@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::whole;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch, work_offset_name};
@@ -56,16 +57,22 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Clone, Default, PartialEq)]
 struct WorkOffsetOfOneTool {
     /// Tools with the offsets that they cut in, each with the finding to make of it if it is odd.
     pairs: Vec<(u32, u16, Finding)>,
 }
 
+remembers!(WorkOffsetOfOneTool: pairs);
+
 /// More pairs than this say nothing clear.
 const MOST_PAIRS: usize = 500;
 
 impl PathRule for WorkOffsetOfOneTool {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_)))
     }

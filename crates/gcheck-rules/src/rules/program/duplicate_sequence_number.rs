@@ -88,7 +88,8 @@ fn without_numbers<'l>(cx: &FileCx<'_>, again: impl Iterator<Item = &'l Label>) 
     let again = again.filter(|label| !targets.contains(&label.number)).take(MOST_NUMBERS);
     let edits: Vec<Edit> = again
         .map(|label| {
-            let rest = cx.source.text().get(label.range.end as usize..).unwrap_or_default();
+            let (base, text) = cx.text.around(label.range.end);
+            let rest = text.get((label.range.end - base) as usize..).unwrap_or_default();
             let blanks = rest.len() - rest.trim_start_matches([' ', '\t']).len();
             Edit { range: label.range.start..label.range.end + blanks as u32, text: String::new() }
         })

@@ -91,10 +91,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 
 /// More than the program's number: a block with a `G` or `M` code.
 fn has_code(cx: &FileCx<'_>, section: &Section<'_>) -> bool {
-    let start = section.number.map_or(section.range.start, |n| n.range.end) as usize;
-    let text = cx.source.text().get(start..section.range.end as usize).unwrap_or_default();
+    let (start, end) = (section.number.map_or(section.range.start, |n| n.range.end), section.range.end);
+    let pieces = cx.text.from(start).take_while(|(from, _)| *from < end);
+    let lines = pieces.flat_map(|(from, piece)| {
+        let inside = ((end - from) as usize).min(piece.len());
+        piece.get(..inside).unwrap_or_default().lines()
+    });
     // Comments may hold anything; it is enough that some line is more than a comment.
-    text.lines().skip(usize::from(section.number.is_some())).any(|line| {
+    lines.skip(usize::from(section.number.is_some())).any(|line| {
         let line = line.trim_start();
         line.starts_with(|c: char| c.is_ascii_alphabetic() || c == '#' || c == '/')
     })
@@ -119,11 +123,11 @@ fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
     // `M30` where it does no more than that: it comes back to the head.
     let codes: Vec<CodeNumber> = ends.map(gcheck_controls::Code::number).collect();
     let code = codes.iter().find(|code| **code == CodeNumber::m(30)).or(codes.first())?;
-    let text = cx.source.text();
-    let rest = text.get(last.end as usize..)?;
+    let (base, text) = cx.text.around(last.end);
+    let rest = text.get((last.end - base) as usize..)?;
     let line_end = line_end(rest);
     let behind = last.end + gcheck_syntax::line_len(rest.as_bytes()) as u32;
-    let is_open = !text.get(..behind as usize)?.ends_with(['\n', '\r']);
+    let is_open = !text.get(..(behind - base) as usize)?.ends_with(['\n', '\r']);
     let before = if is_open { line_end } else { "" };
     let title = format!("end the program with `{code}`");
     Some(Fix::risky(title, behind..behind, format!("{before}{code}{line_end}")))

@@ -42,9 +42,9 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
-    if crate::sections::is_tape_mark_line(cx.source.text(), mark) {
+    if crate::sections::is_tape_mark_line(cx, mark) {
         let opens = mark.start < first.start;
-        report.add(finding(mark.clone(), opens).fix(pair(cx.source.text(), opens)));
+        report.add(finding(mark.clone(), opens).fix(pair(cx, opens)));
     }
 }
 
@@ -57,12 +57,14 @@ fn finding(mark: Range<u32>, opens: bool) -> Finding {
 }
 
 /// The other mark, on a line of its own.
-fn pair(text: &str, opens: bool) -> Fix {
+fn pair(cx: &FileCx<'_>, opens: bool) -> Fix {
+    let end = cx.text.len();
+    let (_, text) = cx.text.around(if opens { end } else { 0 });
     if !opens {
         let head = if text.starts_with('\u{FEFF}') { '\u{FEFF}'.len_utf8() as u32 } else { 0 };
         return Fix::risky("put `%` at the beginning", head..head, format!("%{}", line_end(text)));
     }
-    let (end, line_end) = (text.len() as u32, line_end(text));
+    let line_end = line_end(text);
     let before = if text.ends_with(['\n', '\r']) { "" } else { line_end };
     Fix::risky("put `%` at the end", end..end, format!("{before}%{line_end}"))
 }

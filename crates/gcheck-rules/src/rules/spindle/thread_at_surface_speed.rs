@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -41,12 +42,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ThreadAtSurfaceSpeed {
     /// The block that set the mode where it was reported last.
     told: Option<At>,
 }
 
+remembers!(ThreadAtSurfaceSpeed: told);
+
 impl PathRule for ThreadAtSurfaceSpeed {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::SurfaceSpeed) && program.may(is_thread)
     }

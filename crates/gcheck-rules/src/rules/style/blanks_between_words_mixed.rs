@@ -38,9 +38,8 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(odd) = cx.writing().habit(Question::Blank).odd() else { return };
     let Some(first) = odd.places.first() else { return };
-    let text = cx.source.text();
-    let (_, before) = word_around(text, &(first.start.saturating_sub(1)..first.start));
-    let (behind, word) = word_around(text, &(first.end..first.end + 1));
+    let (_, before) = word_around(cx.text, &(first.start.saturating_sub(1)..first.start));
+    let (behind, word) = word_around(cx.text, &(first.end..first.end + 1));
     let place = first.start - before.len() as u32..behind.end;
     let (found, others, blank) =
         if odd.is_long { ("apart", "run together", "") } else { ("run together", "set apart", " ") };

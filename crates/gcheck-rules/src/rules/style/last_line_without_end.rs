@@ -34,15 +34,15 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let text = cx.source.text();
+    let end = cx.text.len();
+    let (base, text) = cx.text.around(end);
     let start = text.rfind(['\n', '\r']).map_or(0, |at| at + 1);
     let last = text.get(start..).unwrap_or_default();
     if last.trim_matches([' ', '\t', '\0', '\u{FEFF}', '\u{1A}']).is_empty() {
         return;
     }
-    let end = text.len() as u32;
     report.add(
-        Finding::new(&META, start as u32..end, "last line has no end")
+        Finding::new(&META, base + start as u32..end, "last line has no end")
             .label("the end of the block is missing")
             .help("end the line")
             .fix(Fix::safe("end the line", end..end, line_end(text))),

@@ -41,7 +41,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for question in [Question::ZeroInG, Question::ZeroInM] {
         let Some(odd) = cx.writing().habit(question).odd() else { continue };
         let Some(first) = odd.places.first() else { continue };
-        let (place, word) = word_around(cx.source.text(), first);
+        let (place, word) = word_around(cx.text, first);
         let others = if odd.is_long { "without" } else { "with" };
         let message = format!("`{word}` among codes {others} a leading zero");
         report.add(odd.finding(&META, place, message, |_| zero(odd.is_long)));

@@ -38,7 +38,7 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(odd) = cx.writing().habit(Question::Capital).odd() else { return };
     let Some(first) = odd.places.first() else { return };
-    let (place, word) = word_around(cx.source.text(), &(first.end..first.end));
+    let (place, word) = word_around(cx.text, &(first.end..first.end));
     let (found, others) =
         if odd.is_long { ("a capital", "small letters") } else { ("a small letter", "capitals") };
     let message = format!("`{word}` with {found} among {others}");

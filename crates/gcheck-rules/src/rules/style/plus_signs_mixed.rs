@@ -40,7 +40,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         return;
     }
     let Some(first) = odd.places.first() else { return };
-    let (place, word) = word_around(cx.source.text(), first);
+    let (place, word) = word_around(cx.text, first);
     let message = format!("`{word}` among numbers without a plus sign");
     report.add(odd.finding(&META, place, message, |_| String::new()));
 }

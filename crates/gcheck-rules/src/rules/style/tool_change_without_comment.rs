@@ -80,8 +80,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 fn is_described(cx: &FileCx<'_>, block: &Range<u32>) -> bool {
     let own = cx.line_around(block.clone());
     let above = cx.line_around(own.start.saturating_sub(1)..own.start.saturating_sub(1));
-    let text = cx.source.text().as_bytes();
-    let behind = text.get(own.end as usize..).unwrap_or_default();
+    let (base, text) = cx.text.around(own.end);
+    let behind = text.as_bytes().get((own.end - base) as usize..).unwrap_or_default();
     let next =
         own.end + behind.iter().take(2).take_while(|byte| matches!(byte, b'\n' | b'\r')).count() as u32;
     let below = cx.line_around(next..next);

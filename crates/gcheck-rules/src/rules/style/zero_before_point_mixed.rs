@@ -38,7 +38,7 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(odd) = cx.writing().habit(Question::ZeroBeforePoint).odd() else { return };
     let Some(first) = odd.places.first() else { return };
-    let (place, word) = word_around(cx.source.text(), first);
+    let (place, word) = word_around(cx.text, first);
     let others = if odd.is_long { "without" } else { "with" };
     let message = format!("`{word}` among numbers {others} a zero before the point");
     let zero = if odd.is_long { "" } else { "0" };

@@ -37,7 +37,7 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(odd) = cx.writing().habit(Question::ZeroBehindPoint).odd() else { return };
     let Some(first) = odd.places.first() else { return };
-    let (place, word) = word_around(cx.source.text(), first);
+    let (place, word) = word_around(cx.text, first);
     let others = if odd.is_long { "without" } else { "with" };
     let message = format!("`{word}` among whole numbers {others} a zero behind the point");
     let zero = if odd.is_long { "" } else { "0" };

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -52,6 +53,7 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct LengthCancelledBeforeCut {
     /// The tool change whose tool has cut with its length in effect.
     worked: Option<At>,
@@ -59,7 +61,13 @@ struct LengthCancelledBeforeCut {
     told: Option<At>,
 }
 
+remembers!(LengthCancelledBeforeCut: worked, told);
+
 impl PathRule for LengthCancelledBeforeCut {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus))
     }

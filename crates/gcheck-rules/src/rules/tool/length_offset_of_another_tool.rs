@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::boundary::is_before;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
 use crate::{FinishCx, PathCx, PathRule, Report, Run, Watch};
@@ -60,11 +61,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct LengthOffsetOfAnotherTool {
     pairs: Pairs,
 }
 
+remembers!(LengthOffsetOfAnotherTool: pairs);
+
 impl PathRule for LengthOffsetOfAnotherTool {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
         let is_on =

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -50,12 +51,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolChangeWithoutStop {
     /// The tool has cut since the last stop.
     has_cut: bool,
 }
 
+remembers!(ToolChangeWithoutStop);
+
 impl PathRule for ToolChangeWithoutStop {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let stops = |effect| matches!(effect, Effect::Stop | Effect::OptionalStop | Effect::PalletStop);
         if cx.has_effect(stops) {

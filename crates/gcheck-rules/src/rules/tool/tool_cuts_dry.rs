@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Coolant, Event};
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -55,7 +56,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Clone, Default, PartialEq)]
 struct ToolCutsDry {
     /// Mist, flood, through the tool.
     on: [bool; 3],
@@ -65,7 +66,13 @@ struct ToolCutsDry {
     dry: Vec<Finding>,
 }
 
+remembers!(ToolCutsDry: dry);
+
 impl PathRule for ToolCutsDry {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn))
     }
