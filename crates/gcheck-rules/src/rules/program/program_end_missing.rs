@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Effect;
+use gcheck_controls::{CodeNumber, Effect, Ends};
 use gcheck_program::OKeyword;
 
 use crate::mending::line_end;
@@ -116,9 +116,13 @@ fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> 
 
 /// An end of the program on the line below the last block.
 fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
-    let ends = cx.control().codes().filter(|code| code.effect() == Effect::ProgramEnd);
-    // `M30` where there is one: it comes back to the head.
-    let code = ends.max_by_key(|code| code.number())?.number();
+    let ends = cx
+        .control()
+        .codes()
+        .filter(|code| code.effect() == Effect::ProgramEnd && code.entry().ends == Some(Ends::Program));
+    // `M30` where it does no more than that: it comes back to the head.
+    let codes: Vec<CodeNumber> = ends.map(gcheck_controls::Code::number).collect();
+    let code = codes.iter().find(|code| **code == CodeNumber::m(30)).or(codes.first())?;
     let (base, text) = cx.text.around(last.end);
     let rest = text.get((last.end - base) as usize..)?;
     let line_end = line_end(rest);
@@ -134,7 +138,18 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    #[test]
+    fn the_fix_ends_the_program_below_its_last_block() {
+        let mended = |control: &str, program: &str| {
+            let found = findings(&Selection::only(&RULE), control, program, &World::default());
+            found.iter().map(|finding| fixed(program, finding)).collect::<String>()
+        };
+        assert_eq!(mended("haas-lathe", "%\r\nO1\r\nG0 X1.\r\n%\r\n"), "%\r\nO1\r\nG0 X1.\r\nM30\r\n%\r\n");
+        assert_eq!(mended("haas-mill", "O1\nG0 X1. (END)"), "O1\nG0 X1. (END)\nM30\n");
+    }
 
     #[test]
     fn each_program_of_a_file_needs_its_end() {

@@ -81,7 +81,7 @@ impl PathRule for LengthCancelledBeforeCut {
         let Some(changed) = changed else { return };
         match cx.state().effect(Role::Length, cx.model) {
             Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
-                self.worked = Some(changed)
+                self.worked = Some(changed);
             }
             Some(Effect::LengthOff) if self.worked == Some(changed) && goes_into_the_part(event) => {
                 let Some(cancelled) = cx.trace().set_by(fact).filter(|at| self.told != Some(*at)) else {
