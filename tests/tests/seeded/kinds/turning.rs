@@ -8,7 +8,8 @@ use crate::kind::{Fear, Kind};
 use crate::program::{Block, Program, Word};
 
 const ROUGHING: [Effect; 3] = [Effect::RoughAlongZ, Effect::RoughAlongX, Effect::RepeatPattern];
-const PROFILE: &[&str] = &["turning-profile-not-usable", "jump-target-missing"];
+const PROFILE: &[&str] =
+    &["turning-profile-not-usable", "turning-profile-first-block", "turning-profile-turns-back", "jump-target-missing"];
 
 /// The block that begins the profile of a roughing cycle.
 fn profile<'p>(p: &'p Program, cycle: &Block) -> Option<&'p Block> {
@@ -88,7 +89,7 @@ pub(super) const KINDS: &[Kind] = &[
         PROFILE,
         |p| p.each(|block| {
             let first = profile(p, block)?;
-            let word = first.code(&[Effect::Rapid, Effect::Linear, "turning-profile-first-block"])?;
+            let word = first.code(&[Effect::Rapid, Effect::Linear])?;
             Some(p.without(word))
         }),
     )
