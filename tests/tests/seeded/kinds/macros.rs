@@ -86,6 +86,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["missing-operand", "unclosed-bracket", "stray-bracket", "address-without-value", "assignment-without-equals", "condition-missing", "expression-needs-brackets", "function-unknown", "unexpected-text", "nested-comment"],
         |p| {
             p.each(|block| {
+                let plain = !block.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::OWord { .. }));
+                plain.then_some(())?;
                 let words = &p.text[block.range.start..block.end_of_words()];
                 let (open, close) = (words.find('[')?, words.rfind(']')?);
                 let one = words.matches('[').count() == 1 && words.matches(']').count() == 1 && open < close;
@@ -153,7 +155,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let name = text.split('=').next()?.trim_end();
                 let number: u32 = name.strip_prefix('#')?.parse().ok()?;
                 let fits = (100..200).contains(&number) && !p.is_for(&["fanuc"]);
-                fits.then(|| vec![Edit { range: range.start..range.start + name.len(), text: format!("#{number}99") }])
+                fits.then(|| vec![Edit { range: range.start..range.start + name.len(), text: format!("#{number}9999") }])
             })
         },
     ),

@@ -192,7 +192,7 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-per-minute-on-a-lathe",
         Fear::Scrap,
         "feed a minute (`G98`) is on while the numbers are feed a turn",
-        &["feed-of-another-mode"],
+        &["feed-of-another-mode", "feed-implausible"],
         |p| p.each(|block| block.code(&[Effect::FeedPerRevolution]).filter(|_| p.is_lathe()).map(|word| p.instead(word, "G98"))),
     )
     .anywhere(),

@@ -117,7 +117,7 @@ pub(super) const KINDS: &[Kind] = &[
         "letter-lost",
         Fear::Alarm,
         "the letter in front of a value is lost (`5.25` for `X5.25`)",
-        &["value-without-address", "malformed-number", "decimal-point-on-integer", "unexpected-text", "unknown-code", "too-many-digits", "expression-needs-brackets"],
+        &["value-without-address", "malformed-number", "decimal-point-on-integer", "unexpected-text", "unknown-code", "too-many-digits", "expression-needs-brackets", "units-changed"],
         |p| literals(p, b"XYZF", |_, word| Some(p.instead(word, digits(p, word)).into())),
     ),
     Kind::new(
