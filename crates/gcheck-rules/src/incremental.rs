@@ -26,7 +26,7 @@ pub use paths::Work;
 use paths::{Broken, Ground, Paths};
 
 use crate::check::{Collector, Omitted, Plan, Remarks, check_file, conclude, switch_positions};
-use crate::evidence::SCANNED_BYTES;
+use crate::evidence::EVIDENCE_BYTES;
 use crate::paths::SceneLibrary;
 use crate::{Execution, Outcome, ProgramText, Scene, Selection};
 
@@ -231,7 +231,7 @@ impl Incremental {
             }
         }
         // The head of a large file is as it was most of the time.
-        let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= SCANNED_BYTES as u32;
+        let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= EVIDENCE_BYTES as u32;
         let head: Vec<Arc<str>> =
             whole.starts.iter().zip(edited.chunks).take_while(is_head).map(|(_, c)| Arc::clone(c)).collect();
         let mut text = ProgramText::chunks(edited.chunks);
