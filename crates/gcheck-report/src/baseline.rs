@@ -97,7 +97,7 @@ impl Baseline {
             return Err(Malformed {
                 reason: format!("is of version {}; this gcheck reads version {VERSION}", form.version),
                 line: 1,
-                help: WRITE_ANEW,
+                help: "use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`",
             });
         }
         let mut baseline = Self::default();
