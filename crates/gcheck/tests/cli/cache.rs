@@ -235,6 +235,8 @@ fn the_environment_names_the_folder_and_a_flag_wins() {
     let cache = [("GCHECK_CACHE", ".cache/gcheck")];
     shop.gcheck_with(&cache, "check --control haas-mill --no-cache");
     assert!(!shop.path(".cache").exists());
+    let run = shop.gcheck_with(&[("GCHECK_CACHE", "")], "check --control haas-mill");
+    assert!(run.code == 1 && !shop.path(".cache").exists(), "{run}");
     shop.gcheck_with(&cache, "check --control haas-mill");
     assert_eq!(entries(&shop).len(), 5);
 }
