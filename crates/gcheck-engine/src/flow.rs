@@ -11,14 +11,19 @@
 //! Observers see every block once for each stretch with its final state: what happens between a fork and its end is executed
 //! silently until nothing changes, then shown.
 
+mod checkpoint;
+mod marks;
 mod trace;
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
-pub use trace::{Decision, Fact, Trace};
+pub use checkpoint::{Checkpoint, Leg};
+use marks::Marks;
+pub use trace::{Decision, Fact, Facts, Trace};
 
 use crate::assumption::Assumption;
 use crate::event::Event;
@@ -81,6 +86,22 @@ pub trait FlowObserver {
     fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
         let _ = (cx, head);
     }
+
+    /// Is it to be told of [checkpoints](FlowObserver::checkpoint)?
+    fn wants_checkpoints(&self) -> bool {
+        false
+    }
+
+    /// The analysis can be taken up here another time; `leg` is what it did since the last such place. `false` ends it here.
+    fn checkpoint(&mut self, leg: Leg, checkpoint: Checkpoint) -> bool {
+        let _ = (leg, checkpoint);
+        true
+    }
+
+    /// Asked now and then: is the analysis to be given up?
+    fn stops(&mut self) -> bool {
+        false
+    }
 }
 
 /// Whether a block can be reached.
@@ -97,7 +118,7 @@ pub enum Reach {
 }
 
 /// What the analysis of all paths leaves.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct FlowResult {
     reached: Marks,
     always: Marks,
@@ -127,51 +148,23 @@ impl FlowResult {
     pub fn first_unreached(&self, from: At) -> At {
         self.reached.first_missing(from)
     }
-}
 
-/// A set of blocks: by file, a bit a block.
-#[derive(Debug, Default)]
-struct Marks(Vec<Vec<u64>>);
-
-impl Marks {
-    fn contains(&self, at: At) -> bool {
-        let word = self.0.get(at.file as usize).and_then(|set| set.get((at.block / 64) as usize));
-        word.is_some_and(|word| word & (1 << (at.block % 64)) != 0)
-    }
-
-    fn insert(&mut self, at: At) {
-        let (file, index) = (at.file as usize, (at.block / 64) as usize);
-        if self.0.len() <= file {
-            self.0.resize_with(file + 1, Vec::new);
-        }
-        let Some(set) = self.0.get_mut(file) else { return };
-        if set.len() <= index {
-            set.resize(index + 1, 0);
-        }
-        if let Some(word) = set.get_mut(index) {
-            *word |= 1 << (at.block % 64);
+    /// Takes in what a leg did but for what it reached.
+    pub fn add_leg(&mut self, blocks: u64, out_of_fuel: bool, assumptions: &BTreeSet<Assumption>) {
+        self.blocks += blocks;
+        self.out_of_fuel |= out_of_fuel;
+        if !self.assumptions.is_superset(assumptions) {
+            self.assumptions.extend(assumptions.iter().cloned());
         }
     }
 
-    /// The blocks from `from` to before `to`, which stands in the same file.
-    fn insert_all(&mut self, from: At, to: At) {
-        for block in from.block..to.block {
-            self.insert(At { block, ..from });
+    /// The blocks from `from` to before `to`, which stands in the same file, were reached; by every path when `always`.
+    pub fn reach_all(&mut self, from: At, to: u32, always: bool) {
+        let to = At { block: to, ..from };
+        self.reached.insert_all(from, to);
+        if always {
+            self.always.insert_all(from, to);
         }
-    }
-
-    fn first_missing(&self, from: At) -> At {
-        let set = self.0.get(from.file as usize).map_or(&[][..], Vec::as_slice);
-        let mut block = from.block;
-        while let Some(word) = set.get((block / 64) as usize) {
-            // The bits in front of the block count as set.
-            let missing = !(word | ((1 << (block % 64)) - 1));
-            if missing != 0 {
-                return At { block: block / 64 * 64 + missing.trailing_zeros(), ..from };
-            }
-            block = (block / 64 + 1) * 64;
-        }
-        At { block, ..from }
     }
 }
 
@@ -241,6 +234,9 @@ pub const MOST_EXACT_TURNS: u32 = 10_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
 
+/// Blocks between two questions whether the analysis is to be given up.
+const ASKED_EVERY: u64 = 8192;
+
 /// Analyses all paths of a program, executing at most `fuel` blocks.
 pub fn flow<O: FlowObserver>(
     program: &Program<'_>,
@@ -250,6 +246,28 @@ pub fn flow<O: FlowObserver>(
     fuel: u64,
     observer: &mut O,
 ) -> FlowResult {
+    let leg = flow_from(program, model, machine, options, fuel, None, observer);
+    FlowResult {
+        reached: leg.reached,
+        always: leg.always,
+        out_of_fuel: leg.out_of_fuel,
+        blocks: leg.blocks,
+        assumptions: leg.assumptions,
+    }
+}
+
+/// Analyses all paths from a checkpoint on, or from the beginning, executing at most `fuel` blocks: what was done since the
+/// last checkpoint that the observer was told of.
+pub fn flow_from<O: FlowObserver>(
+    program: &Program<'_>,
+    model: &Model<'_>,
+    machine: &Machine,
+    options: Options,
+    fuel: u64,
+    from: Option<Checkpoint>,
+    observer: &mut O,
+) -> Leg {
+    let offers = observer.wants_checkpoints();
     let shown = Shown {
         observer,
         model,
@@ -261,36 +279,43 @@ pub fn flow<O: FlowObserver>(
     };
     let mut executor = Executor::new(program, model, machine, options, shown);
     executor.lenient = true;
-    let state = start_state::<Abstract>(model, machine, &mut executor.assumptions);
-    let at = At { file: 0, block: 0 };
+    let from = from.unwrap_or_else(|| Checkpoint {
+        at: At { file: 0, block: 0 },
+        state: start_state::<Abstract>(model, machine, &mut executor.assumptions),
+        trace: Trace::default(),
+        parted: false,
+    });
+    let Checkpoint { at, state, trace, parted } = from;
+    trace.begin_leg();
+    let facts = trace.clone();
     let mut flow = Flow {
+        chunk: executor.chunk_of(at.block),
         executor,
         fuel,
         blocks: 0,
+        asked_at: 0,
         forks: 0,
-        parted: false,
-        pending: vec![Pending { key: Key::of(at, &state), state, trace: Trace::default() }],
+        parted,
+        pending: vec![Pending { key: Key::of(at, &state), state, trace }],
         met: FxHashMap::default(),
         order: Vec::new(),
         heads: FxHashMap::default(),
-        result: FlowResult {
-            reached: Marks::default(),
-            always: Marks::default(),
-            out_of_fuel: false,
-            blocks: 0,
-            assumptions: BTreeSet::new(),
-        },
+        offers,
+        last_offer: at.block,
+        leg: Leg::default(),
+        leg_began: 0,
+        stopped: false,
     };
     flow.explore();
-    flow.result.blocks = flow.blocks;
-    flow.result.assumptions = flow.executor.assumptions;
-    flow.result
+    flow.end_leg(&facts)
 }
 
 struct Flow<'a, 'p, 'o, O: FlowObserver> {
     executor: Executor<'a, 'p, Abstract, Shown<'a, 'o, O>>,
     fuel: u64,
     blocks: u64,
+    /// How many blocks were executed when the observer was asked last whether to go on.
+    asked_at: u64,
     forks: u64,
     /// A path ended while others went on: what comes is no longer on every path.
     parted: bool,
@@ -299,7 +324,17 @@ struct Flow<'a, 'p, 'o, O: FlowObserver> {
     /// Keys of `met` in the order in which they were met.
     order: Vec<Key>,
     heads: FxHashMap<Key, Head>,
-    result: FlowResult,
+    /// The observer is told of checkpoints.
+    offers: bool,
+    /// Blocks of the chunk of the main file that is executed alone.
+    chunk: Range<u32>,
+    /// The block of the last checkpoint.
+    last_offer: u32,
+    leg: Leg,
+    /// How many blocks were executed when the leg began.
+    leg_began: u64,
+    /// The observer said that this is enough.
+    stopped: bool,
 }
 
 /// What a stretch of blocks came to.
@@ -308,6 +343,8 @@ enum Stretch {
     Done,
     /// The fuel is gone.
     OutOfFuel,
+    /// The observer wants no more.
+    Stopped,
 }
 
 impl<O: FlowObserver> Flow<'_, '_, '_, O> {
@@ -320,20 +357,73 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             } else {
                 self.among_others(next)
             };
-            if let Stretch::OutOfFuel = stretch {
-                self.result.out_of_fuel = true;
-                self.show_met(None);
-                return;
+            match stretch {
+                Stretch::Done if self.stopped => return,
+                Stretch::Done => {}
+                Stretch::Stopped => {
+                    self.stopped = true;
+                    return;
+                }
+                Stretch::OutOfFuel => {
+                    self.leg.out_of_fuel = true;
+                    self.show_met(None);
+                    return;
+                }
             }
         }
         self.show_met(None);
+    }
+
+    /// Is this the end, because the observer wants no more? Asked once in many blocks.
+    fn is_stopped(&mut self) -> bool {
+        if self.blocks - self.asked_at >= ASKED_EVERY {
+            self.asked_at = self.blocks;
+            self.stopped |= self.executor.observer.observer.stops();
+        }
+        self.stopped
+    }
+
+    /// Execution has left the chunk. `false`: the observer wants no more.
+    fn enter_chunk(&mut self, at: At, state: &State<Abstract>) -> bool {
+        self.chunk = self.executor.chunk_of(at.block);
+        let may_offer = self.offers
+            && at.block == self.chunk.start
+            && state.is_in_main_program_alone()
+            && self.executor.file(0).is_some_and(|file| file.loaded.outline().is_passed_for_good(at.block));
+        if !may_offer {
+            return true;
+        }
+        // Nothing leads back here: what loops in front looked like is of no use any more.
+        self.heads.clear();
+        self.last_offer = at.block;
+        let leg = self.end_leg(&self.executor.observer.trace.clone());
+        self.executor.observer.trace.begin_leg();
+        let trace = self.executor.observer.trace.clone();
+        let checkpoint = Checkpoint { at, state: state.clone(), trace, parted: self.parted };
+        self.executor.observer.observer.checkpoint(leg, checkpoint)
+    }
+
+    /// What was done since the last checkpoint. `trace` is the one under way, or shares its notes.
+    fn end_leg(&mut self, trace: &Trace) -> Leg {
+        let mut leg = std::mem::take(&mut self.leg);
+        leg.blocks = self.blocks - self.leg_began;
+        self.leg_began = self.blocks;
+        leg.assumptions = std::mem::take(&mut self.executor.assumptions);
+        leg.stopped = self.stopped;
+        (leg.asked, leg.set) = trace.notes();
+        leg
+    }
+
+    /// Execution goes to a block of the main program: not back over a checkpoint, which the text excludes.
+    fn note_way(&mut self, to: At, state: &State<Abstract>) {
+        self.leg.went_back |= to.file == 0 && to.block < self.last_offer && state.frames().len() == 1;
     }
 
     fn step(&mut self, at: At, state: &mut State<Abstract>) -> Outcome<Abstract> {
         self.executor.observer.stepping = Some(at);
         let outcome = self.executor.step(at, state);
         for also in std::mem::take(&mut self.executor.observer.also) {
-            self.result.reached.insert(also);
+            self.leg.reached.insert(also);
         }
         outcome
     }
@@ -357,19 +447,26 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.executor.observer.muted = false;
         loop {
             at = self.move_on(at, &mut state);
+            if at.file == 0 && !self.chunk.contains(&at.block) && !self.enter_chunk(at, &state) {
+                return Stretch::Stopped;
+            }
             if self.blocks >= self.fuel {
                 return Stretch::OutOfFuel;
             }
+            if self.is_stopped() {
+                return Stretch::Stopped;
+            }
             self.blocks += 1;
-            self.result.reached.insert(at);
+            self.leg.reached.insert(at);
             if !self.parted {
-                self.result.always.insert(at);
+                self.leg.always.insert(at);
             }
             match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(to) => {
                     let back = to.file == at.file && to.block <= at.block;
                     at = to;
+                    self.note_way(to, &state);
                     if back && !self.turn(at, &mut state) {
                         return Stretch::Done;
                     }
@@ -405,9 +502,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             self.blocks += 1;
             at = at.next();
         }
-        self.result.reached.insert_all(from, at);
+        self.leg.reached.insert_all(from, at);
         if !self.parted {
-            self.result.always.insert_all(from, at);
+            self.leg.always.insert_all(from, at);
         }
         at
     }
@@ -430,7 +527,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             let gives_up = head.visits > MOST_EXACT_TURNS + MOST_VISITS
                 || head.visits <= MOST_EXACT_TURNS && head.visits > MOST_VISITS;
             if joined == head.state || gives_up {
-                self.result.out_of_fuel |= gives_up;
+                self.leg.out_of_fuel |= gives_up;
                 if never_parts && !gives_up {
                     // Whatever the turn, no condition leads out.
                     let origin = self.executor.origin();
@@ -467,8 +564,11 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             if self.blocks >= self.fuel {
                 return Stretch::OutOfFuel;
             }
+            if self.is_stopped() {
+                return Stretch::Stopped;
+            }
             self.blocks += 1;
-            self.result.reached.insert(at);
+            self.leg.reached.insert(at);
             let next = match self.step(at, &mut state) {
                 Outcome::Jump(to) => {
                     let trace = self.executor.observer.trace.clone();
@@ -526,11 +626,12 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
 
     /// A state comes to a block: it waits there, joined with what came before.
     fn arrive(&mut self, at: At, state: State<Abstract>, trace: Trace) {
+        self.note_way(at, &state);
         let key = Key::of(at, &state);
         let item = match self.met.get_mut(&key) {
             None => {
                 if self.pending.len() >= MOST_PENDING {
-                    self.result.out_of_fuel = true;
+                    self.leg.out_of_fuel = true;
                     return;
                 }
                 self.order.push(key.clone());
@@ -545,7 +646,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     return;
                 }
                 if met.visits > MOST_VISITS {
-                    self.result.out_of_fuel = true;
+                    self.leg.out_of_fuel = true;
                     return;
                 }
                 met.state = joined.clone();
@@ -583,7 +684,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.executor.observer.muted = false;
         loop {
             if self.blocks >= self.fuel {
-                self.result.out_of_fuel = true;
+                self.leg.out_of_fuel = true;
+                return;
+            }
+            if self.is_stopped() {
                 return;
             }
             self.blocks += 1;
@@ -630,6 +734,13 @@ fn is_final(fault: &Fault) -> bool {
 }
 
 impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {
+    /// The blocks of the main file's chunk that holds a block; nothing behind the last.
+    fn chunk_of(&self, block: u32) -> Range<u32> {
+        let Some(file) = self.program.file(0) else { return block..block };
+        let outline = file.loaded.outline();
+        outline.chunk_of(block).map_or(block..block, |(chunk, _)| outline.blocks_of(chunk))
+    }
+
     fn end(&mut self, state: &State<Abstract>, ending: Ending) {
         let origin = self.origin();
         let shown = &mut self.observer;
@@ -700,26 +811,5 @@ impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
             let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };
             self.observer.after(&cx);
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{At, Marks};
-
-    #[test]
-    fn the_first_block_that_is_missing_is_found() {
-        let at = |block: u32| At { file: 1, block };
-        let mut marks = Marks::default();
-        assert_eq!(marks.first_missing(at(5)), at(5));
-        marks.insert_all(at(3), at(200));
-        for (from, missing) in
-            [(0, 0), (2, 2), (3, 200), (63, 200), (64, 200), (191, 200), (200, 200), (500, 500)]
-        {
-            assert_eq!(marks.first_missing(at(from)), at(missing), "from {from}");
-        }
-        marks.insert_all(at(200), at(256));
-        assert_eq!(marks.first_missing(at(10)), at(256));
-        assert_eq!(marks.first_missing(At { file: 0, block: 7 }), At { file: 0, block: 7 });
     }
 }

@@ -30,17 +30,21 @@ pub use assumption::Assumption;
 pub use cylinder::{Cylinder, Diameters, Wrapped};
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
-pub use flow::{Decision, Fact, FlowCx, FlowObserver, FlowResult, MOST_EXACT_TURNS, Reach, Trace, flow};
+pub use flow::{
+    Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, Leg, MOST_EXACT_TURNS, Reach, Trace,
+    flow, flow_from,
+};
 pub use machine::{BarFeeder, Machine, Tool, WorkOffset};
 pub use modal::ModeSet;
 pub use model::{Model, Role};
 pub use observer::{Nobody, Observer, Origin};
 pub use position::{Axis, Position};
-pub use program::{Library, NoLibrary, Program, ProgramFile, SourceFile};
+pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
 pub use run::{RunResult, Stopped, run};
 pub use state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 pub use step::bar::Bar;
 pub use step::compensation::Compensation;
+pub use step::look::{Look, Trial};
 pub use step::{Ending, Options};
 pub use tool_shift::ToolShift;
 pub use touch::{Touch, Way, Ways};

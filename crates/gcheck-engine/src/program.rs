@@ -65,7 +65,24 @@ pub struct Program<'a> {
     subroutines: RefCell<FxHashMap<OLabel, Option<At>>>,
 }
 
-#[derive(Default)]
+/// What a program has looked up beside its main file, for another execution after an edit of that: so that files and names
+/// keep their numbers.
+#[derive(Debug, Default)]
+pub struct LookedUp {
+    others: Vec<Rc<ProgramFile<'static>>>,
+    names: Names,
+    numbers: FxHashMap<u32, Option<At>>,
+    subroutines: FxHashMap<OLabel, Option<At>>,
+}
+
+impl LookedUp {
+    /// How many files calls have brought in.
+    pub fn files(&self) -> usize {
+        self.others.len()
+    }
+}
+
+#[derive(Debug, Default)]
 struct Names {
     ids: FxHashMap<Rc<str>, u32>,
     texts: Vec<Rc<str>>,
@@ -82,15 +99,38 @@ impl std::fmt::Debug for Program<'_> {
 impl<'a> Program<'a> {
     /// A main file, and where others are found.
     pub fn new(main: Loaded<'a>, dialect: &'a Dialect<'a>, library: &'a dyn Library) -> Self {
+        Self::with(main, dialect, library, LookedUp::default())
+    }
+
+    /// As [`Program::new`], with what was looked up before.
+    pub fn with(
+        main: Loaded<'a>,
+        dialect: &'a Dialect<'a>,
+        library: &'a dyn Library,
+        known: LookedUp,
+    ) -> Self {
         let main = Rc::new(ProgramFile { name: Rc::from(""), loaded: main });
+        let LookedUp { others, mut names, numbers, subroutines } = known;
+        // Where names stand in the main file is not known any more.
+        names.places.clear();
         Self {
             dialect,
             library,
             main,
-            others: RefCell::default(),
-            names: RefCell::default(),
-            numbers: RefCell::default(),
-            subroutines: RefCell::default(),
+            others: RefCell::new(others),
+            names: RefCell::new(names),
+            numbers: RefCell::new(numbers),
+            subroutines: RefCell::new(subroutines),
+        }
+    }
+
+    /// What was looked up beside the main file.
+    pub fn into_looked_up(self) -> LookedUp {
+        LookedUp {
+            others: self.others.into_inner(),
+            names: self.names.into_inner(),
+            numbers: self.numbers.into_inner(),
+            subroutines: self.subroutines.into_inner(),
         }
     }
 

@@ -802,6 +802,23 @@ impl<D: Domain> State<D> {
         position
     }
 
+    /// What holds in this state or in the other.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        self.join(other, false)
+    }
+
+    /// Is nothing under way but the main program: no call, no counted loop, no branch to be found, no move held back?
+    pub(crate) fn is_in_main_program_alone(&self) -> bool {
+        let [main] = self.frames.as_slice() else { return false };
+        main.counters.is_empty()
+            && main.wanted_branch.is_none()
+            && main.bar_feed.is_none()
+            && self.macro_modal.is_none()
+            && self.compensation.is_none()
+            && self.left_compensation.is_none()
+    }
+
     /// Either state.
     #[must_use]
     pub(crate) fn join(&self, other: &Self, widen: bool) -> Self {

@@ -11,6 +11,7 @@ mod cycle;
 mod cylinder;
 mod flow_control;
 mod lathe;
+pub(crate) mod look;
 mod message;
 mod modes;
 mod motion;
@@ -130,8 +131,6 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     passes_exactly: bool,
     /// A code of the block made the control forget the rest of it.
     rest_is_lost: bool,
-    /// The last `RETURN` or `ENDSUB` gave a value.
-    returned: bool,
     /// Subroutines passed over, and whether another is defined inside.
     nested: FxHashMap<At, bool>,
     /// Room for the strokes of a hole.
@@ -210,7 +209,6 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             refused: None,
             passes_exactly: false,
             rest_is_lost: false,
-            returned: false,
             nested: FxHashMap::default(),
             stroke_buffer: Vec::new(),
             pending: Vec::new(),

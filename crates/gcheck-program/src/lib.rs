@@ -14,14 +14,17 @@ mod outline;
 mod plain;
 mod statement;
 mod survey;
+mod tool_names;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
-pub use loaded::{Loaded, Place};
+pub use loaded::{Loaded, Place, Touched};
 pub use lower::{Dialect, lower, lower_tree, profile};
 pub use number::NumberShape;
-pub use outline::{OWordLinks, Outline, OutlineBuilder, Program};
+pub use outline::{ChunkOutline, OWordLinks, Outline, OutlineBuilder, Program, Skeleton};
 pub use statement::{OKeyword, OLabel, Statement, StatementKind, Target};
 pub use survey::{
-    Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, code_region,
+    Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, TapeMarks,
+    code_region,
 };
+pub use tool_names::{ToolNames, remark};

@@ -5,8 +5,10 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::ops::Range;
 use std::rc::Rc;
+use std::sync::Arc;
 
 use gcheck_syntax::cuts;
 
@@ -21,20 +23,41 @@ const KEPT: usize = 2 << 20;
 /// A file of one or more programs, cut, lowered and outlined.
 #[derive(Debug)]
 pub struct Loaded<'a> {
-    text: Cow<'a, str>,
+    text: Text<'a>,
     chunks: Vec<Range<u32>>,
     /// By chunk: what any of its blocks has.
     flags: Vec<BlockFlags>,
     region_end: u32,
-    outline: Outline,
+    outline: Arc<Outline>,
     tables: RefCell<Tables>,
+    /// What was looked at, when somebody asked to be told.
+    touched: RefCell<Option<Touched>>,
+}
+
+#[derive(Debug)]
+enum Text<'a> {
+    /// One text, cut by ranges.
+    Whole(Cow<'a, str>),
+    /// Chunks that somebody else has too.
+    Shared(Vec<Arc<str>>),
+}
+
+/// What was looked at of a file.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Touched {
+    /// Chunks of which a block was read, ascending.
+    pub chunks: Vec<u32>,
+    /// All blocks with any of these flags were asked for.
+    pub flags: BlockFlags,
+    /// All text in front of some place was looked at.
+    pub all: bool,
 }
 
 #[derive(Debug)]
 struct Tables {
     slots: Vec<Option<Rc<BlockTable>>>,
     /// Chunks whose tables are kept, the oldest first.
-    kept: std::collections::VecDeque<u32>,
+    kept: VecDeque<u32>,
     bytes: usize,
 }
 
@@ -79,7 +102,7 @@ impl<'a> Loaded<'a> {
         let mut builder = Outline::builder();
         let mut chunks = Vec::new();
         let mut flags = Vec::new();
-        let mut tables = Tables { slots: Vec::new(), kept: std::collections::VecDeque::new(), bytes: 0 };
+        let mut tables = Tables { slots: Vec::new(), kept: VecDeque::new(), bytes: 0 };
         for chunk in cuts(&text) {
             if chunk.start as u32 >= region_end && !chunks.is_empty() {
                 break;
@@ -99,12 +122,83 @@ impl<'a> Loaded<'a> {
                 tables.keep(chunks.len() as u32 - 1, Rc::new(table), chunk.len());
             }
         }
-        Self { chunks, flags, region_end, outline: builder.finish(), tables: RefCell::new(tables), text }
+        let outline = Arc::new(builder.finish());
+        let (text, tables) = (Text::Whole(text), RefCell::new(tables));
+        Self { text, chunks, flags, region_end, outline, tables, touched: RefCell::default() }
     }
 
-    /// The text.
-    pub fn text(&self) -> &str {
-        &self.text
+    /// Puts a file together from chunks whose outline is known; `flags` says for each of them what any of its blocks has.
+    /// Chunks behind the part that the control reads may be left out.
+    pub fn of_chunks(
+        texts: Vec<Arc<str>>,
+        flags: Vec<BlockFlags>,
+        region_end: u32,
+        outline: Arc<Outline>,
+    ) -> Self {
+        let mut end = 0;
+        let ends = texts.iter().map(|text| {
+            end += text.len() as u32;
+            end
+        });
+        let chunks: Vec<Range<u32>> =
+            ends.zip(&texts).map(|(end, text)| end - text.len() as u32..end).collect();
+        let tables = Tables { slots: vec![None; texts.len()], kept: VecDeque::new(), bytes: 0 };
+        Self {
+            text: Text::Shared(texts),
+            chunks,
+            flags,
+            region_end,
+            outline,
+            tables: RefCell::new(tables),
+            touched: RefCell::default(),
+        }
+    }
+
+    /// From now on it is noted which blocks are looked at; gives what was noted so far.
+    pub fn note_touched(&self) -> Touched {
+        let mut touched = self.touched.replace(Some(Touched::default())).unwrap_or_default();
+        touched.chunks.sort_unstable();
+        touched.chunks.dedup();
+        touched
+    }
+
+    /// The text, put together where it is kept in chunks.
+    pub fn text(&self) -> Cow<'_, str> {
+        match &self.text {
+            Text::Whole(text) => Cow::Borrowed(text),
+            Text::Shared(texts) => Cow::Owned(texts.iter().map(AsRef::as_ref).collect()),
+        }
+    }
+
+    /// Number of the line that holds a byte, counted from 1 by line feeds.
+    pub fn line_number(&self, at: u32) -> u32 {
+        if let Some(touched) = &mut *self.touched.borrow_mut() {
+            touched.all = true;
+        }
+        let mut line = 1;
+        for (chunk, range) in (0..).zip(&self.chunks) {
+            let inside = (at.saturating_sub(range.start) as usize).min(range.len());
+            let before = self.chunk_text(chunk).as_bytes().get(..inside).unwrap_or_default();
+            line += memchr::memchr_iter(b'\n', before).count() as u32;
+        }
+        line
+    }
+
+    /// Text of bytes of the file that stand in one chunk, as those of a block do; empty for others.
+    pub fn slice(&self, range: Range<u32>) -> &str {
+        let chunk = self.chunks.partition_point(|chunk| chunk.end <= range.start);
+        let base = self.chunks.get(chunk).map_or(0, |chunk| chunk.start);
+        let inside = range.start.saturating_sub(base) as usize..range.end.saturating_sub(base) as usize;
+        self.chunk_text(chunk as u32).get(inside).unwrap_or_default()
+    }
+
+    /// The line of the file from a byte on, without its end.
+    pub fn line_from(&self, start: u32) -> &str {
+        let chunk = self.chunks.partition_point(|chunk| chunk.end <= start);
+        let base = self.chunks.get(chunk).map_or(0, |chunk| chunk.start);
+        let rest =
+            self.chunk_text(chunk as u32).get(start.saturating_sub(base) as usize..).unwrap_or_default();
+        rest.split(['\n', '\r']).next().unwrap_or_default()
     }
 
     /// Where the part ends that the control reads.
@@ -119,8 +213,13 @@ impl<'a> Loaded<'a> {
 
     /// The text of a chunk.
     pub fn chunk_text(&self, chunk: u32) -> &str {
-        let range = self.chunks.get(chunk as usize).cloned().unwrap_or_default();
-        self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
+        match &self.text {
+            Text::Whole(text) => {
+                let range = self.chunks.get(chunk as usize).cloned().unwrap_or_default();
+                text.get(range.start as usize..range.end as usize).unwrap_or_default()
+            }
+            Text::Shared(texts) => texts.get(chunk as usize).map_or("", |text| text),
+        }
     }
 
     /// Numbers of the blocks that have any of these flags, in text order. Chunks without such a block are passed over.
@@ -129,6 +228,9 @@ impl<'a> Loaded<'a> {
         flags: BlockFlags,
         dialect: &Dialect<'_>,
     ) -> impl Iterator<Item = (u32, Place)> {
+        if let Some(touched) = &mut *self.touched.borrow_mut() {
+            touched.flags |= flags;
+        }
         let chunks = (0..self.chunks.len())
             .filter(move |chunk| self.flags.get(*chunk).is_some_and(|f| f.intersects(flags)));
         let blocks = chunks.flat_map(|chunk| self.outline.blocks_of(chunk));
@@ -152,6 +254,11 @@ impl<'a> Loaded<'a> {
     }
 
     fn table(&self, chunk: u32, dialect: &Dialect<'_>) -> Rc<BlockTable> {
+        if let Some(touched) = &mut *self.touched.borrow_mut()
+            && touched.chunks.last() != Some(&chunk)
+        {
+            touched.chunks.push(chunk);
+        }
         let mut tables = self.tables.borrow_mut();
         if let Some(Some(table)) = tables.slots.get(chunk as usize) {
             return Rc::clone(table);

@@ -8,6 +8,7 @@
 
 mod block_set;
 mod builder;
+mod chunk;
 mod loops;
 mod o_words;
 #[cfg(test)]
@@ -19,6 +20,7 @@ use crate::block::BlockTable;
 use crate::statement::OLabel;
 use block_set::BlockSet;
 pub use builder::OutlineBuilder;
+pub use chunk::{ChunkOutline, Skeleton};
 use loops::Loops;
 pub use o_words::OWordLinks;
 use o_words::OWords;
@@ -65,6 +67,8 @@ pub struct Outline {
     entries: BlockSet,
     /// Labels, heads of programs, loop statements, O-words.
     marks: BlockSet,
+    /// Runs of blocks, first and last, that the text may lead through more than once in one call; sorted, apart.
+    turns: Vec<(u32, u32)>,
 }
 
 /// Where a chunk begins.
@@ -300,6 +304,12 @@ impl Outline {
         self.flow.contains(block)
     }
 
+    /// Once a program has come to the block, does nothing in the text lead it back to it or in front of it, calls left aside?
+    pub fn is_passed_for_good(&self, block: u32) -> bool {
+        let at = self.turns.partition_point(|(_, last)| *last < block);
+        self.turns.get(at).is_none_or(|(first, _)| block < *first)
+    }
+
     /// Is every block of the chunk gone through from the first to the last, and the chunk entered at its first only?
     ///
     /// Labels that no jump of this file names do not count; for jumps of other files (`M99 P` of a called program) see
@@ -333,6 +343,7 @@ impl Outline {
             + self.flow.heap_bytes()
             + self.entries.heap_bytes()
             + self.marks.heap_bytes()
+            + self.turns.capacity() * size_of::<(u32, u32)>()
     }
 
     /// Takes note that a jump which stands in another file leads to this sequence number here.

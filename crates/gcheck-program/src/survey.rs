@@ -25,6 +25,49 @@ pub fn code_region(text: &str) -> Range<usize> {
     }
 }
 
+/// Where tape marks stand in a chunk: what [`code_region`] asks of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TapeMarks {
+    /// The first two marks at the head of a line: where each line ends, in bytes of the chunk.
+    line_ends: [Option<u32>; 2],
+    /// Nothing but blanks stands before the first mark, or in the whole chunk.
+    is_blank: bool,
+}
+
+impl TapeMarks {
+    /// Of a chunk's text.
+    pub fn new(text: &str) -> Self {
+        let heads = memchr::memchr_iter(b'%', text.as_bytes()).filter(|at| is_line_head(text, *at));
+        let mut line_ends = [None; 2];
+        let mut first = text.len();
+        for (slot, at) in line_ends.iter_mut().zip(heads) {
+            first = first.min(at);
+            *slot = Some(end_of_line(text, at) as u32);
+        }
+        Self { line_ends, is_blank: is_blank(text.get(..first).unwrap_or_default()) }
+    }
+
+    /// Where the part of a file ends that the control reads, by its chunks: the offset of each and its marks, and the length
+    /// of the file.
+    pub fn region_end<'t>(chunks: impl Iterator<Item = (u32, &'t Self)>, len: u32) -> u32 {
+        let mut is_blank = true;
+        let mut only = None;
+        for (base, marks) in chunks {
+            for end in marks.line_ends.into_iter().flatten() {
+                if only.is_some() {
+                    return base + end;
+                }
+                only = Some((base + end, is_blank && marks.is_blank));
+            }
+            is_blank &= marks.is_blank;
+        }
+        match only {
+            Some((end, false)) => end,
+            _ => len,
+        }
+    }
+}
+
 fn is_blank(text: &str) -> bool {
     text.trim_matches(['\u{FEFF}', ' ', '\t', '\r', '\n', '\0']).is_empty()
 }
@@ -229,6 +272,64 @@ impl Survey {
         }
     }
 
+    /// What one chunk holds, in bytes of the chunk; blocks that begin at `end` or behind it are left out. It is to be
+    /// [joined](Self::join) to others, and knows of never given words only what the chunk itself tells.
+    pub fn of_chunk(table: &BlockTable, end: u32, dialect: &Dialect<'_>) -> Self {
+        let mut survey = Self::default();
+        survey.add(table, 0, end, dialect);
+        survey.seen = Default::default();
+        survey
+    }
+
+    /// Adds the next chunk by what it holds; `base` is its offset in the file.
+    pub fn join(&mut self, chunk: &Self, base: u32, dialect: &Dialect<'_>) {
+        let moved = |range: &Range<u32>| shift(range, base);
+        self.labels.extend(chunk.labels.iter().map(|l| Label { range: moved(&l.range), ..*l }));
+        self.programs.extend(chunk.programs.iter().map(|p| ProgramNumber { range: moved(&p.range), ..*p }));
+        self.jumps.extend(chunk.jumps.iter().map(|j| Jump { range: moved(&j.range), ..*j }));
+        self.calls.extend(chunk.calls.iter().map(|c| Call { range: moved(&c.range), ..c.clone() }));
+        self.loops.extend(chunk.loops.iter().map(|l| Loop { range: moved(&l.range), ..*l }));
+        self.o_words.extend(chunk.o_words.iter().map(|o| OWord { range: moved(&o.range), ..o.clone() }));
+        self.ends.extend(chunk.ends.iter().map(|e| EndMark { range: moved(&e.range), ..*e }));
+        self.tape_marks.extend(chunk.tape_marks.iter().map(moved));
+        self.unpointed.extend(chunk.unpointed.iter().map(moved));
+        self.long_numbers.extend(chunk.long_numbers.iter().map(moved));
+        for (code, range) in &chunk.codes {
+            if self.seen.0.insert(*code) {
+                self.codes.push((*code, moved(range)));
+            }
+        }
+        for (variable, range) in &chunk.assigned {
+            if self.seen.1.insert(*variable) {
+                self.assigned.push((*variable, moved(range)));
+            }
+        }
+        let given = self.letters;
+        let is_missing = |missing: &&NeverGiven| {
+            let mut lasting = dialect.lasting(missing.code).iter();
+            lasting.any(|(letter, instead)| {
+                *letter == missing.letter && !given.contains(*letter) && !given.intersects(*instead)
+            })
+        };
+        let missing = chunk.never_given.iter().filter(is_missing);
+        self.never_given.extend(missing.map(|n| NeverGiven { range: moved(&n.range), ..*n }));
+        if self.first_block.is_none() {
+            self.first_block = chunk.first_block.as_ref().map(moved);
+        }
+        if let Some(last) = &chunk.last_block {
+            self.last_block = Some(moved(last));
+        }
+        if self.lower_case.is_none() {
+            self.lower_case = chunk.lower_case.as_ref().map(moved);
+        }
+        self.letters = self.letters.or(chunk.letters);
+        self.pointed += chunk.pointed;
+        self.has_mistakes |= chunk.has_mistakes;
+        self.has_computed_codes |= chunk.has_computed_codes;
+        self.block_deletes |= chunk.block_deletes;
+        self.blocks += chunk.blocks;
+    }
+
     /// Adds a chunk in which no block has anything but words to look at.
     fn add_plain(&mut self, table: &BlockTable, base: u32, dialect: &Dialect<'_>) {
         let axes = dialect.control().axes();
@@ -417,9 +518,20 @@ fn shift(range: &Range<u32>, base: u32) -> Range<u32> {
 
 #[cfg(test)]
 mod tests {
-    use super::code_region;
+    use super::{TapeMarks, code_region};
 
     fn region(text: &str) -> &str {
+        // However the file is cut into chunks of whole lines, it is the same.
+        let mut at = 0;
+        let lines: Vec<(u32, TapeMarks)> = text
+            .split_inclusive('\n')
+            .map(|line| {
+                at += line.len();
+                ((at - line.len()) as u32, TapeMarks::new(line))
+            })
+            .collect();
+        let end = TapeMarks::region_end(lines.iter().map(|(base, marks)| (*base, marks)), text.len() as u32);
+        assert_eq!(end as usize, code_region(text).end, "{text:?}");
         &text[code_region(text)]
     }
 

@@ -13,7 +13,9 @@ use gcheck_syntax::SourceText;
 use crate::mistakes::worth_reporting;
 use crate::paths::{Ledger, SceneLibrary, Watchers};
 use crate::suppression::Suppressions;
-use crate::{BlockCx, FileCx, Finding, Report, RuleEntry, RuleMeta, Run, Scene, Selection, Severity};
+use crate::{
+    BlockCx, FileCx, Finding, ProgramText, Report, RuleEntry, RuleMeta, Run, Scene, Selection, Severity,
+};
 
 /// Findings of one file that are kept; the rest are counted by rule.
 pub const MAX_FINDINGS: usize = 10_000;
@@ -64,19 +66,39 @@ pub struct Outcome {
     pub out_of_fuel: bool,
 }
 
+/// Findings that were counted and not kept, by rule and severity.
+#[derive(Debug, Clone, Default)]
+pub struct Omitted(Vec<(&'static RuleMeta, Severity, usize)>);
+
+impl Omitted {
+    pub(crate) fn add(&mut self, rule: &'static RuleMeta, severity: Severity, more: usize) {
+        let same = |(other, of, _): &&mut (&'static RuleMeta, Severity, usize)| {
+            std::ptr::eq(*other, rule) && *of == severity
+        };
+        match self.0.iter_mut().find(same) {
+            Some((_, _, count)) => *count += more,
+            None => self.0.push((rule, severity, more)),
+        }
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static RuleMeta, Severity, usize)> {
+        self.0.iter().copied()
+    }
+}
+
 /// The selected rules, arranged by when they run.
-struct Plan {
+pub(crate) struct Plan {
     token: Vec<(&'static RuleEntry, Option<Severity>)>,
     block: Vec<(&'static RuleEntry, Option<Severity>, BlockFlags)>,
     program: Vec<(&'static RuleEntry, Option<Severity>)>,
-    path: Vec<(&'static RuleEntry, Option<Severity>)>,
+    pub(crate) path: Vec<(&'static RuleEntry, Option<Severity>)>,
     suppressions: Vec<(&'static RuleEntry, Option<Severity>)>,
     /// Blocks without any of these flags need no rule.
     trigger: BlockFlags,
 }
 
 impl Plan {
-    fn new(selection: &Selection) -> Self {
+    pub(crate) fn new(selection: &Selection) -> Self {
         let mut plan = Self {
             token: Vec::new(),
             block: Vec::new(),
@@ -109,14 +131,33 @@ impl Plan {
 }
 
 /// Keeps findings up to the limit.
-struct Collector<'c> {
+pub(crate) struct Collector<'c> {
     control: &'c Control,
     findings: Vec<Finding>,
-    omitted: Vec<(&'static RuleMeta, Severity, usize)>,
+    omitted: Omitted,
 }
 
-impl Collector<'_> {
-    fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
+impl<'c> Collector<'c> {
+    pub(crate) fn new(control: &'c Control) -> Self {
+        Self { control, findings: Vec::new(), omitted: Omitted::default() }
+    }
+
+    /// What is kept and counted so far.
+    pub(crate) fn mark(&self) -> (usize, Omitted) {
+        (self.findings.len(), self.omitted.clone())
+    }
+
+    /// Forgets what was added since the mark.
+    pub(crate) fn rewind(&mut self, (kept, omitted): &(usize, Omitted)) {
+        self.findings.truncate(*kept);
+        self.omitted.clone_from(omitted);
+    }
+
+    pub(crate) fn into_parts(self) -> (Vec<Finding>, Omitted) {
+        (self.findings, self.omitted)
+    }
+
+    pub(crate) fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
         // What is no mistake for certain foretells no alarm.
         if finding.alarm.is_none() && finding.severity == Severity::Error {
             finding.alarm = self
@@ -127,17 +168,25 @@ impl Collector<'_> {
         if let Some(severity) = severity {
             finding.severity = severity;
         }
-        if self.findings.len() < MAX_FINDINGS {
+        self.keep(finding);
+    }
+
+    /// Adds a finding that has its severity and alarm.
+    pub(crate) fn keep(&mut self, finding: Finding) {
+        if self.is_full() {
+            self.omit(finding.rule, finding.severity, 1);
+        } else {
             self.findings.push(finding);
-            return;
         }
-        let same = |(rule, severity, _): &&mut (&'static RuleMeta, Severity, usize)| {
-            std::ptr::eq(*rule, finding.rule) && *severity == finding.severity
-        };
-        match self.omitted.iter_mut().find(same) {
-            Some((_, _, count)) => *count += 1,
-            None => self.omitted.push((finding.rule, finding.severity, 1)),
-        }
+    }
+
+    /// Are further findings only counted?
+    pub(crate) fn is_full(&self) -> bool {
+        self.findings.len() >= MAX_FINDINGS
+    }
+
+    pub(crate) fn omit(&mut self, rule: &'static RuleMeta, severity: Severity, count: usize) {
+        self.omitted.add(rule, severity, count);
     }
 
     /// What stands in text that no run reads is no error, unless the user said that the rule's findings are.
@@ -162,7 +211,7 @@ pub fn check(job: &Job<'_>) -> Outcome {
     let text = job.source.text();
     let region = code_region(text);
     let region = region.start as u32..region.end as u32;
-    let mut collector = Collector { control: job.scene.control(), findings: Vec::new(), omitted: Vec::new() };
+    let mut collector = Collector::new(job.scene.control());
     let mut survey = Survey::default();
     let mut directives = Vec::new();
     let (mut lines, mut seen) = (0, 0);
@@ -170,27 +219,65 @@ pub fn check(job: &Job<'_>) -> Outcome {
         // Here its text is in the processor's cache.
         lines += count_lines(chunk.as_bytes());
         seen += chunk.len();
-        let chunk = Chunk { base, table, text: chunk };
-        check_chunk(job, &plan, &region, &chunk, &mut survey, &mut directives, &mut collector);
+        survey.add(table, base, region.end, job.scene.dialect);
+        // What stands behind the part that the control reads silences nothing, wherever the chunk ends.
+        let read = table.directives().iter().filter(|r| r.start + base < region.end);
+        directives.extend(read.map(|r| r.start + base..r.end + base));
+        check_blocks(job.scene, &plan, region.end, base, table, chunk, &mut collector);
     });
-    let cx = FileCx { scene: job.scene, source: job.source, region, survey: &survey };
+    lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());
+    let text = ProgramText::whole(text);
+    check_file(job.scene, &plan, &text, region, &survey, &mut collector);
+    let (ledger, out_of_fuel) = check_paths(job, &plan, loaded, &survey, &mut collector);
+    let ends = Remarks { suppressions: job.suppressions, directives: &directives, lines };
+    let mut outcome = conclude(&plan, &text, &survey, collector, &ends);
+    outcome.ledger = ledger;
+    outcome.out_of_fuel = out_of_fuel;
+    outcome
+}
+
+/// The rules of the program tier.
+pub(crate) fn check_file(
+    scene: Scene<'_>,
+    plan: &Plan,
+    text: &ProgramText<'_>,
+    region: Range<u32>,
+    survey: &Survey,
+    collector: &mut Collector<'_>,
+) {
+    let cx = FileCx::new(scene, text, region, survey);
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });
         }
     }
-    let (ledger, out_of_fuel) = check_paths(job, &plan, loaded, &survey, &mut collector);
-    if let Some(end) = unread_from(&survey) {
+}
+
+/// What is known of a file beside its findings.
+pub(crate) struct Remarks<'r> {
+    /// Whether comments may silence rules.
+    pub(crate) suppressions: bool,
+    /// Comments with directives.
+    pub(crate) directives: &'r [Range<u32>],
+    pub(crate) lines: usize,
+}
+
+/// When all rules have run: softens what no run reads, silences, and puts in order.
+pub(crate) fn conclude(
+    plan: &Plan,
+    text: &ProgramText<'_>,
+    survey: &Survey,
+    mut collector: Collector<'_>,
+    remarks: &Remarks<'_>,
+) -> Outcome {
+    if let Some(end) = unread_from(survey) {
         // The rest of the block that ends the program is read with it.
-        let rest = text.as_bytes().get(end as usize..).unwrap_or_default();
+        let (base, chunk) = text.around(end);
+        let rest = chunk.as_bytes().get((end - base) as usize..).unwrap_or_default();
         let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
-        collector.soften(&plan, end + line as u32);
+        collector.soften(plan, end + line as u32);
     }
-    lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());
-    let mut outcome = finish(job, &plan, collector, &directives, lines);
-    outcome.ledger = ledger;
-    outcome.out_of_fuel = out_of_fuel;
-    outcome
+    finish(plan, text, collector, remarks)
 }
 
 /// Executes all paths of the program and lets the rules of the path tier watch.
@@ -230,7 +317,7 @@ fn check_paths(
 }
 
 /// Positions of the block delete switches worth an analysis: all off, all on, and each level alone where there are several.
-fn switch_positions(wanted: Option<bool>, levels: u16) -> Vec<u16> {
+pub(crate) fn switch_positions(wanted: Option<bool>, levels: u16) -> Vec<u16> {
     match (wanted, levels.count_ones()) {
         (Some(false), _) | (None, 0) => vec![0],
         (Some(true), _) => vec![u16::MAX],
@@ -256,31 +343,23 @@ fn unread_from(survey: &Survey) -> Option<u32> {
 }
 
 /// Lines as people count them: a line end (`\n`, `\r\n` or `\r`) closes one, and text behind the last is one more.
-fn count_lines(text: &[u8]) -> usize {
+pub(crate) fn count_lines(text: &[u8]) -> usize {
     let feeds = memchr::memchr_iter(b'\n', text).count();
     let lone_returns = memchr::memchr_iter(b'\r', text).filter(|at| text.get(at + 1) != Some(&b'\n')).count();
     feeds + lone_returns + usize::from(text.last().is_some_and(|last| !matches!(last, b'\n' | b'\r')))
 }
 
-/// A chunk on its way through the block tier.
-struct Chunk<'a> {
-    base: u32,
-    table: &'a BlockTable,
-    text: &'a str,
-}
-
-fn check_chunk(
-    job: &Job<'_>,
+/// The rules of the block and token tiers over a chunk that stands at `base`; blocks that begin at `end` or behind it are not
+/// read.
+pub(crate) fn check_blocks(
+    scene: Scene<'_>,
     plan: &Plan,
-    region: &Range<u32>,
-    chunk: &Chunk<'_>,
-    survey: &mut Survey,
-    directives: &mut Vec<Range<u32>>,
+    end: u32,
+    base: u32,
+    table: &BlockTable,
+    text: &str,
     collector: &mut Collector<'_>,
 ) {
-    let Chunk { base, table, text } = *chunk;
-    survey.add(table, base, region.end, job.scene.dialect);
-    directives.extend(table.directives().iter().map(|r| r.start + base..r.end + base));
     if !table.flags().intersects(plan.trigger) {
         return;
     }
@@ -288,10 +367,10 @@ fn check_chunk(
         if !block.flags.intersects(plan.trigger) {
             continue;
         }
-        if base + block.range.start >= region.end {
+        if base + block.range.start >= end {
             break;
         }
-        let cx = BlockCx { scene: job.scene, table, ix, block, text, base };
+        let cx = BlockCx { scene, table, ix, block, text, base };
         for (rule, severity, trigger) in &plan.block {
             if let Run::Block { check, .. } = rule.run
                 && block.flags.intersects(*trigger)
@@ -319,15 +398,14 @@ fn check_chunk(
 
 /// Silences, reports what silences nothing, and puts findings in order.
 fn finish(
-    job: &Job<'_>,
     plan: &Plan,
+    text: &ProgramText<'_>,
     mut collector: Collector<'_>,
-    directives: &[Range<u32>],
-    lines: usize,
+    remarks: &Remarks<'_>,
 ) -> Outcome {
     let mut suppressed = 0;
-    if job.suppressions && !directives.is_empty() {
-        let mut suppressions = Suppressions::read(job.source.text(), directives);
+    if remarks.suppressions && !remarks.directives.is_empty() {
+        let mut suppressions = Suppressions::read(text, remarks.directives);
         let before = collector.findings.len();
         collector.findings.retain(|finding| !suppressions.silences(finding));
         suppressed = before - collector.findings.len();
@@ -348,9 +426,9 @@ fn finish(
     });
     Outcome {
         findings,
-        omitted: collector.omitted,
+        omitted: collector.omitted.0,
         suppressed,
-        lines,
+        lines: remarks.lines,
         ledger: Ledger::new(),
         out_of_fuel: false,
     }

@@ -2,15 +2,17 @@
 //!
 //! Knows: how to ask the block table and the knowledge base together. Must not know: how rules are chosen or findings shown.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, LetterSet, WordEntry, WordKind};
 use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Expr, Survey, Value, Word};
-use gcheck_syntax::{SourceText, SyntaxError};
+use gcheck_syntax::SyntaxError;
 
 use crate::suppression::Suppressions;
-use crate::{Finding, Severity};
+use crate::writing::Writing;
+use crate::{Finding, ProgramText, Severity};
 
 /// How a rule runs, by tier.
 pub enum Run {
@@ -340,15 +342,27 @@ fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
 pub struct FileCx<'a> {
     /// Control, machine, other programs.
     pub scene: Scene<'a>,
-    /// The file.
-    pub source: &'a SourceText,
+    /// The text.
+    pub text: &'a ProgramText<'a>,
     /// The part of the file that the control reads.
     pub region: Range<u32>,
     /// Labels, jumps, calls, loops, ends.
     pub survey: &'a Survey,
+    /// How the file is written, once a rule has asked.
+    writing: OnceCell<Writing>,
 }
 
 impl<'a> FileCx<'a> {
+    /// A file with its survey; `region` is the part that the control reads.
+    pub fn new(scene: Scene<'a>, text: &'a ProgramText<'a>, region: Range<u32>, survey: &'a Survey) -> Self {
+        Self { scene, text, region, survey, writing: OnceCell::new() }
+    }
+
+    /// How the file is written.
+    pub(crate) fn writing(&self) -> &Writing {
+        self.writing.get_or_init(|| Writing::of(self))
+    }
+
     /// The control.
     pub fn control(&self) -> &'a Control {
         self.scene.control()
@@ -356,6 +370,6 @@ impl<'a> FileCx<'a> {
 
     /// Text of a range of the file.
     pub fn slice(&self, range: Range<u32>) -> &'a str {
-        self.source.text().get(range.start as usize..range.end as usize).unwrap_or_default()
+        self.text.slice(range)
     }
 }

@@ -62,11 +62,25 @@ impl FileCx<'_> {
         }
     }
 
+    /// Reads the file again, block by block. A rule that is on by default has no business here: it asks the survey.
+    pub(crate) fn each_block(&self, mut look: impl FnMut(&BlockCx<'_>)) {
+        let text = self.slice(0..self.region.end);
+        for chunk in gcheck_syntax::cuts(text) {
+            let base = chunk.start as u32;
+            let text = text.get(chunk).unwrap_or_default();
+            let table = lower(text, self.scene.dialect);
+            for (ix, block) in table.blocks() {
+                look(&BlockCx { scene: self.scene, table: &table, ix, block, text, base });
+            }
+        }
+    }
+
     /// The line around a place, at most [`LINE`] bytes of it on either side.
     pub(crate) fn line_around(&self, place: Range<u32>) -> Range<u32> {
-        let text = self.source.text().as_bytes();
+        let (base, text) = self.text.around(place.start);
         let is_end = |byte: &&u8| matches!(byte, b'\n' | b'\r');
-        let (head, tail) = text.split_at_checked(place.start as usize).unwrap_or_default();
+        let inside = place.start.saturating_sub(base) as usize;
+        let (head, tail) = text.as_bytes().split_at_checked(inside).unwrap_or_default();
         let before = head.iter().rev().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
         let behind = tail.iter().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
         place.start - before..place.start + behind

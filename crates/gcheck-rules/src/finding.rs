@@ -132,6 +132,30 @@ pub struct Edit {
     pub text: String,
 }
 
+impl PartialEq for Finding {
+    fn eq(&self, other: &Self) -> bool {
+        let Self {
+            rule,
+            severity,
+            certainty,
+            message,
+            range,
+            label,
+            labels,
+            notes,
+            help,
+            alarm,
+            assumptions,
+            fixes,
+        } = self;
+        rule.id == other.rule.id
+            && (severity, certainty, message, range)
+                == (&other.severity, &other.certainty, &other.message, &other.range)
+            && (label, labels, notes, help) == (&other.label, &other.labels, &other.notes, &other.help)
+            && (alarm, assumptions, fixes) == (&other.alarm, &other.assumptions, &other.fixes)
+    }
+}
+
 impl Finding {
     /// A finding of a rule at a place, with the rule's own severity.
     pub fn new(rule: &'static RuleMeta, range: Range<u32>, message: impl Into<String>) -> Self {

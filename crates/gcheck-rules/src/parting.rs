@@ -6,15 +6,18 @@ use gcheck_engine::{At, Axis, Event, TravelKind};
 use gcheck_geometry::Mm;
 
 use crate::PathCx;
+use crate::memory::remembers;
 
 /// A cut across the centre, behind the face of the part.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Parting {
     /// Where along the part, in work coordinates; below zero.
     pub(crate) z: Mm,
     /// The block that cuts.
     pub(crate) at: At,
 }
+
+remembers!(Parting: at);
 
 impl Parting {
     /// A straight cut in X alone that comes to the centre or past it. A cut at `Z0` or in front of it faces the part; one that

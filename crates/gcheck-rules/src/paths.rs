@@ -19,6 +19,8 @@ use gcheck_program::{BlockTable, ExprIx, Place, Survey, Word};
 
 use rustc_hash::FxHashMap;
 
+use crate::incremental::{Kept, Layout, Naming, Refinding};
+use crate::memory::Remembers;
 use crate::usage::{Uses, expressions};
 use crate::{Finding, Report, RuleEntry, RuleMeta, Run, Scene, Severity};
 
@@ -57,6 +59,12 @@ bitflags::bitflags! {
 
 /// A rule of the path tier. One is made for every file, so that it may remember what it saw.
 pub trait PathRule {
+    /// What the rule remembers. A rule that does not say what it has fields for is asked to watch all from the start after
+    /// every edit, and so are the others.
+    fn memory(&mut self) -> Remembers<'_> {
+        if size_of_val(self) == 0 { Remembers::Nothing } else { Remembers::Unknown }
+    }
+
     /// Can the rule have anything to say of a program? Asked once; a rule that says no watches nothing. By what the program
     /// uses, most programs spare most rules.
     fn concerns(&self, program: &Uses<'_>) -> bool {
@@ -407,7 +415,7 @@ pub(crate) struct Watchers<'a, 'c> {
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 12];
+pub(crate) type Lists = [Vec<usize>; 12];
 
 /// Which rules watch what.
 fn lists(rules: &[Active]) -> Lists {
@@ -469,6 +477,52 @@ impl<'a, 'c> Watchers<'a, 'c> {
         }
         self.lists = lists(&self.rules);
         self.changed = true;
+    }
+
+    /// Ids of the rules that have something to watch.
+    pub(crate) fn active(&self) -> Vec<&'static str> {
+        self.rules.iter().map(|active| active.entry.meta.id).collect()
+    }
+
+    /// Do all rules say what they remember?
+    pub(crate) fn remembers_all(&mut self) -> bool {
+        let knows = |active: &mut Active| !matches!(active.rule.memory(), Remembers::Unknown);
+        self.rules.iter_mut().all(knows)
+    }
+
+    /// From here on findings are told that were made before.
+    pub(crate) fn forget_made(&mut self) {
+        self.made.clear();
+    }
+
+    /// What the rules remember.
+    pub(crate) fn remember(&mut self, layout: &Layout) -> Kept {
+        let mut naming = Naming { layout, bytes: Vec::new() };
+        let memories = self.rules.iter_mut().map(|active| match active.rule.memory() {
+            Remembers::All(memory) => {
+                let mut memory = memory.copy();
+                memory.visit(&mut naming);
+                Some(memory)
+            }
+            Remembers::Nothing | Remembers::Unknown => None,
+        });
+        let memories = memories.collect();
+        Kept { memories, bytes: naming.bytes, lists: self.lists.clone(), changed: self.changed }
+    }
+
+    /// Makes the rules remember what they did there. `false` when it speaks of text that is not there any more.
+    pub(crate) fn recall(&mut self, kept: &Kept, layout: &Layout) -> bool {
+        let mut finding = Refinding { layout, bytes: kept.bytes.iter(), all: true };
+        for (active, memory) in self.rules.iter_mut().zip(&kept.memories) {
+            if let (Some(memory), Remembers::All(own)) = (memory, active.rule.memory()) {
+                let mut memory = memory.copy();
+                memory.visit(&mut finding);
+                own.recall(&*memory);
+            }
+        }
+        self.lists.clone_from(&kept.lists);
+        self.changed = kept.changed;
+        finding.all
     }
 
     /// All paths were seen.
@@ -689,7 +743,12 @@ mod tests {
             Fault::UnknownCode => By(&["unknown-code"]),
             Fault::NotNow(..) => By(&["cycle-in-inverse-time", "codes-conflict"]),
             Fault::Malformed => By(&["unexpected-text", "unclosed-bracket", "malformed-number"]),
-            Fault::Conflict => By(&["codes-conflict", "two-codes-of-one-group", "words-exclude-each-other"]),
+            Fault::Conflict => By(&[
+                "codes-conflict",
+                "two-codes-of-one-group",
+                "words-exclude-each-other",
+                "machine-coordinates-in-increments",
+            ]),
             Fault::WordTwice(_) => By(&["word-given-twice", "code-given-twice"]),
             Fault::UnreadWord(_) => By(&["word-not-read", "word-forbidden"]),
             Fault::Misplaced(_) => Nobody("the order of numbers in a block matters to one interpreter only"),
@@ -698,7 +757,8 @@ mod tests {
             Fault::TooFewPoints => Nobody("splines are one interpreter's own"),
             Fault::NoFeed => By(&["feed-missing", "feed-zero", "probe-without-feed"]),
             Fault::NoInverseTimeFeed => By(&["inverse-time-feed-missing"]),
-            Fault::SpindleStopped | Fault::SpindleDirection => By(&["spindle-stopped-while-cutting"]),
+            Fault::SpindleStopped => By(&["spindle-stopped-while-cutting"]),
+            Fault::SpindleDirection => By(&["tap-in-wrong-direction"]),
             Fault::NoSuchAxis(_) => By(&["unknown-address"]),
             Fault::NoMotionMode => By(&["axis-words-without-motion-mode"]),
             Fault::NoAxisWords => By(&["motion-without-axis-words"]),
@@ -891,7 +951,9 @@ mod tests {
             ("linuxcnc", "G21\nM3 S-5\nM2\n", Fault::WordRange(gcheck_controls::Letter::of('S'))),
             ("fanuc-mill", "O1\nG999\nM30\n", Fault::UnknownCode),
             ("linuxcnc", "G0 G1 X1 F10\nM2\n", Fault::Conflict),
+            ("linuxcnc", "G21 G91\nG53 G0 X1\nM2\n", Fault::Conflict),
             ("linuxcnc", "G21\nG1 X1\nM2\n", Fault::NoFeed),
+            ("linuxcnc", "G21 G90 F9 G0 X0 Y0 Z9\nM4 S9\nG84 Z1 R5\nM2\n", Fault::SpindleDirection),
             ("linuxcnc", "G21 G93\nG1 X1\nM2\n", Fault::NoInverseTimeFeed),
             ("linuxcnc", "G21\nX1\nM2\n", Fault::NoMotionMode),
             (

@@ -100,8 +100,8 @@ impl<'a> FileCx<'a> {
 }
 
 /// Is a block with a tape mark a line that begins with it, comments aside?
-pub(crate) fn is_tape_mark_line(text: &str, block: &Range<u32>) -> bool {
-    let block = text.get(block.start as usize..block.end as usize).unwrap_or_default();
+pub(crate) fn is_tape_mark_line(cx: &FileCx<'_>, block: &Range<u32>) -> bool {
+    let block = cx.slice(block.clone());
     let block = block.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
     let Some(behind) = block.strip_prefix('%') else { return false };
     // `%`, `% (PART)`, `%1234` and `%_N_PART_MPF` are heads of tapes; `% G0 X1.` is not.

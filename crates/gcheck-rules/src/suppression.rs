@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::selection::matches;
-use crate::{Finding, all};
+use crate::{Finding, Fix, ProgramText, all};
 
 /// One directive of a comment.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub(crate) struct Suppression {
 pub(crate) struct Malformed {
     pub(crate) range: Range<u32>,
     pub(crate) message: String,
+    /// What was meant, where it is near enough to a name.
+    pub(crate) meant: Option<Fix>,
 }
 
 /// The directives of a file.
@@ -36,10 +38,10 @@ pub struct Suppressions {
 
 impl Suppressions {
     /// Reads the directives that stand in the comments at `ranges` of `text`.
-    pub(crate) fn read(text: &str, ranges: &[Range<u32>]) -> Self {
+    pub(crate) fn read(text: &ProgramText<'_>, ranges: &[Range<u32>]) -> Self {
         let mut this = Self::default();
         for range in ranges {
-            let comment = text.get(range.start as usize..range.end as usize).unwrap_or_default();
+            let comment = text.slice(range.clone());
             let Some((_, directive)) = comment.split_once("gcheck:") else { continue };
             let directive = directive.trim_end_matches(')').trim();
             this.directive(text, range, directive);
@@ -47,7 +49,7 @@ impl Suppressions {
         this
     }
 
-    fn directive(&mut self, text: &str, range: &Range<u32>, directive: &str) {
+    fn directive(&mut self, text: &ProgramText<'_>, range: &Range<u32>, directive: &str) {
         let (verb, rest) = directive.split_once([' ', '\t']).unwrap_or((directive, ""));
         if verb.starts_with("control=") || (verb == "control" && rest.trim_start().starts_with('=')) {
             return;
@@ -63,10 +65,17 @@ impl Suppressions {
             return self.refuse(range, format!("`{verb}` is no gcheck directive; there are {verbs}"));
         }
         if let Some(unknown) = unknown {
-            let near = crate::selection::suggest(unknown)
-                .map(|s| format!(", did you mean `{s}`?"))
-                .unwrap_or_default();
-            return self.refuse(range, format!("`{unknown}` is no rule, group or set{near}"));
+            let near = crate::selection::suggest(unknown);
+            let meant = near.and_then(|near| {
+                let comment = text.slice(range.clone());
+                let start = range.start + comment.find(unknown.as_str())? as u32;
+                let place = start..start + unknown.len() as u32;
+                Some(Fix::safe(format!("write `{near}`"), place, near))
+            });
+            let near = near.map(|s| format!(", did you mean `{s}`?")).unwrap_or_default();
+            let message = format!("`{unknown}` is no rule, group or set{near}");
+            self.malformed.push(Malformed { range: range.clone(), message, meant });
+            return;
         }
         if selectors.is_empty() {
             return self.refuse(range, format!("`{verb}` names no rule"));
@@ -94,7 +103,7 @@ impl Suppressions {
     }
 
     fn refuse(&mut self, range: &Range<u32>, message: String) {
-        self.malformed.push(Malformed { range: range.clone(), message });
+        self.malformed.push(Malformed { range: range.clone(), message, meant: None });
     }
 
     /// Is the finding silenced? Marks the suppression that does it as used.
@@ -116,19 +125,21 @@ impl Suppressions {
 }
 
 /// A comment beside code speaks for its own line, a comment that stands alone for the line below.
-fn line_scope(text: &str, range: &Range<u32>) -> Range<u32> {
-    let (start, end) = (range.start as usize, range.end as usize);
-    let bytes = text.as_bytes();
+fn line_scope(text: &ProgramText<'_>, range: &Range<u32>) -> Range<u32> {
+    let (base, chunk) = text.around(range.start);
+    let bytes = chunk.as_bytes();
+    let (start, end) = ((range.start - base) as usize, (range.end - base) as usize);
     let before = bytes.get(..start).unwrap_or_default();
     let line = memchr::memrchr2(b'\n', b'\r', before).map_or(0, |at| at + 1);
     let own_end = end + gcheck_syntax::line_len(bytes.get(end..).unwrap_or_default());
     let blank = |range: Range<usize>| {
         bytes.get(range).unwrap_or_default().iter().all(|b| b.is_ascii_whitespace() || *b == b';')
     };
-    let own = if blank(line..start) && blank(end..own_end) {
-        own_end..own_end + gcheck_syntax::line_len(bytes.get(own_end..).unwrap_or_default()).max(1)
+    let in_file = |at: usize| base + at as u32;
+    if blank(line..start) && blank(end..own_end) {
+        let below = text.from(in_file(own_end)).next().map_or("", |(_, below)| below);
+        in_file(own_end)..in_file(own_end + gcheck_syntax::line_len(below.as_bytes()).max(1))
     } else {
-        line..own_end.max(end + 1)
-    };
-    own.start as u32..own.end as u32
+        in_file(line)..in_file(own_end.max(end + 1))
+    }
 }

@@ -11,7 +11,8 @@ use crate::config::Configs;
 use crate::{Problem, paths};
 
 /// Extensions of part programs, lower case.
-const EXTENSIONS: [&str; 11] = ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
+pub(crate) const EXTENSIONS: [&str; 11] =
+    ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
 
 /// What was found.
 #[derive(Debug, Default)]

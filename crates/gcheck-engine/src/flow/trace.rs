@@ -2,6 +2,9 @@
 //!
 //! Knows: the last block that set each fact. Must not know: values.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use crate::event::Event;
 use crate::model::{Model, Role};
 use crate::state::At;
@@ -59,16 +62,56 @@ pub struct Decision {
     pub to: At,
 }
 
+/// A set of facts; the last decisions count as one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Facts(u64);
+
+impl Facts {
+    const DECISIONS: Self = Self(1 << Fact::COUNT);
+
+    const fn one(index: usize) -> Self {
+        Self(1 << index)
+    }
+
+    /// Is no fact in it?
+    pub const fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Is a fact in both?
+    pub const fn intersects(self, other: Self) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    /// The facts that are not in the other.
+    #[must_use]
+    pub const fn without(self, other: Self) -> Self {
+        Self(self.0 & !other.0)
+    }
+
+    const fn or(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    const fn and(self, other: Self) -> Self {
+        Self(self.0 & other.0)
+    }
+}
+
 /// The last setting of each fact, and the last decisions.
 #[derive(Debug, Clone)]
 pub struct Trace {
     set: [Option<At>; Fact::COUNT],
     decisions: Vec<Decision>,
+    /// Facts set in this leg of the analysis.
+    own: Cell<Facts>,
+    /// Facts asked for in this leg that were not set in it. All traces of an analysis share it.
+    asked: Rc<Cell<Facts>>,
 }
 
 impl Default for Trace {
     fn default() -> Self {
-        Self { set: [None; Fact::COUNT], decisions: Vec::new() }
+        Self { set: [None; Fact::COUNT], decisions: Vec::new(), own: Cell::default(), asked: Rc::default() }
     }
 }
 
@@ -78,12 +121,61 @@ const MOST_DECISIONS: usize = 8;
 impl Trace {
     /// The block that set a fact last; `None` when it still is as at the start.
     pub fn set_by(&self, fact: Fact) -> Option<At> {
+        self.ask(Facts::one(fact.index()));
         self.set.get(fact.index()).copied().flatten()
     }
 
     /// The last decisions on the way here, the oldest first.
     pub fn decisions(&self) -> &[Decision] {
+        self.ask(Facts::DECISIONS);
         &self.decisions
+    }
+
+    fn ask(&self, facts: Facts) {
+        self.asked.set(self.asked.get().or(facts.without(self.own.get())));
+    }
+
+    /// A leg of the analysis begins.
+    pub(super) fn begin_leg(&self) {
+        self.own.set(Facts::default());
+        self.asked.set(Facts::default());
+    }
+
+    /// What was asked for and what was set in this leg.
+    pub(super) fn notes(&self) -> (Facts, Facts) {
+        (self.asked.get(), self.own.get())
+    }
+
+    /// Facts that were set by other blocks than in the other trace.
+    pub fn differing(&self, other: &Self) -> Facts {
+        let pairs = self.set.iter().zip(&other.set).enumerate();
+        let set = pairs.filter(|(_, (own, other))| own != other).map(|(index, _)| Facts::one(index));
+        let decisions = (self.decisions != other.decisions).then_some(Facts::DECISIONS);
+        set.chain(decisions).fold(Facts::default(), Facts::or)
+    }
+
+    /// Takes these facts over from another trace.
+    pub fn take(&mut self, facts: Facts, other: &Self) {
+        for (index, (slot, with)) in self.set.iter_mut().zip(&other.set).enumerate() {
+            if facts.intersects(Facts::one(index)) {
+                *slot = *with;
+            }
+        }
+        if facts.intersects(Facts::DECISIONS) {
+            self.decisions.clone_from(&other.decisions);
+        }
+    }
+
+    /// Changes every block that it names. `change` says no to one that is not there; then the trace is of no use.
+    pub fn places(&mut self, change: &mut dyn FnMut(&mut At) -> bool) -> bool {
+        let decisions = self.decisions.iter_mut().flat_map(|decision| [&mut decision.at, &mut decision.to]);
+        self.set.iter_mut().flatten().chain(decisions).all(change)
+    }
+
+    /// The same trace, whose notes nobody else shares.
+    #[must_use]
+    pub fn apart(&self) -> Self {
+        Self { asked: Rc::default(), ..self.clone() }
     }
 
     pub(super) fn decide(&mut self, decision: Decision) {
@@ -112,11 +204,16 @@ impl Trace {
         };
         if let Some(slot) = self.set.get_mut(fact.index()) {
             *slot = Some(at);
+            self.own.set(self.own.get().or(Facts::one(fact.index())));
         }
     }
 
     /// Where paths meet the later block is kept: it is the more likely to be looked for.
     pub(super) fn join(&mut self, other: &Self) {
+        // Which block is the later one depends on what was set before the leg, where one of the paths did not set the fact.
+        let (both, either) = (self.own.get().and(other.own.get()), self.own.get().or(other.own.get()));
+        self.own.set(both);
+        self.ask(either.or(Facts::DECISIONS).without(both));
         for (slot, with) in self.set.iter_mut().zip(&other.set) {
             *slot = (*slot).max(*with);
         }

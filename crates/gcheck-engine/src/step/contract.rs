@@ -341,11 +341,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn block_text(&self, place: &Place, block: &Block) -> &[u8] {
         let text = match &self.cursor {
-            Some(cursor) => cursor.file.loaded.text().as_bytes(),
+            Some(cursor) => cursor.file.loaded.chunk_text(place.chunk).as_bytes(),
             None => &[],
         };
-        let (start, end) = (place.base + block.range.start, place.base + block.range.end);
-        text.get(start as usize..end as usize).unwrap_or_default()
+        text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default()
     }
 
     /// Refuses a block whose words and codes do not fit together, before anything of it acts.

@@ -455,10 +455,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.restore(saved, state);
         }
         if frame.kind == FrameKind::OWord {
+            let returned = f64::from(u8::from(result.is_some()));
             let value = result.unwrap_or_else(|| D::number(0.0));
             let (name, flag) = (self.program.name("_value"), self.program.name("_value_returned"));
             state.variables.set_named(name, value);
-            state.variables.set_named(flag, D::number(f64::from(u8::from(self.returned))));
+            state.variables.set_named(flag, D::number(returned));
         }
         if let Some(feed) = &frame.bar_feed
             && let Some(ending) = self.feed_behind_cutoff(frame.caller, feed, state)?
@@ -532,7 +533,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     Some(expr) => Some(self.evaluate(place, table, table.expr(expr), state)?),
                     None => None,
                 };
-                self.returned = result.is_some();
                 self.leave(None, result, state)
             }
             OKeyword::Call => {

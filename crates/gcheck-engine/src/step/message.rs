@@ -50,7 +50,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn comment_in(&self, part: impl FnOnce(&str) -> Option<Rc<str>>) -> Option<Rc<str>> {
         let file = self.file(self.origin.at.file)?;
         // A comment behind a statement is no part of the block's own range.
-        part(file.loaded.text().get(self.origin.start as usize..)?.lines().next()?)
+        part(file.loaded.line_from(self.origin.start))
     }
 
     /// `#5` and `#<name>` become their values, with six decimals, or as the last `%d`, `%f` (four) or `%.3f` before them says;

@@ -132,10 +132,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
             }
             V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
-                let before =
-                    file.loaded.text().as_bytes().get(..self.origin.start as usize).unwrap_or_default();
-                let lines = before.split(|byte| *byte == b'\n').count();
-                D::number(f64::from(u32::try_from(lines).unwrap_or(u32::MAX)))
+                D::number(f64::from(file.loaded.line_number(self.origin.start)))
             }),
             V::Constant => {
                 variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number)

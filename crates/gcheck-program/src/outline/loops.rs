@@ -43,6 +43,12 @@ impl Loops {
         self.find(block, false)
     }
 
+    /// First and last block of each loop.
+    pub(super) fn turns(&self) -> impl Iterator<Item = (u32, u32)> {
+        let begun = self.entries.iter().filter(|entry| entry.begins);
+        begun.filter_map(|entry| Some((entry.block, super::known(entry.partner)?)))
+    }
+
     pub(super) fn unmatched(&self) -> &[u32] {
         &self.unmatched
     }

@@ -87,6 +87,13 @@ impl OWords {
         })
     }
 
+    /// First and last block of each loop.
+    pub(super) fn turns(&self) -> impl Iterator<Item = (u32, u32)> {
+        let loops = [OKeyword::While, OKeyword::Do, OKeyword::Repeat];
+        let begun = self.entries.iter().filter(move |entry| loops.contains(&entry.keyword));
+        begun.filter_map(|entry| Some((entry.block, self.block(entry.end)?)))
+    }
+
     pub(super) fn sub(&self, label: &OLabel) -> Option<u32> {
         self.subs.get(label).copied()
     }

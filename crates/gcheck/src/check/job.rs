@@ -2,12 +2,10 @@
 //!
 //! Knows: how configuration, control and rules come together for a file. Must not know: other files, output.
 
-use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-use gcheck_controls::{Control, UserCode};
 use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
@@ -16,12 +14,12 @@ use gcheck_syntax::SourceText;
 
 use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use super::read;
-use crate::Problem;
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
 use crate::control_choice::choose;
-use crate::execution::{Equipment, Start};
+use crate::in_force::Controls;
 use crate::programs::{ProgramFolders, Reachable};
+use crate::{Problem, in_force};
 
 /// A file that is to be checked.
 #[derive(Debug)]
@@ -33,9 +31,6 @@ pub(super) struct Target {
     pub(super) config: Arc<Config>,
 }
 
-/// A control's name and the codes that a configuration adds to it.
-type ControlKey = (String, Vec<UserCode>);
-
 /// What all files of a run share.
 pub(super) struct Bench<'o> {
     pub(super) control: Option<&'o str>,
@@ -44,11 +39,10 @@ pub(super) struct Bench<'o> {
     execution: Execution,
     fixes: Option<FixKinds>,
     set: &'o [Assignment],
-    folders: ProgramFolders,
+    folders: Arc<ProgramFolders>,
+    pub(super) controls: Controls,
     /// Results of earlier runs, and what this run is called in them.
     cache: Option<(Cache, Run)>,
-    /// Controls with the codes that configurations add to them.
-    controls: Mutex<HashMap<ControlKey, Arc<Control>>>,
 }
 
 impl<'o> Bench<'o> {
@@ -74,9 +68,9 @@ impl<'o> Bench<'o> {
                 FixKinds::Safe
             }),
             set: &options.set,
-            folders: ProgramFolders::default(),
+            folders: Arc::default(),
+            controls: Controls::default(),
             cache: cache.map(|cache| (cache, run)),
-            controls: Mutex::default(),
         }
     }
 
@@ -85,17 +79,6 @@ impl<'o> Bench<'o> {
         if let Some((cache, _)) = &self.cache {
             cache.tidy();
         }
-    }
-
-    /// A control with a shop's own codes; made once for each set of codes.
-    pub(super) fn control_of(&self, name: &str, codes: &[UserCode]) -> Result<Arc<Control>, Problem> {
-        let plain = gcheck_controls::load(name).map_err(|error| Problem::new(error.to_string()))?;
-        if codes.is_empty() {
-            return Ok(plain);
-        }
-        let key = (name.to_owned(), codes.to_vec());
-        let mut controls = self.controls.lock().unwrap_or_else(PoisonError::into_inner);
-        Ok(Arc::clone(controls.entry(key).or_insert_with(|| Arc::new(plain.with_user_codes(codes)))))
     }
 }
 
@@ -153,19 +136,16 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &settings, cache, key)) {
         return Ok(Checked { report: report(target, source, verdict, 0), change: None });
     }
-    let Prepared { source, mut settings, choice, selection } = decide(bench, target, source, settings)?;
-    let control = bench.control_of(&choice.name, &settings.codes)?;
+    let Prepared { source, settings, choice, selection } = decide(bench, target, source, settings)?;
+    let control = bench.controls.get(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
-    let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
+    let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
     let questions = Questions::new(&programs);
     let model = Model::new(&control);
-    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
-    equipment.set(bench.set);
-    settings.machine.units_are_told = !equipment.units_assumed;
-    settings.machine.engine = equipment.machine;
+    let machine = in_force::machine(&settings, &control, bench.set)?;
     let scene = Scene {
         dialect: &dialect,
-        machine: &settings.machine,
+        machine: &machine,
         programs: &questions,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
@@ -215,7 +195,7 @@ fn known(
     key: Key,
 ) -> Option<Verdict> {
     let entry = cache.load(key)?;
-    let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
+    let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
     if answers_hold(&entry.asked, &programs) { entry.verdict() } else { None }
 }
 

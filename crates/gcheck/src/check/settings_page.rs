@@ -31,7 +31,7 @@ pub(super) fn page(bench: &Bench<'_>, targets: &[Target], problems: &mut Vec<Pro
 
 /// The machine as the program would find it.
 fn machine(bench: &Bench<'_>, prepared: &Prepared) -> Result<Machine, Problem> {
-    let control = bench.control_of(&prepared.choice.name, &prepared.settings.codes)?;
+    let control = bench.controls.get(&prepared.choice.name, &prepared.settings.codes)?;
     Ok(Equipment::new(&prepared.settings, &Model::new(&control), Start::Any)?.machine)
 }
 

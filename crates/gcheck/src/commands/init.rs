@@ -102,8 +102,13 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 # paths = ["macros/"]
 
 [rules]
-# select = ["recommended"]
+# select = ["recommended"]  # also "strict", "restart-safe", "house-style"
 # missing-decimal-point = "info"
+
+# How `gcheck fmt` writes programs; what is left out follows the customs of the control.
+[format]
+# leading-zeros = "add"      # G01
+# comment-column = 40
 
 # Rules that are off for some programs.
 [per-file-ignores]

@@ -49,16 +49,22 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
 
 /// Says why a run did not come to the end of the program.
 pub(crate) fn end_of_run(session: &Session<'_>, result: &RunResult) {
-    if let Some(Fault { words, range, name, text }) = fault_of(session, result) {
-        let mut problem = Problem::at(&name, &text, &range, words.message);
-        if let Some(why) = words.why {
-            problem = problem.note(why);
-        }
-        if let Some(help) = words.help {
-            problem = problem.help(help);
-        }
-        crate::report(&problem);
+    if let Some(fault) = fault_of(session, result) {
+        crate::report(&problem_of(&fault));
     }
+}
+
+/// The message about a run that did not come to the end of the program.
+pub(crate) fn problem_of(fault: &Fault) -> Problem {
+    let Fault { words, range, name, text } = fault;
+    let mut problem = Problem::at(name, text, range, words.message.clone());
+    if let Some(why) = &words.why {
+        problem = problem.note(why.clone());
+    }
+    if let Some(help) = &words.help {
+        problem = problem.help(help.clone());
+    }
+    problem
 }
 
 /// Why a run ended before the program did, and where.
@@ -93,11 +99,11 @@ pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Faul
     };
     let file = session.program.file(result.origin.at.file);
     let (name, text) = match &file {
-        Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text()),
-        _ => (session.prepared.shown.as_str(), session.prepared.source.text()),
+        Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text().into_owned()),
+        _ => (session.prepared.shown.as_str(), session.prepared.source.text().to_owned()),
     };
     let range = range(session, result.origin, culprit);
-    Some(Fault { words, range, name: name.to_owned(), text: text.to_owned() })
+    Some(Fault { words, range, name: name.to_owned(), text })
 }
 
 /// The word that a fault is about, else the block.
@@ -159,7 +165,7 @@ fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     let file = session.program.file(origin.at.file)?;
     let place = file.loaded.place(origin.at.block, session.program.dialect())?;
     // A comment behind a statement is no part of the block's own range.
-    let text = file.loaded.text().get(place.range().start as usize..)?.lines().next()?;
+    let text = file.loaded.line_from(place.range().start);
     let (_, rest) = text.split_once('(')?;
     let comment = rest.split(')').next()?.trim();
     (!comment.is_empty()).then(|| comment.to_owned())

@@ -119,7 +119,9 @@ fn what_cannot_be_explained() {
 fn rules_are_listed() {
     let rules = list("rules");
     assert!(rules.len() >= 35);
-    for key in ["id", "group", "summary", "severity", "recommended", "tier", "since", "aliases"] {
+    for key in
+        ["id", "group", "summary", "severity", "recommended", "sets", "mends", "tier", "since", "aliases"]
+    {
         assert!(rules.iter().all(|rule| rule.get(key).is_some()), "{key}");
     }
     let text = Shop::new().gcheck("rules").stdout;

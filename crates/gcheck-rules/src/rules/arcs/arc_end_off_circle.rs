@@ -5,6 +5,7 @@ use gcheck_engine::{ArcFault, Event, Fact, Fault, Position, Role, Units};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
@@ -44,7 +45,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct ArcEndOffCircle {
     /// The programmed point before the block.
     at: Option<Position>,
@@ -54,7 +55,13 @@ struct ArcEndOffCircle {
     has_arcs: Option<bool>,
 }
 
+remembers!(ArcEndOffCircle);
+
 impl PathRule for ArcEndOffCircle {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
         if !*self.has_arcs.get_or_insert_with(|| cx.file_uses(is_arc)) {

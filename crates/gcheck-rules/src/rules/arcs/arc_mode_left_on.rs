@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{ArcFault, At, Fact, Fault, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -39,16 +40,22 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct ArcModeLeftOn {
     /// Blocks that chose the arcs told of: the first block without centre speaks for those behind it.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(ArcModeLeftOn: told);
+
 /// What the setting is about that lets a control go straight, and its value then.
 const SETTING: (&str, &str) = ("arc without radius and centre", "straight line");
 
 impl PathRule for ArcModeLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::Arc(ArcFault::NoCentre) || cx.origin().letters.intersects(LetterSet::of("IJKR")) {
             return;

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, Ending, Event};
 
 use crate::bar_feeder::lengths;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -51,11 +52,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct BarJobWithoutEnd {
     feeds: bool,
 }
 
+remembers!(BarJobWithoutEnd);
+
 impl PathRule for BarJobWithoutEnd {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         self.feeds |= lengths(event).is_some();
     }

@@ -4,6 +4,7 @@ use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::Event;
 
 use crate::bar_feeder::{Given, Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -40,12 +41,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct BarLengthMissing {
     /// Words of feeds before: that they do not last is told by another rule.
     overridden: LetterSet,
 }
 
+remembers!(BarLengthMissing);
+
 impl PathRule for BarLengthMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(rules) = cx.bar_feeder() else { return };
         if lengths(event).is_none() {

@@ -3,6 +3,7 @@
 use gcheck_engine::{At, Event};
 
 use crate::bar_feeder::{Given, Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -41,13 +42,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct BarOverrideDoesNotLast {
     /// By length: the block that gave it last, and the millimetres.
     given: [Option<(At, f64)>; 3],
 }
 
+remembers!(BarOverrideDoesNotLast: given);
+
 impl PathRule for BarOverrideDoesNotLast {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Some(rules) = cx.bar_feeder() else { return };
         let Some(told) = lengths(event) else { return };

@@ -4,6 +4,7 @@ use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
 use crate::bar_feeder::{Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -54,12 +55,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct BarPushShorterThanPart {
     /// The deepest parting cut since the bar was fed last.
     deepest: Option<Parting>,
 }
 
+remembers!(BarPushShorterThanPart: deepest);
+
 impl PathRule for BarPushShorterThanPart {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if cx.bar_feeder().is_none() {
             return;

@@ -3,6 +3,7 @@
 use gcheck_engine::{Event, Frame};
 
 use crate::bar_feeder::lengths;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -55,12 +56,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct PartCutOffTwice {
     /// The last parting cut of the program itself since the bar was fed.
     before: Option<Parting>,
 }
 
+remembers!(PartCutOffTwice: before);
+
 impl PathRule for PartCutOffTwice {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         if cx.bar_feeder().is_none() {
             return;

@@ -4,6 +4,7 @@ use gcheck_engine::{Axis, Event};
 use gcheck_geometry::Mm;
 
 use crate::bar_feeder::lengths;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -49,12 +50,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct TurretInTheWayOfBar {
     /// The farthest from the centre that a cut of this part began or ended, millimetres.
     radius: f64,
 }
 
+remembers!(TurretInTheWayOfBar);
+
 impl PathRule for TurretInTheWayOfBar {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         if cx.bar_feeder().is_none() {
             return;

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
 
@@ -41,17 +42,25 @@ declare_rule! {
         summary: "cutter compensation left on",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(CompensationLeftOn { told: None }) },
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationLeftOn {
     /// The block that switched on what was reported last.
     told: Option<At>,
 }
 
+remembers!(CompensationLeftOn: told);
+
 impl PathRule for CompensationLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             self.judge(cx, place, report);
@@ -88,6 +97,7 @@ impl CompensationLeftOn {
         } else {
             finding.at_most(Severity::Warning)
         };
+        let finding = finding.fix_if(cx.block_before(cx.cancel_of(Effect::CompensationOff).as_deref()));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
     }
 }
@@ -190,6 +200,7 @@ mod tests {
               here: the next tool begins with it
               there: `G41` set here
               help: leave the contour on a straight move with `G40` before the tool goes away
+              fix (unsafe): put `G40` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -5,6 +5,7 @@ use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
 
 use super::compensation_left_on::is_on;
 use super::compensation_on_in_arc::stands_in_plane;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -42,12 +43,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationOffInArc {
     /// Compensation was switched off and nothing has moved since.
     ended: Option<At>,
 }
 
+remembers!(CompensationOffInArc: ended);
+
 impl PathRule for CompensationOffInArc {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(super::compensation_left_on::is_on)
     }

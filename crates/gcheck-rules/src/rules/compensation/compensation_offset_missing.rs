@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use super::compensation_on_in_arc::begins;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -39,12 +40,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationOffsetMissing {
     /// Compensation was switched on, and no cut seen since.
     has_begun: bool,
 }
 
+remembers!(CompensationOffsetMissing);
+
 impl PathRule for CompensationOffsetMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(super::compensation_left_on::is_on)
     }

@@ -4,6 +4,7 @@ use gcheck_controls::{CompensationStyle, Effect, Letter};
 use gcheck_engine::{At, Axis, CompensationFault, Event, Fault, Role};
 
 use super::compensation_left_on::is_on;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -38,12 +39,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CompensationOnInArc {
     /// Compensation is on and nothing has moved since.
     begun: Option<At>,
 }
 
+remembers!(CompensationOnInArc: begun);
+
 impl PathRule for CompensationOnInArc {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(super::compensation_left_on::is_on)
     }

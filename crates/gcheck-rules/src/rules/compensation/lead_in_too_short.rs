@@ -5,6 +5,7 @@ use gcheck_geometry::Plane;
 
 use super::compensation_left_on::is_on;
 use super::compensation_on_in_arc::{begins, stands_in_plane};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -45,11 +46,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct LeadInTooShort {
     begun: Option<At>,
 }
 
+remembers!(LeadInTooShort: begun);
+
 impl PathRule for LeadInTooShort {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(super::compensation_left_on::is_on)
     }

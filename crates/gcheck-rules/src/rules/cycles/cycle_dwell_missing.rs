@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter, Need};
 
 use super::cycle_words_lost::{Series, cycle_range};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -36,13 +37,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleDwellMissing {
     series: Series,
     told: bool,
 }
 
+remembers!(CycleDwellMissing: series);
+
 impl PathRule for CycleDwellMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(code) = self.series.block(cx).and_then(|ix| cx.scene.control().code_at(ix)) else { return };
         let p = Letter::of('P');

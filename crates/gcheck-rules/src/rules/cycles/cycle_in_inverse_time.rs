@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_engine::{At, CycleFault, Fact, Fault, FeedMode, Role};
 
 use super::cycle_words_lost::{cycle_range, is_cycle};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -42,13 +43,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleInInverseTime {
     /// Blocks that chose inverse time: one finding for each.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(CycleInInverseTime: told);
+
 impl PathRule for CycleInInverseTime {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault == Fault::Cycle(CycleFault::InverseTime) {
             self.tell(cx, Severity::Error, report);

@@ -7,6 +7,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use super::cycle_words_lost::is_cycle;
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -54,6 +55,7 @@ declare_rule! {
         summary: "canned cycle still on at a tool change or the end",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -62,13 +64,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleLeftOn {
     /// Blocks whose cycles were told of.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(CycleLeftOn: told);
+
 impl PathRule for CycleLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(end) = place(cx) else { return };
         let Some(LeftOn::Surely(code)) = cx.left_on(Role::Cycle, is_cycle) else { return };
@@ -95,6 +103,7 @@ impl CycleLeftOn {
             .finding(&META, harm.range(cx), format!("canned cycle is still on {} (`{name}`)", harm.words()))
             .label("the next block with a position drills a hole")
             .help("end the cycle with `G80` before")
+            .fix_if(cx.block_before(cx.cancel_of(Effect::CycleCancel).as_deref()))
             .at_most(if harm == Harm::End { Severity::Info } else { Severity::Warning });
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }
@@ -203,6 +212,7 @@ mod tests {
               here: the next block with a position drills a hole
               there: `G81` set here
               help: end the cycle with `G80` before
+              fix (unsafe): put `G80` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

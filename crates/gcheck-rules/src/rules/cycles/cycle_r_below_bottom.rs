@@ -7,6 +7,7 @@ use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Mm;
 
 use super::cycle_words_lost::{cycle_range, is_cycle};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
@@ -48,13 +49,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleRBelowBottom {
     /// Blocks that began the cycles told of.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(CycleRBelowBottom: told);
+
 impl PathRule for CycleRBelowBottom {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_cycle)
     }

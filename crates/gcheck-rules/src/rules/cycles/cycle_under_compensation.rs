@@ -6,6 +6,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, CycleFault, Fact, Fault, Role};
 
 use super::cycle_words_lost::{cycle_range, is_cycle};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -57,13 +58,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleUnderCompensation {
     /// Blocks that switched compensation on: one finding for each.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(CycleUnderCompensation: told);
+
 impl PathRule for CycleUnderCompensation {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault == Fault::Cycle(CycleFault::Compensated) {
             self.tell(cx, Severity::Error, report);

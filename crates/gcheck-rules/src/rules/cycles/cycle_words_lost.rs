@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use gcheck_controls::{Code, CodeIx, Effect, Letter, LetterSet};
 use gcheck_engine::{At, CycleFault, Event, Fault, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
@@ -54,12 +55,18 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleWordsLost {
     series: Series,
 }
 
+remembers!(CycleWordsLost: series);
+
 impl PathRule for CycleWordsLost {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_cycle)
     }
@@ -157,7 +164,7 @@ pub(super) fn is_operation(effect: Effect) -> bool {
 }
 
 /// Words of canned cycles, series by series.
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 pub(crate) struct Series {
     /// Words given since the cycle began, with the block that gave them last.
     pub(crate) given: BTreeMap<Letter, At>,
@@ -165,12 +172,16 @@ pub(crate) struct Series {
     lost: BTreeMap<Letter, Lost>,
 }
 
+remembers!(Series: given, lost);
+
 /// A word that ended with its series.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 struct Lost {
     given: At,
     ended: At,
 }
+
+remembers!(Lost: given, ended);
 
 /// Words that stay while a cycle goes on.
 const STAYING: LetterSet = LetterSet::of("XYZRQPIJKE");

@@ -7,6 +7,7 @@ use gcheck_engine::{At, Fact, Role};
 use super::cycle_left_on::{Harm, place};
 use super::cycle_words_lost::is_cycle;
 use crate::boundary::LeftOn;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -47,13 +48,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct MaybeCycleLeftOn {
     /// What was told of: one finding for each cycle.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(MaybeCycleLeftOn: told);
+
 impl PathRule for MaybeCycleLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(harm) = place(cx).filter(|harm| *harm != Harm::End) else { return };
         let Some(LeftOn::Maybe(code)) = cx.left_on(Role::Cycle, is_cycle) else { return };

@@ -43,6 +43,7 @@ declare_rule! {
         summary: "direction of 3D cutter compensation that is no unit vector",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CHANGES, make: || Box::new(CutterVectorNotUnit) },
     }
@@ -179,8 +180,8 @@ fn lengths(parts: &[(f64, f64)]) -> [f64; 2] {
 fn decimals(cx: &PathCx<'_>, word: &Word) -> usize {
     let Some(place) = cx.place() else { return 0 };
     let file = cx.program.file(cx.origin().at.file);
-    let range = (place.base + word.range().start) as usize..(place.base + word.range().end) as usize;
-    let text = file.as_ref().and_then(|file| file.loaded.text().get(range)).unwrap_or_default();
+    let range = place.base + word.range().start..place.base + word.range().end;
+    let text = file.as_ref().map_or("", |file| file.loaded.slice(range));
     if word.number().is_none() {
         return 0;
     }

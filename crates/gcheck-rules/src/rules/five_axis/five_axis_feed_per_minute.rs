@@ -3,6 +3,7 @@
 use gcheck_engine::{At, Event, Fact, FeedMode, Role, TravelKind};
 
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -39,12 +40,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct FiveAxisFeedPerMinute {
     /// The blocks that switched on length and feed mode, as they were reported last.
     told: Option<[Option<At>; 2]>,
 }
 
+remembers!(FiveAxisFeedPerMinute: told);
+
 impl PathRule for FiveAxisFeedPerMinute {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         if !state.effect(Role::Length, cx.model).is_some_and(is_along_tool) {

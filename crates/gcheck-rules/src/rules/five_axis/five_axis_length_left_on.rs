@@ -5,6 +5,7 @@ use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -42,6 +43,7 @@ declare_rule! {
         summary: "5-axis length compensation left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -50,12 +52,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct FiveAxisLengthLeftOn {
     /// The block that switched on what was reported last.
     told: Option<At>,
 }
 
+remembers!(FiveAxisLengthLeftOn: told);
+
 impl PathRule for FiveAxisLengthLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             let resets = place == Boundary::ProgramEnd && cx.end_resets(Role::Length);
@@ -98,7 +107,8 @@ impl FiveAxisLengthLeftOn {
         let finding = cx
             .finding(&META, range, format!("5-axis length compensation is still on {place} (`{name}`)"))
             .label("the length is along the tilted tool here")
-            .help(format!("end it with `{cancel}` and a move of Z away from the part before this block"));
+            .help(format!("end it with `{cancel}` and a move of Z away from the part before this block"))
+            .fix_if(cx.block_before(Some(&cancel)));
         let finding = if end_resets {
             finding.note("the end of the program switches it off on this control").at_most(Severity::Info)
         } else {

@@ -4,6 +4,7 @@ use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, Domain};
 
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
@@ -48,12 +49,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct FiveAxisLengthWithoutOffset {
     /// An `H` stood in a block before.
     is_given: bool,
 }
 
+remembers!(FiveAxisLengthWithoutOffset);
+
 impl PathRule for FiveAxisLengthWithoutOffset {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.judge(cx, report);
         self.is_given |= cx.origin().letters.contains(Letter::of('H'));

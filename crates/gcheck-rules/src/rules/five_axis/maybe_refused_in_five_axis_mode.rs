@@ -7,6 +7,7 @@ use gcheck_engine::At;
 
 use super::refused_in_five_axis_mode::{Clash, clashes, finding, set_by, uses_modes};
 use crate::boundary::LeftOn;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -47,12 +48,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct MaybeRefusedInFiveAxisMode {
     /// What was reported, by the block that switched the mode on.
     told: BTreeSet<(At, CodeIx)>,
 }
 
+remembers!(MaybeRefusedInFiveAxisMode: told);
+
 impl PathRule for MaybeRefusedInFiveAxisMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if !uses_modes(cx) {
             cx.enough();

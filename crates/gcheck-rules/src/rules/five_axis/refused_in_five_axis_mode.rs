@@ -7,6 +7,7 @@ use gcheck_engine::{At, Fact, Role};
 
 use crate::boundary::LeftOn;
 use crate::five_axis::{is_along_tool, is_along_vectors};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
 
@@ -51,12 +52,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct RefusedInFiveAxisMode {
     /// What was reported, by the block that switched the mode on.
     told: BTreeSet<(At, CodeIx)>,
 }
 
+remembers!(RefusedInFiveAxisMode: told);
+
 impl PathRule for RefusedInFiveAxisMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if !uses_modes(cx) {
             cx.enough();

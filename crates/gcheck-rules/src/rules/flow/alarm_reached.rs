@@ -2,6 +2,7 @@
 
 use gcheck_engine::{Ending, FrameKind};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::{is_called_from_elsewhere, reads_start_state};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
@@ -49,13 +50,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct AlarmReached {
     /// A path came to another end.
     may_end_otherwise: bool,
 }
 
+remembers!(AlarmReached);
+
 impl PathRule for AlarmReached {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
         let Ending::Alarm(number) = ending else {
             self.may_end_otherwise = true;
@@ -88,8 +95,7 @@ impl PathRule for AlarmReached {
 /// The comment of the block: what the control shows with the alarm.
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
-    let range = cx.range();
-    let block = file.loaded.text().get(range.start as usize..range.end as usize)?;
+    let block = file.loaded.slice(cx.range());
     let (_, behind) = block.split_once('(')?;
     let (text, _) = behind.split_once(')')?;
     let text = text.trim();

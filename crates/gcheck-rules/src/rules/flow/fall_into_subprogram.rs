@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, FrameKind};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -58,14 +59,20 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct FallIntoSubprogram {
     /// Blocks with a sequence number that local calls name and no jump does; made when first asked for.
-    entries: Option<BTreeSet<u32>>,
-    told: BTreeSet<u32>,
+    entries: Option<BTreeSet<At>>,
+    told: BTreeSet<At>,
 }
 
+remembers!(FallIntoSubprogram: entries, told);
+
 impl PathRule for FallIntoSubprogram {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // Where `O` numbers no programs, nothing stands behind its head.
         if cx.survey.programs.len() < 2 && cx.survey.jumps.is_empty() {
@@ -89,7 +96,7 @@ impl PathRule for FallIntoSubprogram {
             FrameKind::Local => is_program && frame.entry.block < entry,
             FrameKind::OWord => false,
         };
-        if !came_from_above || !self.told.insert(entry) {
+        if !came_from_above || !self.told.insert(At { file: 0, block: entry }) {
             return;
         }
         let Some(range) = cx.range_of(At { file: 0, block: entry }) else { return };
@@ -111,14 +118,14 @@ impl FallIntoSubprogram {
     fn entry_above(&mut self, cx: &PathCx<'_>) -> Option<u32> {
         let block = cx.origin().at.block;
         let entries = self.entries.get_or_insert_with(|| entries(cx));
-        let entry = *entries.range(..=block).next_back()?;
+        let entry = entries.range(..=At { file: 0, block }).next_back()?.block;
         let file = cx.program.file(0)?;
         // Flow may leave behind the straight run, so that what comes later says nothing of how it was entered.
         (block <= file.loaded.outline().straight_from(entry).end.max(entry)).then_some(entry)
     }
 }
 
-fn entries(cx: &PathCx<'_>) -> BTreeSet<u32> {
+fn entries(cx: &PathCx<'_>) -> BTreeSet<At> {
     let Some(file) = cx.program.file(0) else { return BTreeSet::new() };
     let outline = file.loaded.outline();
     let is_call = |code| cx.model.effect(code) == Effect::CallLocal;
@@ -132,7 +139,7 @@ fn entries(cx: &PathCx<'_>) -> BTreeSet<u32> {
             .any(|other| other.target.is_none_or(|n| n == number) && !is_call(other.code));
         let mut blocks = outline.labels(number);
         if let (Some(block), None, false) = (blocks.next(), blocks.next(), is_also_jumped_to) {
-            entries.insert(block);
+            entries.insert(At { file: 0, block });
         }
     }
     if cx.scene.control().syntax().program_number && !cx.scene.control().syntax().o_words {
@@ -145,7 +152,7 @@ fn entries(cx: &PathCx<'_>) -> BTreeSet<u32> {
                 matches!(end.ends, Ends::Program | Ends::Subprogram) && (from..to).contains(&end.range.start)
             });
             if has_end && part.number.is_some() {
-                entries.insert(part.blocks.start);
+                entries.insert(At { file: 0, block: part.blocks.start });
             }
         }
     }

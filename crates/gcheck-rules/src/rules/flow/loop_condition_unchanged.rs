@@ -7,6 +7,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::At;
 use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, Place, StatementKind, Target};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::blocks_with;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
@@ -57,21 +58,27 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct LoopConditionUnchanged {
     /// Loops seen to repeat their state: `endless-loop` speaks of them.
-    endless: HashSet<u32>,
+    endless: HashSet<At>,
 }
 
+remembers!(LoopConditionUnchanged: endless);
+
 impl PathRule for LoopConditionUnchanged {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn endless(&mut self, _: &PathCx<'_>, head: At, _: &mut Report<'_>) {
-        self.endless.insert(head.block);
+        self.endless.insert(head);
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
         for (at, place) in blocks_with(cx.program, cx.scene, BlockFlags::STATEMENT) {
             // A loop that is left before its first turn, and one that repeats itself, are other rules' matter.
-            if self.endless.contains(&at.block) || cx.is_never_reached(at.next()) {
+            if self.endless.contains(&at) || cx.is_never_reached(at.next()) {
                 continue;
             }
             if let Some((condition, body)) = loop_at(cx, at, &place)

@@ -6,6 +6,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Assumption, At, Fault, Reach};
 use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -61,13 +62,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct UnreachableBlock {
     /// A fault ended a path: what stands behind it was not looked at.
     cut_short: bool,
 }
 
+remembers!(UnreachableBlock);
+
 impl PathRule for UnreachableBlock {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, _: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
         self.cut_short |= matches!(
             fault,

@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -42,12 +43,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct MoveOutsideTravel {
     /// By axis: the last move ended outside, so that the way on is not told again.
     is_outside: [bool; 9],
 }
 
+remembers!(MoveOutsideTravel);
+
 impl PathRule for MoveOutsideTravel {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         !program.scene.machine.engine.travel.is_empty()
     }

@@ -2,6 +2,7 @@
 
 use gcheck_engine::{At, Fault};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -35,11 +36,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolNotInTable {
     last: Option<(At, u32)>,
 }
 
+remembers!(ToolNotInTable: last);
+
 impl PathRule for ToolNotInTable {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::NoSuchTool(number) = fault else { return };
         if self.last.replace((cx.origin().at, *number)) == Some((cx.origin().at, *number)) {

@@ -6,6 +6,7 @@ use gcheck_controls::Unset;
 use gcheck_engine::{Abstract, AbstractValue, Domain, FrameKind, Truth};
 use gcheck_program::{BlockFlags, Op};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::{blocks_with, expressions, is_called_from_elsewhere};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
@@ -42,14 +43,20 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct MaybeVariableUnset {
     told: HashSet<u32>,
     /// Variables that the program asks whether they hold nothing; made when first asked for.
     tested: Option<HashSet<u32>>,
 }
 
+remembers!(MaybeVariableUnset);
+
 impl PathRule for MaybeVariableUnset {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.scene.control().semantics().unset == Unset::Vacant
     }

@@ -7,6 +7,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::FrameKind;
 use gcheck_program::{BinaryOp, ExprIx, Op, Place, StatementKind, Value};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
@@ -58,10 +59,12 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct VariableReadBeforeSet {
     told: HashSet<u32>,
 }
+
+remembers!(VariableReadBeforeSet);
 
 /// How a block uses a variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +82,10 @@ enum Use {
 }
 
 impl PathRule for VariableReadBeforeSet {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn vacant_read(&mut self, cx: &PathCx<'_>, variable: u32, report: &mut Report<'_>) {
         if self.told.contains(&variable) {
             return;

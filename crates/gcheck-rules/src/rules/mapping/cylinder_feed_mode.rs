@@ -3,6 +3,7 @@
 use gcheck_controls::{CodeNumber, Effect};
 use gcheck_engine::{At, Event, Fact, FeedMode, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -37,12 +38,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CylinderFeedMode {
     /// The block that set the mode that was reported last.
     told: Option<At>,
 }
 
+remembers!(CylinderFeedMode: told);
+
 impl PathRule for CylinderFeedMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let fact = Fact::Mode(Role::FeedMode);

@@ -6,6 +6,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Cylinder, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -53,6 +54,7 @@ declare_rule! {
         summary: "cylindrical mapping left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -61,12 +63,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct CylinderLeftOn {
     /// The block that began what was reported last.
     told: Option<At>,
 }
 
+remembers!(CylinderLeftOn: told);
+
 impl PathRule for CylinderLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(boundary) = cx.boundary() {
             self.judge(cx, Place::Boundary(boundary), report);
@@ -121,7 +130,8 @@ impl CylinderLeftOn {
                 Place::Boundary(_) => format!("a word for {linear} still turns {rotary}"),
                 Place::Reference => format!("{rotary} turns away from the drawing"),
             })
-            .help(format!("end mapping before, with `{name}` alone in its block"));
+            .help(format!("end mapping before, with `{name}` alone in its block"))
+            .fix_if(cx.block_before(Some(&name)));
         let finding = cx.resting_on(finding, Fact::Mode(Role::Cylinder), &format!("`{name}`"));
         let Some(finding) = limited(cx, place, &name, finding) else { return };
         self.told = set_by;
@@ -278,6 +288,7 @@ mod tests {
               here: a word for Y still turns A
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
         expect![[r#"
@@ -285,6 +296,7 @@ mod tests {
               here: A turns away from the drawing
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
         expect![[r#"
@@ -294,6 +306,7 @@ mod tests {
               note: setting 56 decides whether the end of the program ends `G107`
               assuming: setting 56 (M30 restores default G codes) is on
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));
     }

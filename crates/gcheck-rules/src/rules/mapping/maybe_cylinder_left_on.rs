@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -40,12 +41,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct MaybeCylinderLeftOn {
     /// The block that began what was reported last.
     told: Option<At>,
 }
 
+remembers!(MaybeCylinderLeftOn: told);
+
 impl PathRule for MaybeCylinderLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if cx.boundary() != Some(Boundary::ToolChange) || cx.model.semantics().cylinder.is_none() {
             return;

@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -34,6 +35,8 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict, RestartSafe],
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),
@@ -42,11 +45,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct DistanceModeNotStated {
     is_done: bool,
 }
 
+remembers!(DistanceModeNotStated);
+
 impl PathRule for DistanceModeNotStated {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.first_move(cx, report);
     }
@@ -88,7 +98,8 @@ impl DistanceModeNotStated {
                 format!("moves before positions or increments are stated (`{absolute}`, `{incremental}`)"),
             )
             .label("counts from wherever the last program left the mode")
-            .help(format!("state `{absolute}` at the head of the program"));
+            .help(format!("state `{absolute}` at the head of the program"))
+            .fix_if(cx.block_before(Some(&absolute)));
         // Every program's end brings the positions back: only a program that was stopped leaves increments.
         let is_safe = cx.at_end().any(|code| is_default(code.effect()));
         report.add(if is_safe { finding.at_most(Severity::Hint) } else { finding });

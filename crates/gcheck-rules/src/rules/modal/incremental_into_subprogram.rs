@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Event, Fact, FrameKind, Role};
 
 use super::distance_mode_not_stated::is_home;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -50,6 +51,7 @@ declare_rule! {
 }
 
 /// The first move of a subprogram that takes the mode from its caller.
+#[derive(Clone, PartialEq)]
 struct Call {
     /// The subprogram.
     entry: At,
@@ -58,16 +60,25 @@ struct Call {
     is_incremental: bool,
 }
 
+remembers!(Call: entry, caller);
+
+#[derive(Clone, PartialEq)]
 struct IncrementalIntoSubprogram {
     /// The block that set the mode last, and how deep in calls.
     depth_set: Option<(At, usize)>,
     calls: Vec<Call>,
 }
 
+remembers!(IncrementalIntoSubprogram: depth_set, calls);
+
 /// More subprograms than this are not compared.
 const MOST_CALLS: usize = 200;
 
 impl PathRule for IncrementalIntoSubprogram {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| matches!(effect, Effect::CallLocal | Effect::CallProgram | Effect::MacroCall))
     }

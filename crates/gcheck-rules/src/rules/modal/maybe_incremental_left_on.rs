@@ -7,6 +7,7 @@ use gcheck_engine::{Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -44,13 +45,20 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct MaybeIncrementalLeftOn {
     change: Option<Range<u32>>,
     /// Told since the mode was last certain.
     is_told: bool,
 }
 
+remembers!(MaybeIncrementalLeftOn: change);
+
 impl PathRule for MaybeIncrementalLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::Incremental)
     }

@@ -7,6 +7,7 @@ use gcheck_engine::{At, Event, Fact, Role};
 use gcheck_program::BlockFlags;
 
 use super::distance_mode_not_stated::is_home;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -59,6 +60,7 @@ const ROLES: [Role; 9] = [
 ];
 
 /// A mode that a block to be skipped changed.
+#[derive(Clone, PartialEq)]
 struct Change {
     role: Role,
     at: At,
@@ -66,6 +68,9 @@ struct Change {
     range: Range<u32>,
 }
 
+remembers!(Change: at, range);
+
+#[derive(Clone, PartialEq)]
 struct ModalChangeInSkippedBlock {
     /// By role: the code that is in effect with the blocks skipped, once one of them changed it.
     skipped: Vec<(Role, CodeIx)>,
@@ -73,7 +78,13 @@ struct ModalChangeInSkippedBlock {
     changes: Vec<Change>,
 }
 
+remembers!(ModalChangeInSkippedBlock: changes);
+
 impl PathRule for ModalChangeInSkippedBlock {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.survey.block_deletes != 0
     }

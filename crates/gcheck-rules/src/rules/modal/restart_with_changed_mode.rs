@@ -3,6 +3,7 @@
 use gcheck_controls::CodeIx;
 use gcheck_engine::{Ending, Event, Fact, FrameKind, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -53,7 +54,7 @@ declare_rule! {
 /// Modes that a pass may rely on without setting them.
 const RELIED_ON: [Role; 4] = [Role::Distance, Role::Plane, Role::Units, Role::FeedMode];
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct RestartWithChangedMode {
     /// What was not set until the first move.
     relied_on: Vec<(Role, CodeIx)>,
@@ -61,7 +62,13 @@ struct RestartWithChangedMode {
     is_main: bool,
 }
 
+remembers!(RestartWithChangedMode);
+
 impl PathRule for RestartWithChangedMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         cx.enough();
         for role in RELIED_ON {

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -28,6 +29,7 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict],
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),
@@ -36,11 +38,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct UnitsNotStated {
     is_done: bool,
 }
 
+remembers!(UnitsNotStated);
+
 impl PathRule for UnitsNotStated {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         self.first_move(cx, report);
     }

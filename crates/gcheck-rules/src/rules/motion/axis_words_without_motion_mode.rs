@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Fact, Fault, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -39,14 +40,20 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct AxisWordsWithoutMotionMode {
     /// What ended the motion mode: the first block behind each speaks for the others.
     told: BTreeSet<Option<At>>,
     unknown_code: bool,
 }
 
+remembers!(AxisWordsWithoutMotionMode: told);
+
 impl PathRule for AxisWordsWithoutMotionMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         // A code that nobody knows may have chosen a kind of motion.
         self.unknown_code |= *fault == Fault::UnknownCode;

@@ -5,6 +5,7 @@ use gcheck_engine::Event;
 
 use super::dwell_very_long::{LONG, duration};
 use super::dwell_very_short::SHORT;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -41,11 +42,18 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct DwellUnitUnsure {
     is_told: bool,
 }
 
+remembers!(DwellUnitUnsure);
+
 impl PathRule for DwellUnitUnsure {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Dwell(time) = event else { return };
         // The rules of dwells that are long or short beyond reason say it themselves; the shortest one only keeps the control

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Fault, FeedMode, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -43,13 +44,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct FeedMissing {
     /// What left the blocks reported without feed: one finding for each.
     causes: BTreeSet<Option<At>>,
 }
 
+remembers!(FeedMissing: causes);
+
 impl PathRule for FeedMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let inverse_time = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
         if *fault != Fault::NoFeed || inverse_time || probes(cx) || zero_was_given(cx).is_some() {

@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role, TravelKind};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -48,13 +49,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct FeedOfAnotherMode {
     /// The change of mode that was reported last: what comes behind it is its consequence.
     told: Option<gcheck_engine::At>,
 }
 
+remembers!(FeedOfAnotherMode: told);
+
 impl PathRule for FeedOfAnotherMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let (Some(now), Some(given)) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only())

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use gcheck_engine::{At, Fault};
 
 use super::feed_missing::zero_was_given;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -41,13 +42,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct FeedZero {
     /// Blocks that gave the feed of zero: one finding for each.
     told: BTreeSet<At>,
 }
 
+remembers!(FeedZero: told);
+
 impl PathRule for FeedZero {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::NoFeed {
             return;

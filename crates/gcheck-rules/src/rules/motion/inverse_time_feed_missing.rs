@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use gcheck_engine::{At, Fact, Fault, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
@@ -38,13 +39,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct InverseTimeFeedMissing {
     /// Blocks that chose inverse time: the first cut without feed speaks for all behind it.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(InverseTimeFeedMissing: told);
+
 impl PathRule for InverseTimeFeedMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::FeedMode);
         if *fault != Fault::NoInverseTimeFeed || !self.told.insert(cx.trace().set_by(fact)) {

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use gcheck_engine::{AbstractValue, At, Event, Fact, FeedMode};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -39,13 +40,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct MaybeFeedMissing {
     /// Blocks that gave the feed on the other path: one finding for each.
     told: BTreeSet<At>,
 }
 
+remembers!(MaybeFeedMissing: told);
+
 impl PathRule for MaybeFeedMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let AbstractValue::Set(feeds) = cx.state().feed() else { return };
         let may_be_none = feeds.numbers().iter().any(|feed| feed.abs() <= 0.0);

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use super::feed_of_another_mode::{counts, goes_by_feed};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -43,13 +44,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct MaybeFeedOfAnotherMode {
     /// The change of mode that was reported last.
     told: Option<At>,
 }
 
+remembers!(MaybeFeedOfAnotherMode: told);
+
 impl PathRule for MaybeFeedOfAnotherMode {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(now) = state.mode(Role::FeedMode).only() else { return };

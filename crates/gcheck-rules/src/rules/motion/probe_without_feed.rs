@@ -6,6 +6,7 @@ use gcheck_controls::{CodeIx, Letter, Need};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, TravelKind};
 
 use super::feed_missing::{probes, zero_was_given};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -45,13 +46,19 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct ProbeWithoutFeed {
     /// What left the probing moves reported without feed: one finding for each.
     told: BTreeSet<Option<At>>,
 }
 
+remembers!(ProbeWithoutFeed: told);
+
 impl PathRule for ProbeWithoutFeed {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         if *fault != Fault::NoFeed || !probes(cx) || zero_was_given(cx).is_some() {
             return;

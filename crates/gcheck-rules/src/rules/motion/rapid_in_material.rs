@@ -5,6 +5,7 @@ use std::ops::Range;
 use gcheck_engine::{Abstract, Axis, Domain, Event, Position, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
+use crate::memory::{Remembers, SharedList, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -53,7 +54,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct RapidInMaterial {
     cuts: Cuts,
     waiting: Vec<Rapid>,
@@ -61,7 +62,10 @@ struct RapidInMaterial {
     highest: Option<f64>,
 }
 
+remembers!(RapidInMaterial: waiting);
+
 /// A rapid move at depth.
+#[derive(Clone, PartialEq)]
 struct Rapid {
     from: [f64; 2],
     to: [f64; 2],
@@ -71,6 +75,8 @@ struct Rapid {
     bytes: Range<u32>,
     clear: Clear,
 }
+
+remembers!(Rapid: bytes);
 
 /// Rapid moves that wait for a cut across them; a program with more of them clears its way in some manner of its own.
 const MOST_WAITING: usize = 32;
@@ -84,6 +90,10 @@ const SURFACE: f64 = -0.01;
 const LIFT: f64 = 0.5;
 
 impl PathRule for RapidInMaterial {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         if !self.cuts.follows(cx, event) {
             self.waiting.clear();
@@ -156,6 +166,7 @@ impl RapidInMaterial {
 }
 
 /// How far beside its path a cutter clears.
+#[derive(Clone, PartialEq)]
 pub(crate) struct Clear {
     /// Millimetres.
     pub(crate) radius: f64,
@@ -179,9 +190,9 @@ impl Clear {
 }
 
 /// What was cut so far, as far as it is known throughout.
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 pub(crate) struct Cuts {
-    list: Vec<Cut>,
+    list: SharedList<Cut>,
     /// Work offset and shift that the coordinates count from.
     frame: Option<(u16, [u64; 3])>,
     /// Where the last move ended.
@@ -191,6 +202,7 @@ pub(crate) struct Cuts {
 }
 
 /// A straight cut.
+#[derive(Clone, PartialEq)]
 struct Cut {
     from: [f64; 2],
     to: [f64; 2],
@@ -229,7 +241,7 @@ impl Cuts {
         {
             // Cuts of another frame, in another file, or on another path: where they were is not known here.
             self.blind = true;
-            self.list = Vec::new();
+            self.list = SharedList::default();
             return false;
         }
         self.frame = frame;
@@ -257,7 +269,7 @@ impl Cuts {
         let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
         let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
             self.blind = true;
-            self.list = Vec::new();
+            self.list = SharedList::default();
             return;
         };
         match event {
@@ -273,7 +285,7 @@ impl Cuts {
         }
         if self.list.len() > MOST_CUTS {
             self.blind = true;
-            self.list = Vec::new();
+            self.list = SharedList::default();
         }
     }
 
@@ -292,8 +304,8 @@ impl Cuts {
 
     /// Did one of the first `count` cuts reach within `radius` of a point, at this depth or lower?
     pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
-        let cuts = self.list.get(..count).unwrap_or(&self.list);
-        cuts.iter().any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+        let mut cuts = self.list.iter().take(count);
+        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
     }
 
     /// How many cuts are kept.

@@ -6,6 +6,7 @@ use gcheck_engine::{Event, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use super::rapid_in_material::{Clear, Cuts, point};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -49,24 +50,33 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct RapidPlunge {
     cuts: Cuts,
     /// The move before this one, if it went down.
     plunge: Option<Plunge>,
 }
 
+remembers!(RapidPlunge: plunge);
+
 /// A rapid move down.
+#[derive(Clone, PartialEq)]
 struct Plunge {
     bytes: Range<u32>,
     to: [f64; 3],
     clear: Clear,
 }
 
+remembers!(Plunge: bytes);
+
 /// Millimetres: heights that differ by less are one, and the surface is this thick.
 const LEVEL: f64 = 0.01;
 
 impl PathRule for RapidPlunge {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let plunge = self.plunge.take();
         if !self.cuts.follows(cx, event) {

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Travel};
 use gcheck_geometry::Mm;
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -54,16 +55,22 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct ReferenceReturnThroughPoint {
     /// The block whose first move was seen: the second one leads on from the point.
     seen: Option<At>,
 }
 
+remembers!(ReferenceReturnThroughPoint: seen);
+
 /// Heights in millimetres that differ by less are one.
 const SAME: f64 = 0.001;
 
 impl PathRule for ReferenceReturnThroughPoint {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(returns)
     }

@@ -4,6 +4,7 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Axis, Ending, Event};
 
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -45,12 +46,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ShiftLeftOn {
     /// The block that shifted last, and its code. Choosing a work offset tells of the shift too.
     set: Option<(At, CodeIx)>,
 }
 
+remembers!(ShiftLeftOn: set);
+
 impl PathRule for ShiftLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(is_shift)
     }

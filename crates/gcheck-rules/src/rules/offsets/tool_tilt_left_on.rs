@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -34,17 +35,25 @@ declare_rule! {
         summary: "tilted plane, dynamic offset or tool centre point control left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(ToolTiltLeftOn { told: [None; 3] }) },
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolTiltLeftOn {
     /// By frame: the block that switched on what was reported last.
     told: [Option<At>; 3],
 }
 
+remembers!(ToolTiltLeftOn: told);
+
 impl PathRule for ToolTiltLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if let Some(place) = cx.boundary() {
             self.judge(cx, place, report);
@@ -84,7 +93,8 @@ impl ToolTiltLeftOn {
             let finding = cx
                 .finding(&META, cx.boundary_range(place), message)
                 .label("coordinates do not run along the machine's axes here")
-                .help(format!("switch it off with `{cancel}` before the tool goes away"));
+                .help(format!("switch it off with `{cancel}` before the tool goes away"))
+                .fix_if(cx.block_before(Some(&cancel)));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }
     }

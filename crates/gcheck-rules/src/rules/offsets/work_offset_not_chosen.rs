@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Role};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -36,16 +37,25 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict],
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNotChosen { is_done: false }) },
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct WorkOffsetNotChosen {
     is_done: bool,
 }
 
+remembers!(WorkOffsetNotChosen);
+
 impl PathRule for WorkOffsetNotChosen {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;
@@ -67,7 +77,8 @@ impl PathRule for WorkOffsetNotChosen {
         report.add(
             cx.finding(&META, cx.range(), format!("cut before a work offset is chosen (`{name}`)"))
                 .label(format!("the part lies where {last} left it{later}"))
-                .help(format!("choose the work offset at the head of the program: `{name}`")),
+                .help(format!("choose the work offset at the head of the program: `{name}`"))
+                .fix_if(cx.block_before(Some(&name.to_string()))),
         );
     }
 }

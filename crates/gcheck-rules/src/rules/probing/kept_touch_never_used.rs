@@ -3,6 +3,7 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Touch};
 
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::probing::is_second_touch;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -44,12 +45,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct KeptTouchNeverUsed {
     /// The last touch that was kept and not used yet.
     kept: Option<At>,
 }
 
+remembers!(KeptTouchNeverUsed: kept);
+
 impl PathRule for KeptTouchNeverUsed {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.has_effect(is_second_touch) {
             self.kept = None;

@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Role, Touch, TravelKind, Way};
 
 use super::first_touch_missing::keeping_code;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::probing::{driven, is_second_touch};
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -54,12 +55,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct TouchesDoNotMeet {
     /// The block that kept a touch last.
     kept: Option<At>,
 }
 
+remembers!(TouchesDoNotMeet: kept);
+
 impl PathRule for TouchesDoNotMeet {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
         if cx.has_effect(keeps) {
             self.kept = Some(cx.origin().at);

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
+use gcheck_controls::Effect;
 use gcheck_program::OKeyword;
 
+use crate::mending::line_end;
 use crate::meta::declare_rule;
 use crate::sections::Section;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A program has no block that ends it: no `M30` or `M2`, and no `M99` for a subprogram.
@@ -46,6 +48,7 @@ declare_rule! {
         summary: "program does not end",
         severity: Warning,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -80,17 +83,22 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         // A loop by GOTO has its end elsewhere or wants none.
         let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
         if !jumps_at_end {
-            report.add(finding(cx, section, is_last.then(|| last.clone())));
+            let fix = if is_last { end(cx, last) } else { None };
+            report.add(finding(cx, section, is_last.then(|| last.clone())).fix_if(fix));
         }
     }
 }
 
 /// More than the program's number: a block with a `G` or `M` code.
 fn has_code(cx: &FileCx<'_>, section: &Section<'_>) -> bool {
-    let start = section.number.map_or(section.range.start, |n| n.range.end) as usize;
-    let text = cx.source.text().get(start..section.range.end as usize).unwrap_or_default();
+    let (start, end) = (section.number.map_or(section.range.start, |n| n.range.end), section.range.end);
+    let pieces = cx.text.from(start).take_while(|(from, _)| *from < end);
+    let lines = pieces.flat_map(|(from, piece)| {
+        let inside = ((end - from) as usize).min(piece.len());
+        piece.get(..inside).unwrap_or_default().lines()
+    });
     // Comments may hold anything; it is enough that some line is more than a comment.
-    text.lines().skip(usize::from(section.number.is_some())).any(|line| {
+    lines.skip(usize::from(section.number.is_some())).any(|line| {
         let line = line.trim_start();
         line.starts_with(|c: char| c.is_ascii_alphabetic() || c == '#' || c == '/')
     })
@@ -104,6 +112,21 @@ fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> 
         .label(if is_at_block { "the last block" } else { "no `M30`, `M2` or `M99` before the next program" })
         .note("at the end of the text the control stops with an alarm or with everything still on  [general knowledge]")
         .help("end the program with `M30`, a subprogram with `M99`; see that the file is complete")
+}
+
+/// An end of the program on the line below the last block.
+fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
+    let ends = cx.control().codes().filter(|code| code.effect() == Effect::ProgramEnd);
+    // `M30` where there is one: it comes back to the head.
+    let code = ends.max_by_key(|code| code.number())?.number();
+    let (base, text) = cx.text.around(last.end);
+    let rest = text.get((last.end - base) as usize..)?;
+    let line_end = line_end(rest);
+    let behind = last.end + gcheck_syntax::line_len(rest.as_bytes()) as u32;
+    let is_open = !text.get(..(behind - base) as usize)?.ends_with(['\n', '\r']);
+    let before = if is_open { line_end } else { "" };
+    let title = format!("end the program with `{code}`");
+    Some(Fix::risky(title, behind..behind, format!("{before}{code}{line_end}")))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `%` stands inside the program, shares its line with code, or has code behind it.
@@ -23,6 +23,13 @@ declare_rule! {
     /// M99
     /// %
     /// ```
+    /// ```nc,reported,haas-mill
+    /// %
+    /// O00001
+    /// G0 X1. %
+    /// M30
+    /// %
+    /// ```
     /// ## Not reported
     /// A comment beside the mark, and blank lines or notes behind the closing one.
     /// ```nc,quiet,haas-mill
@@ -36,22 +43,28 @@ declare_rule! {
         summary: "tape mark cuts off code",
         severity: Info,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let text = cx.source.text();
     for mark in &cx.survey.tape_marks {
-        if !crate::sections::is_tape_mark_line(text, mark) {
+        if !crate::sections::is_tape_mark_line(cx, mark) {
             let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
-            report.add(inside(at..at + 1));
+            let before = cx.slice(mark.start..at);
+            let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
+            report.add(inside(at..at + 1).fix(Fix::risky("remove the `%`", at - blanks as u32..at + 1, "")));
         }
     }
-    let rest = text.get(cx.region.end as usize..).unwrap_or_default();
-    if let (Some(closing), Some(code)) = (cx.survey.tape_marks.last(), first_code(rest)) {
-        report.add(behind(closing.clone(), cx.region.end + code.start..cx.region.end + code.end));
+    let Some(closing) = cx.survey.tape_marks.last() else { return };
+    let code = cx
+        .text
+        .from(cx.region.end)
+        .find_map(|(from, piece)| first_code(piece).map(|code| from + code.start..from + code.end));
+    if let Some(code) = code {
+        report.add(behind(closing.clone(), code));
     }
 }
 

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use gcheck_controls::{CodeNumber, Control, Score, scores};
 
+use crate::evidence::evidence_of;
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run, collect_evidence};
+use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// The program uses codes or forms that the chosen control does not have and another one has.
@@ -51,7 +52,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.scene.control_is_guessed || cx.survey.first_block.is_none() {
         return;
     }
-    let scores = scores(&collect_evidence(cx.source));
+    let scores = scores(&evidence_of(cx.text));
     let own = scores.iter().find(|s| s.guess.control == cx.control().name());
     let own_points = own.map_or(0, |s| s.points);
     let [best, ..] = scores.as_slice() else { return };

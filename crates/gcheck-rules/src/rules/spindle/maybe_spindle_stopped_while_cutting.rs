@@ -3,6 +3,7 @@
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Truth};
 
 use super::spindle_stopped_while_cutting::{is_cut, starts};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -37,12 +38,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct MaybeSpindleStopped {
     /// What switched the spindle last in each case that was reported.
     told: Vec<Option<At>>,
 }
 
+remembers!(MaybeSpindleStopped: told);
+
 impl PathRule for MaybeSpindleStopped {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let may_stand = state.spindle().is_none() && state.live_tool() == Truth::False;

@@ -4,6 +4,7 @@ use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
 
 use super::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -37,12 +38,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct SpeedMissing {
     /// The block that started the spindle where it was reported last.
     told: Option<At>,
 }
 
+remembers!(SpeedMissing: told);
+
 impl PathRule for SpeedMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let turns = matches!(state.spindle(), Some(Spindle::Clockwise | Spindle::CounterClockwise));

@@ -6,6 +6,7 @@ use gcheck_engine::{
 };
 
 use super::super::motion::feed_of_another_mode::goes_by_feed;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -69,7 +70,7 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct SpindleStoppedWhileCutting {
     /// What stopped the spindle in each case that was reported; `None` for one that was never started.
     told: Vec<Option<At>>,
@@ -77,7 +78,13 @@ struct SpindleStoppedWhileCutting {
     is_oriented: bool,
 }
 
+remembers!(SpindleStoppedWhileCutting: told);
+
 impl PathRule for SpindleStoppedWhileCutting {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
             Event::OrientSpindle { .. } => self.is_oriented = true,
@@ -192,7 +199,7 @@ fn stop_code(cx: &PathCx<'_>, at: At) -> String {
 }
 
 /// A move with the tool in the work, as far as a program shows it.
-pub(super) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
+pub(crate) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
     if cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip)) {
         return false;
     }

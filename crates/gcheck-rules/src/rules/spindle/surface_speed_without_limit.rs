@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Role, Spindle};
 
 use super::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
@@ -43,12 +44,19 @@ declare_rule! {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct SurfaceSpeedWithoutLimit {
     /// The block that set the mode where it was reported last.
     told: Option<At>,
 }
 
+remembers!(SurfaceSpeedWithoutLimit: told);
+
 impl PathRule for SurfaceSpeedWithoutLimit {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::SurfaceSpeed)
     }

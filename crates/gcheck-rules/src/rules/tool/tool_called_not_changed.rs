@@ -6,6 +6,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Ending, Event, Fact};
 
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
@@ -48,6 +49,7 @@ declare_rule! {
 }
 
 /// A call that no tool change has answered.
+#[derive(Clone, PartialEq)]
 struct Call {
     at: At,
     tool: u32,
@@ -56,6 +58,8 @@ struct Call {
     /// Where its length came into effect, with another tool in the spindle.
     length: Option<Range<u32>>,
 }
+
+remembers!(Call: at, range, finding, length);
 
 impl Call {
     fn judge(self, label: &str) -> Finding {
@@ -69,13 +73,20 @@ impl Call {
     }
 }
 
+#[derive(Clone, PartialEq)]
 struct ToolCalledNotChanged {
     called: Option<Call>,
     /// The first tool of the program.
     first: Option<u32>,
 }
 
+remembers!(ToolCalledNotChanged: called);
+
 impl PathRule for ToolCalledNotChanged {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if cx.boundary() == Some(Boundary::ProgramEnd) {
             self.end(cx, report);

@@ -1,0 +1,245 @@
+//! The documents that are open, and what is known of them.
+//!
+//! Knows: which document is which, when an analysis is stale. Must not know: how rules and engine work.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use gcheck_engine::{Model, Options, Program, flow};
+use gcheck_program::{Dialect, Loaded};
+use gcheck_rules::{Edited, Finding, Incremental, Ledger, RuleMeta, Severity, Work};
+use gcheck_syntax::{Document, OutOfRange};
+use rustc_hash::FxHashMap;
+
+use crate::chunks::{Asking, Chunks, Storage, scene};
+use crate::snapshot::Others;
+use crate::states::Keeper;
+use crate::{Settings, Snapshot, StateAt};
+
+/// A document of the database.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct DocumentId(u32);
+
+/// The work was given up because somebody asked for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Cancelled;
+
+/// What is known of a document.
+#[derive(Debug, Default)]
+pub struct Analysis {
+    /// Findings in text order, as [`gcheck_rules::check`] gives them.
+    pub findings: Vec<Finding>,
+    /// Findings beyond the limit, by rule and severity.
+    pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
+    /// Findings silenced by comments.
+    pub suppressed: usize,
+    /// What the analysis of paths took for granted.
+    pub ledger: Ledger,
+    /// The analysis of paths ended before it had seen all.
+    pub out_of_fuel: bool,
+}
+
+/// The documents that are open, and what is known of them. One thread owns it.
+#[derive(Debug)]
+pub struct Database {
+    next: u32,
+    documents: FxHashMap<DocumentId, Open>,
+    storage: Storage,
+}
+
+#[derive(Debug)]
+struct Open {
+    document: Document,
+    settings: Settings,
+    snapshot: Option<Snapshot>,
+    analysis: Option<Arc<Analysis>>,
+    chunks: Chunks,
+    incremental: Incremental,
+}
+
+impl Open {
+    fn changed(&mut self) {
+        self.snapshot = None;
+        self.analysis = None;
+    }
+
+    /// What is in force has changed: nothing holds but the chunks.
+    fn forget(&mut self) {
+        self.changed();
+        self.incremental = Incremental::new();
+    }
+
+    fn snapshot(&mut self) -> Snapshot {
+        let whole = self.analysis.as_ref().and_then(|_| self.incremental.whole().cloned());
+        let new = || Snapshot::new(self.document.clone(), self.settings.clone(), whole);
+        self.snapshot.get_or_insert_with(new).clone()
+    }
+
+    fn analyse(
+        &mut self,
+        storage: &mut Storage,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Arc<Analysis>, Cancelled> {
+        if let Some(known) = &self.analysis {
+            return Ok(Arc::clone(known));
+        }
+        if stop() {
+            return Err(Cancelled);
+        }
+        self.chunks.follow(storage, self.document.chunks());
+        let dialect = Dialect::new(&self.settings.control);
+        let source = Asking { storage, chunks: &self.chunks };
+        let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
+        let outcome = self.incremental.check(&edited).map_err(|_| Cancelled)?;
+        let analysis = Arc::new(Analysis {
+            findings: outcome.findings,
+            omitted: outcome.omitted,
+            suppressed: outcome.suppressed,
+            ledger: outcome.ledger,
+            out_of_fuel: outcome.out_of_fuel,
+        });
+        self.analysis = Some(Arc::clone(&analysis));
+        // One that was taken before would have to find out for itself what is known now.
+        self.snapshot = None;
+        Ok(analysis)
+    }
+}
+
+fn edited<'a>(
+    document: &'a Document,
+    settings: &'a Settings,
+    dialect: &'a Dialect<'a>,
+    source: &'a Asking<'a>,
+    stop: &'a dyn Fn() -> bool,
+) -> Edited<'a> {
+    Edited {
+        chunks: document.chunks(),
+        source,
+        scene: scene(settings, dialect),
+        selection: &settings.selection,
+        suppressions: settings.suppressions,
+        execution: settings.execution,
+        stop,
+    }
+}
+
+impl Default for Database {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Database {
+    /// Without documents.
+    pub fn new() -> Self {
+        Self { next: 0, documents: FxHashMap::default(), storage: Storage::new(None) }
+    }
+
+    /// As [`Database::new`]; `told` is called with the name of each query about a chunk that is executed.
+    pub fn telling(told: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self { storage: Storage::new(Some(Box::new(told))), ..Self::new() }
+    }
+
+    /// Takes a document in.
+    pub fn open(&mut self, text: &str, settings: Settings) -> DocumentId {
+        let id = DocumentId(self.next);
+        self.next += 1;
+        let chunks = Chunks::new(&self.storage, settings.clone());
+        let document = Document::new(text);
+        let incremental = Incremental::new();
+        let open = Open { document, settings, snapshot: None, analysis: None, chunks, incremental };
+        self.documents.insert(id, open);
+        id
+    }
+
+    /// Forgets a document.
+    pub fn close(&mut self, id: DocumentId) {
+        if let Some(mut open) = self.documents.remove(&id) {
+            // Salsa keeps its inputs; without text they hold next to nothing.
+            open.chunks.empty(&mut self.storage);
+        }
+    }
+
+    /// Replaces the whole text.
+    pub fn set_text(&mut self, id: DocumentId, text: &str) {
+        if let Some(open) = self.documents.get_mut(&id) {
+            open.document = Document::new(text);
+            open.changed();
+        }
+    }
+
+    /// Replaces a range of bytes.
+    ///
+    /// # Errors
+    /// [`OutOfRange`], and nothing is changed, when the range does not lie in the text on character boundaries, or there is
+    /// no such document.
+    pub fn edit(&mut self, id: DocumentId, range: Range<u32>, insert: &str) -> Result<(), OutOfRange> {
+        let open = self.documents.get_mut(&id).ok_or(OutOfRange)?;
+        open.document.edit(range.start as usize..range.end as usize, insert)?;
+        open.changed();
+        Ok(())
+    }
+
+    /// Changes what is in force for a document, or what other programs hold that it may call.
+    pub fn set_settings(&mut self, id: DocumentId, settings: Settings) {
+        if let Some(open) = self.documents.get_mut(&id) {
+            open.chunks.set_settings(&mut self.storage, settings.clone());
+            open.settings = settings;
+            open.forget();
+        }
+    }
+
+    /// The document as it is now.
+    pub fn snapshot(&mut self, id: DocumentId) -> Option<Snapshot> {
+        self.documents.get_mut(&id).map(Open::snapshot)
+    }
+
+    /// Findings and the like, up to date. `stop` is asked now and then; when it says yes the work is given up, and what was
+    /// done of it is kept where it can be.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when `stop` said yes, or there is no such document.
+    pub fn analysis(&mut self, id: DocumentId, stop: &dyn Fn() -> bool) -> Result<Arc<Analysis>, Cancelled> {
+        let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
+        open.analyse(&mut self.storage, stop)
+    }
+
+    /// How much of the paths the last analysis executed, and how much it did not.
+    pub fn work(&self, id: DocumentId) -> Option<Work> {
+        self.documents.get(&id).map(|open| open.incremental.work())
+    }
+
+    /// What may be the state before and after each of some blocks, in their order, with the block delete switches off;
+    /// blocks that no path comes to are left out.
+    ///
+    /// # Errors
+    /// As [`Database::analysis`].
+    pub fn states(
+        &mut self,
+        id: DocumentId,
+        blocks: Range<u32>,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Vec<StateAt>, Cancelled> {
+        let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
+        open.analyse(&mut self.storage, stop)?;
+        let settings = &open.settings;
+        let dialect = Dialect::new(&settings.control);
+        let source = Asking { storage: &self.storage, chunks: &open.chunks };
+        let edited = edited(&open.document, settings, &dialect, &source, stop);
+        let mut keeper = Keeper::new(blocks.clone());
+        if !open.incremental.show_again(&edited, &blocks, &mut keeper) {
+            // The analysis had no path rules, or the switches of block delete are on for good.
+            keeper = Keeper::new(blocks);
+            let model = Model::new(&settings.control);
+            let library = Others(settings);
+            let loaded = Loaded::new(open.document.text(), &dialect, |_, _, _| ());
+            let program = Program::new(loaded, &dialect, &library);
+            let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
+            flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
+        }
+        if stop() {
+            return Err(Cancelled);
+        }
+        Ok(keeper.seen.into_values().collect())
+    }
+}

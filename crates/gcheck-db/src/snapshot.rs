@@ -1,0 +1,291 @@
+//! A document as it was at one moment: text by chunks, lines, trees, block tables, survey and outline.
+//!
+//! Knows: how a place in the file becomes a place in a chunk. Must not know: states, findings.
+
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use gcheck_controls::Control;
+use gcheck_engine::{Concrete, Library, Model, Observer, Options, Program, RunResult, SourceFile, run};
+use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Loaded, Outline, Survey, lower, profile};
+use gcheck_rules::Whole;
+use gcheck_syntax::{Document, Parse, SourceText, line_len, parse};
+
+use crate::Settings;
+
+/// A document as it was at one moment. Cheap to clone, and free to go to other threads.
+#[derive(Debug, Clone)]
+pub struct Snapshot(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    document: Document,
+    settings: Settings,
+    /// Offset of each chunk, and the length of the text.
+    starts: Vec<u32>,
+    /// Number of the first line of each chunk, and the number of line ends.
+    lines: Vec<u32>,
+    whole: OnceLock<Arc<Whole>>,
+}
+
+/// A chunk of whole lines.
+#[derive(Debug, Clone, Copy)]
+pub struct ChunkText<'s> {
+    /// Its index.
+    pub index: usize,
+    /// Its offset in the file.
+    pub base: u32,
+    /// Number of its first line, from 0.
+    pub first_line: u32,
+    /// Its text.
+    pub text: &'s str,
+}
+
+/// A block with everything needed to read it.
+#[derive(Debug, Clone)]
+pub struct BlockPlace {
+    /// Number of the block in the file, from 0, as the engine counts.
+    pub number: u32,
+    /// The table of its chunk.
+    pub table: Arc<BlockTable>,
+    /// Where it stands in the table.
+    pub ix: BlockIx,
+    /// Index of its chunk.
+    pub chunk: usize,
+    /// Offset of the chunk in the file.
+    pub base: u32,
+}
+
+impl BlockPlace {
+    /// The block.
+    pub fn block(&self) -> &Block {
+        self.table.block(self.ix)
+    }
+
+    /// Bytes of the file.
+    pub fn range(&self) -> Range<u32> {
+        self.in_file(self.block().range.clone())
+    }
+
+    /// Bytes of the chunk as bytes of the file.
+    pub fn in_file(&self, range: Range<u32>) -> Range<u32> {
+        self.base + range.start..self.base + range.end
+    }
+}
+
+impl Snapshot {
+    pub(crate) fn new(document: Document, settings: Settings, whole: Option<Arc<Whole>>) -> Self {
+        let (mut at, mut line) = (0, 0);
+        let (mut starts, mut lines) = (vec![0], vec![0]);
+        for chunk in document.chunks() {
+            at += chunk.len() as u32;
+            line += line_ends(chunk.as_bytes()) as u32;
+            starts.push(at);
+            lines.push(line);
+        }
+        let whole = whole.map_or_else(OnceLock::new, OnceLock::from);
+        Self(Arc::new(Inner { document, settings, starts, lines, whole }))
+    }
+
+    /// What is in force.
+    pub fn settings(&self) -> &Settings {
+        &self.0.settings
+    }
+
+    /// The control.
+    pub fn control(&self) -> &Control {
+        &self.0.settings.control
+    }
+
+    /// The control, prepared for reading blocks.
+    pub fn dialect(&self) -> Dialect<'_> {
+        Dialect::new(self.control())
+    }
+
+    /// Length in bytes.
+    pub fn len(&self) -> u32 {
+        self.0.starts.last().copied().unwrap_or(0)
+    }
+
+    /// True for an empty document.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The chunks in order.
+    pub fn chunks(&self) -> impl ExactSizeIterator<Item = ChunkText<'_>> {
+        let chunks = self.0.document.chunks();
+        chunks.iter().enumerate().map(|(index, text)| ChunkText {
+            index,
+            base: self.0.starts.get(index).copied().unwrap_or(0),
+            first_line: self.0.lines.get(index).copied().unwrap_or(0),
+            text,
+        })
+    }
+
+    /// A chunk by its index.
+    pub fn chunk(&self, index: usize) -> Option<ChunkText<'_>> {
+        self.chunks().nth(index)
+    }
+
+    /// The chunk that holds a byte; the last one for the end of the text. `None` in an empty document.
+    pub fn chunk_at(&self, offset: u32) -> Option<ChunkText<'_>> {
+        let last = self.0.document.chunks().len().checked_sub(1)?;
+        let index = self.0.starts.partition_point(|start| *start <= offset).checked_sub(1)?;
+        self.chunk(index.min(last))
+    }
+
+    /// The text of a range; what lies outside of the document is left out.
+    pub fn slice(&self, range: Range<u32>) -> Cow<'_, str> {
+        let part = |chunk: ChunkText<'_>| {
+            let start = range.start.saturating_sub(chunk.base) as usize;
+            let end = (range.end.saturating_sub(chunk.base) as usize).min(chunk.text.len());
+            start..end
+        };
+        let Some(first) = self.chunk_at(range.start) else { return Cow::Borrowed("") };
+        let in_first = part(first);
+        if range.end as usize <= first.base as usize + first.text.len() {
+            return Cow::Borrowed(first.text.get(in_first).unwrap_or_default());
+        }
+        let rest = self.chunks().skip(first.index).take_while(|chunk| chunk.base < range.end);
+        Cow::Owned(rest.map(|chunk| chunk.text.get(part(chunk)).unwrap_or_default()).collect())
+    }
+
+    /// The whole text.
+    pub fn text(&self) -> String {
+        self.0.document.text()
+    }
+
+    /// The whole text as rules and fixes take it.
+    pub fn source(&self) -> SourceText {
+        SourceText::from(&*self.text())
+    }
+
+    /// Number of lines; the one behind the last line end counts, though it may be empty.
+    pub fn line_count(&self) -> u32 {
+        self.0.lines.last().copied().unwrap_or(0) + 1
+    }
+
+    /// Line of a byte, from 0.
+    pub fn line_at(&self, offset: u32) -> u32 {
+        let Some(chunk) = self.chunk_at(offset) else { return 0 };
+        let inside = (offset - chunk.base).min(chunk.text.len() as u32) as usize;
+        let mut bytes = chunk.text.as_bytes().get(..inside).unwrap_or_default();
+        // Between `\r` and `\n` is still the line that they end.
+        if bytes.last() == Some(&b'\r') && chunk.text.as_bytes().get(inside) == Some(&b'\n') {
+            bytes = bytes.get(..inside - 1).unwrap_or_default();
+        }
+        chunk.first_line + line_ends(bytes) as u32
+    }
+
+    /// Bytes of a line (from 0) without its end; empty, at the end of the text, for a line that is not there.
+    pub fn line_range(&self, line: u32) -> Range<u32> {
+        let end = self.len();
+        // A last line without an end is of the last chunk, though as many lines end before it as in the text.
+        let last = self.0.document.chunks().len().saturating_sub(1);
+        let index = self.0.lines.partition_point(|first| *first <= line).saturating_sub(1).min(last);
+        let Some(chunk) = self.chunk(index) else { return end..end };
+        let mut bytes = chunk.text.as_bytes();
+        let mut start = chunk.base;
+        for _ in chunk.first_line..line {
+            let len = line_len(bytes);
+            start += len as u32;
+            bytes = bytes.get(len..).unwrap_or_default();
+        }
+        let text = bytes.get(..line_len(bytes)).unwrap_or_default();
+        let ending = match text {
+            [.., b'\r', b'\n'] => 2,
+            [.., b'\r' | b'\n'] => 1,
+            _ => 0,
+        };
+        start..start + text.len() as u32 - ending
+    }
+
+    /// Text of a line (from 0) without its end.
+    pub fn line_text(&self, line: u32) -> Cow<'_, str> {
+        self.slice(self.line_range(line))
+    }
+
+    /// The blocks of a chunk.
+    pub fn table(&self, chunk: usize) -> Option<Arc<BlockTable>> {
+        Some(Arc::new(lower(self.chunk(chunk)?.text, &self.dialect())))
+    }
+
+    /// The tree of a chunk.
+    pub fn tree(&self, chunk: usize) -> Option<Arc<Parse>> {
+        Some(Arc::new(parse(self.chunk(chunk)?.text, profile(self.control()))))
+    }
+
+    /// Labels, jumps, calls, loops, ends of the file.
+    pub fn survey(&self) -> &Survey {
+        &self.whole().survey
+    }
+
+    /// The control flow of the file as far as the text decides it.
+    pub fn outline(&self) -> &Outline {
+        &self.whole().outline
+    }
+
+    fn whole(&self) -> &Whole {
+        self.0.whole.get_or_init(|| Arc::new(Whole::of_text(self.0.document.chunks(), &self.dialect())))
+    }
+
+    /// The last block that begins at a byte or before it, on the byte's line or an earlier one.
+    pub fn block_at(&self, offset: u32) -> Option<BlockPlace> {
+        let mut asked = None;
+        let outline = self.outline();
+        let index = outline.chunk_at(offset)?;
+        let table = self.table(index)?;
+        let number = outline.block_at_offset(offset, |chunk| {
+            asked = Some(chunk);
+            Some(&*table)
+        })?;
+        self.place(number)
+    }
+
+    /// A block by its number.
+    pub fn place(&self, number: u32) -> Option<BlockPlace> {
+        let (chunk, index) = self.outline().chunk_of(number)?;
+        let base = self.outline().base_of(chunk)?;
+        let table = self.table(chunk)?;
+        let ix = table.ix(index)?;
+        Some(BlockPlace { number, table, ix, chunk, base })
+    }
+
+    /// Executes the document as `gcheck run` does, for what is made of its moves.
+    pub fn run<O: Observer<Concrete>>(&self, options: Options, fuel: u64, observer: O) -> RunResult {
+        let dialect = self.dialect();
+        let model = Model::new(self.control());
+        let library = Others(self.settings());
+        let loaded = Loaded::new(self.text(), &dialect, |_, _, _| ());
+        let program = Program::new(loaded, &dialect, &library);
+        run(&program, &model, &self.settings().machine.engine, options, fuel, observer)
+    }
+}
+
+/// The engine's view of other programs.
+pub(crate) struct Others<'s>(pub(crate) &'s Settings);
+
+impl Library for Others<'_> {
+    fn by_number(&self, number: u32) -> Option<SourceFile> {
+        self.0.programs.source_of_number(number)
+    }
+
+    fn by_name(&self, name: &str) -> Option<SourceFile> {
+        self.0.programs.source_of_name(name)
+    }
+}
+
+/// Line ends in whole lines or a part of them: `\n`, `\r\n` or `\r`.
+fn line_ends(mut bytes: &[u8]) -> usize {
+    let mut count = 0;
+    while !bytes.is_empty() {
+        let len = line_len(bytes);
+        if matches!(bytes.get(len - 1), Some(b'\n' | b'\r')) {
+            count += 1;
+        }
+        bytes = bytes.get(len..).unwrap_or_default();
+    }
+    count
+}

@@ -1,0 +1,78 @@
+//! The state before and after blocks, on all paths that come to them.
+//!
+//! Knows: how visits of one block become one state. Must not know: what states are shown for.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use gcheck_engine::{Abstract, FlowCx, FlowObserver, State, Trace};
+
+/// What was seen of a block.
+#[derive(Debug, Clone)]
+pub struct StateAt {
+    /// Number of the block in the file.
+    pub block: u32,
+    /// What may be the state before it.
+    pub before: State<Abstract>,
+    /// Where its facts were set.
+    pub trace: Trace,
+    /// What may be the state after it; `None` when the program never goes on from here.
+    pub after: Option<State<Abstract>>,
+    /// Every path comes here.
+    pub on_every_path: bool,
+    /// How often it was executed: turns of loops and calls of its program.
+    pub visits: u32,
+}
+
+/// Keeps the states of a range of blocks.
+pub(crate) struct Keeper {
+    pub(crate) blocks: Range<u32>,
+    pub(crate) seen: BTreeMap<u32, StateAt>,
+}
+
+impl Keeper {
+    pub(crate) fn new(blocks: Range<u32>) -> Self {
+        Self { blocks, seen: BTreeMap::new() }
+    }
+
+    fn is_wanted(&self, cx: &FlowCx<'_>) -> bool {
+        cx.origin.at.file == 0 && self.blocks.contains(&cx.origin.at.block)
+    }
+}
+
+impl FlowObserver for Keeper {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        if !self.is_wanted(cx) {
+            return;
+        }
+        let block = cx.origin.at.block;
+        match self.seen.get_mut(&block) {
+            Some(seen) => {
+                seen.before = seen.before.union(cx.state);
+                seen.on_every_path |= cx.solo;
+                seen.visits = seen.visits.saturating_add(1);
+            }
+            None => {
+                let seen = StateAt {
+                    block,
+                    before: cx.state.clone(),
+                    trace: cx.trace.clone(),
+                    after: None,
+                    on_every_path: cx.solo,
+                    visits: 1,
+                };
+                self.seen.insert(block, seen);
+            }
+        }
+    }
+
+    fn after(&mut self, cx: &FlowCx<'_>) {
+        if !self.is_wanted(cx) {
+            return;
+        }
+        if let Some(seen) = self.seen.get_mut(&cx.origin.at.block) {
+            let after = seen.after.as_ref().map_or_else(|| cx.state.clone(), |after| after.union(cx.state));
+            seen.after = Some(after);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! Where an analysis of all paths can be taken up again, and what it does between two such places.
+//!
+//! Knows: what the rest of an analysis depends on at such a place. Must not know: who keeps them, what rules remember.
+
+use std::collections::BTreeSet;
+
+use super::marks::Marks;
+use super::trace::{Facts, Trace};
+use crate::assumption::Assumption;
+use crate::state::{At, State};
+use crate::value::Abstract;
+
+/// A place where one state stands for all paths, the main program is under way, and nothing in front is come back to: what
+/// follows depends on this alone.
+#[derive(Debug, Clone)]
+pub struct Checkpoint {
+    /// The block that comes next, the first of a chunk of the main file.
+    pub at: At,
+    /// What may be the state.
+    pub state: State<Abstract>,
+    /// Where its facts were set.
+    pub trace: Trace,
+    /// A path has ended: what comes is no longer on every path.
+    pub parted: bool,
+}
+
+impl Checkpoint {
+    /// Does the same follow from both? Places and where facts were set left aside.
+    pub fn leads_on_as(&self, other: &Self) -> bool {
+        self.parted == other.parted && self.state == other.state
+    }
+}
+
+/// What an analysis did from one checkpoint to the next, or to its end.
+#[derive(Debug, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts of a leg, named one by one")]
+pub struct Leg {
+    pub(super) reached: Marks,
+    pub(super) always: Marks,
+    /// The fuel ran out, or something was given up, so what was not seen may still be reached.
+    pub out_of_fuel: bool,
+    /// The observer ended it.
+    pub stopped: bool,
+    /// It came back over a checkpoint, which therefore was none.
+    pub went_back: bool,
+    /// Blocks executed.
+    pub blocks: u64,
+    /// What it rests on.
+    pub assumptions: BTreeSet<Assumption>,
+    /// Facts that somebody asked for while they still were as the leg began.
+    pub asked: Facts,
+    /// Facts that were set on every path.
+    pub set: Facts,
+}
+
+impl Leg {
+    /// Runs of blocks that were reached: the first of each, and the number behind its last.
+    pub fn reached(&self) -> Vec<(At, u32)> {
+        self.reached.runs()
+    }
+
+    /// Runs of blocks that every path reaches, likewise.
+    pub fn always_reached(&self) -> Vec<(At, u32)> {
+        self.always.runs()
+    }
+}
