@@ -65,8 +65,11 @@ pub fn serve(
 ) -> std::io::Result<Ending> {
     let outbox = Arc::new(Outbox::new(output));
     let (mailbox, inbox) = mailbox();
-    let owner = Owner::new(host, Arc::clone(&outbox), mailbox.clone(), &inbox);
-    thread::Builder::new().name("owner".to_owned()).stack_size(STACK).spawn(move || owner.run(&inbox))?;
+    let (to_client, to_owner) = (Arc::clone(&outbox), mailbox.clone());
+    thread::Builder::new()
+        .name("owner".to_owned())
+        .stack_size(STACK)
+        .spawn(move || Owner::new(host, to_client, to_owner, &inbox).run(&inbox))?;
 
     let (events, mut incoming) = channel(AHEAD);
     let gone = events.clone();
