@@ -17,10 +17,17 @@ fn measure(lines: usize) {
     let start = Instant::now();
     let id = database.open(&text, Settings::new(control));
     let found = database.analysis(id, &|| false).unwrap().findings.len();
-    println!("{lines} lines, {} bytes: open {:?}, {found} findings, {:?}", text.len(), start.elapsed(), database.work(id));
+    println!(
+        "{lines} lines, {} bytes: open {:?}, {found} findings, {:?}",
+        text.len(),
+        start.elapsed(),
+        database.work(id)
+    );
     let starts: Vec<usize> =
         std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
-    for (name, what) in [("insert G01", 0), ("delete it", 1), ("insert line", 2), ("delete line", 3), ("digit", 4)] {
+    for (name, what) in
+        [("insert G01", 0), ("delete it", 1), ("insert line", 2), ("delete line", 3), ("digit", 4)]
+    {
         let mut times = Vec::new();
         let mut executed = 0;
         let mut current = text.clone();

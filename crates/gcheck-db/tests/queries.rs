@@ -140,7 +140,8 @@ fn states_are_those_of_the_place() {
     let states = watched.database.states(watched.id, block..block + 1, &|| false).unwrap();
     let [state] = states.as_slice() else { panic!("one state, not {}", states.len()) };
     let after = state.after.as_ref().unwrap().position();
-    let values = [gcheck_engine::Axis::X, gcheck_engine::Axis::Y, gcheck_engine::Axis::Z].map(|axis| after.raw(axis));
+    let values =
+        [gcheck_engine::Axis::X, gcheck_engine::Axis::Y, gcheck_engine::Axis::Z].map(|axis| after.raw(axis));
     assert!(state.on_every_path && state.visits == 1);
     assert_eq!(format!("{values:?}"), "[1.0, 2.0, 3.0]");
 }

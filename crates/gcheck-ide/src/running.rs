@@ -127,7 +127,7 @@ impl Watcher<'_> {
         let slot = self.files.get_mut(at)?;
         if slot.is_none() {
             let loaded = self.program.file(file)?;
-            *slot = Some(Lines::new(Rc::clone(&loaded.name), loaded.loaded.text()));
+            *slot = Some(Lines::new(Rc::clone(&loaded.name), &loaded.loaded.text()));
         }
         slot.as_mut()
     }

@@ -134,10 +134,23 @@ pub struct Edit {
 
 impl PartialEq for Finding {
     fn eq(&self, other: &Self) -> bool {
-        let Self { rule, severity, certainty, message, range, label, labels, notes, help, alarm, assumptions, fixes } =
-            self;
+        let Self {
+            rule,
+            severity,
+            certainty,
+            message,
+            range,
+            label,
+            labels,
+            notes,
+            help,
+            alarm,
+            assumptions,
+            fixes,
+        } = self;
         rule.id == other.rule.id
-            && (severity, certainty, message, range) == (&other.severity, &other.certainty, &other.message, &other.range)
+            && (severity, certainty, message, range)
+                == (&other.severity, &other.certainty, &other.message, &other.range)
             && (label, labels, notes, help) == (&other.label, &other.labels, &other.notes, &other.help)
             && (alarm, assumptions, fixes) == (&other.alarm, &other.assumptions, &other.fixes)
     }

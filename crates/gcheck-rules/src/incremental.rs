@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, LetterSet};
-use gcheck_engine::{FlowObserver, LookedUp, Model, Program};
+use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
 pub use chunk::{ChunkFacts, ChunkFindings};
@@ -250,9 +250,8 @@ impl Incremental {
             return Ok((crate::Ledger::new(), false));
         }
         let same = (Same::of(&whole.survey), whole.skeleton);
-        let is_same = self.ground.as_ref().is_some_and(|(known, skeleton)| {
-            *known == same.0 && skeleton.is_as(&same.1)
-        });
+        let is_same =
+            self.ground.as_ref().is_some_and(|(known, skeleton)| *known == same.0 && skeleton.is_as(&same.1));
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
         if !is_same || self.paths.is_unsure() || !self.lay_out(texts, whole, edited.scene.dialect) {
             self.begin_anew(texts, whole);
@@ -349,12 +348,14 @@ impl Incremental {
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
-    /// an observer. `false` when nothing is known of the paths of the text as it is.
+    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when nothing is
+    /// known of the paths of the text as it is.
     pub fn show_again<O: FlowObserver>(
         &mut self,
         edited: &Edited<'_>,
         blocks: &Range<u32>,
         observer: &mut O,
+        then: impl FnOnce(&mut O, &mut Look<'_, '_>),
     ) -> bool {
         let Some(whole) = self.whole.clone() else { return false };
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
@@ -382,15 +383,20 @@ impl Incremental {
             layout: &self.layout,
             stop: edited.stop,
         };
-        let shown = self.paths.show_again(&ground, &edited.scene.machine.engine, blocks, observer);
+        let machine = &edited.scene.machine.engine;
+        let shown = self.paths.show_again(&ground, machine, blocks, observer);
+        if shown {
+            then(observer, &mut Look::new(&program, &model, machine));
+        }
         self.looked_up = program.into_looked_up();
         shown
     }
 }
 
 fn shapes(texts: &[Arc<str>], whole: &Whole, chunks: Range<usize>) -> Vec<ChunkShape> {
-    let shape =
-        |chunk: usize| Some(ChunkShape { text: Arc::clone(texts.get(chunk)?), blocks: whole.blocks_in(chunk) });
+    let shape = |chunk: usize| {
+        Some(ChunkShape { text: Arc::clone(texts.get(chunk)?), blocks: whole.blocks_in(chunk) })
+    };
     chunks.filter_map(shape).collect()
 }
 

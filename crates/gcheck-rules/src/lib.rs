@@ -40,9 +40,7 @@ pub use context::{
 pub use evidence::{EVIDENCE_BYTES, collect_evidence};
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use fixing::{FixKinds, Mended, mend};
-pub use incremental::{
-    ChunkFacts, ChunkFindings, ChunkSource, Edited, Incremental, Stopped, Whole, Work,
-};
+pub use incremental::{ChunkFacts, ChunkFindings, ChunkSource, Edited, Incremental, Stopped, Whole, Work};
 pub use memory::{Memory, Placed, Places, Remembers};
 pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};

@@ -2,8 +2,8 @@
 //!
 //! Knows: pairs of tool and offset number. Must not know: which offset it is, any rule.
 
-use crate::memory::remembers;
 use crate::Finding;
+use crate::memory::remembers;
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
 #[derive(Debug, Clone, PartialEq)]

@@ -96,9 +96,9 @@ impl<'a> ProgramText<'a> {
     pub fn head(&self, len: u32) -> Cow<'a, str> {
         match &self.0 {
             Kind::Whole(text) => Cow::Borrowed(text),
-            Kind::Chunks { .. } => {
-                Cow::Owned(self.from(0).take_while(|(from, _)| *from <= len).map(|(_, piece)| piece).collect())
-            }
+            Kind::Chunks { .. } => Cow::Owned(
+                self.from(0).take_while(|(from, _)| *from <= len).map(|(_, piece)| piece).collect(),
+            ),
         }
     }
 }

@@ -150,8 +150,10 @@ impl Layout {
         let size = |chunks: &[ChunkShape]| chunks.iter().map(|chunk| chunk.text.len() as u32).sum::<u32>();
         // Of what was rewritten, as many blocks as were there before keep their names: who remembers one of them compares what
         // it says elsewhere.
-        let blocks = renamed(&blocks, count(&new), left.blocks_before, left.blocks_behind, true, &mut self.next_block);
-        let bytes = renamed(&bytes, size(&new), left.bytes_before, left.bytes_behind, false, &mut self.next_byte);
+        let blocks =
+            renamed(&blocks, count(&new), left.blocks_before, left.blocks_behind, true, &mut self.next_block);
+        let bytes =
+            renamed(&bytes, size(&new), left.bytes_before, left.bytes_behind, false, &mut self.next_byte);
         let (mut block, mut byte) = (0, 0);
         let mut chunks = Vec::with_capacity(new.len());
         for shape in new {

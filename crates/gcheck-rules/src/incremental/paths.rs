@@ -140,7 +140,8 @@ impl Paths {
         work: &mut Work,
     ) -> Result<(Ledger, bool), Broken> {
         let found = RefCell::new(Vec::new());
-        let mut add = |severity: Option<Severity>, finding: Finding| found.borrow_mut().push((severity, finding));
+        let mut add =
+            |severity: Option<Severity>, finding: Finding| found.borrow_mut().push((severity, finding));
         let Ground { scene, program, model, survey, rules, .. } = *ground;
         let mut watchers = Watchers::new(scene, program, model, survey, rules, &mut add);
         let active = watchers.active();
@@ -168,7 +169,9 @@ impl Paths {
                 self.unsure = true;
                 chain.segments.clear();
             }
-            if chain.segments.iter().map(|segment| segment.blocks).sum::<u64>() >= ground.fuel && work.kept > 0 {
+            if chain.segments.iter().map(|segment| segment.blocks).sum::<u64>() >= ground.fuel
+                && work.kept > 0
+            {
                 return Err(Broken::Useless);
             }
         }
@@ -195,7 +198,12 @@ impl Paths {
     }
 
     /// Adds each finding once: a loop comes by many times, and so do calls from several segments.
-    fn collect(&self, layout: &Layout, collector: &mut Collector<'_>, last: Vec<(Option<Severity>, Finding)>) {
+    fn collect(
+        &self,
+        layout: &Layout,
+        collector: &mut Collector<'_>,
+        last: Vec<(Option<Severity>, Finding)>,
+    ) {
         let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
         for segment in self.chains.iter().flat_map(|chain| &chain.segments) {
             for kept in &segment.findings {

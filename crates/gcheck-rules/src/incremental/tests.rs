@@ -67,7 +67,8 @@ fn cut(text: &str, lines: usize) -> Vec<Arc<str>> {
 
 fn shown(outcome: &Outcome) -> String {
     let line = |finding: &Finding| {
-        let Finding { rule, severity, certainty, message, range, label, labels, notes, help, alarm, .. } = finding;
+        let Finding { rule, severity, certainty, message, range, label, labels, notes, help, alarm, .. } =
+            finding;
         let place = format!("{} {severity} {} {range:?} {message} | {label}", rule.id, certainty.name());
         let Finding { assumptions, fixes, .. } = finding;
         format!("{place} | {labels:?} {notes:?} {help:?} {alarm:?} {assumptions:?} {fixes:?}")
@@ -153,10 +154,14 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
             lines.insert(at, other);
         }
         3 if !lines.is_empty() => {
-            let words = ["G01 ", "G0 ", "G91 ", "G90 ", "X1. ", "Z-1. ", "F100. ", "(A) ", "M3 S500 ", "T1 M6 ", "G41 D1 "];
+            let words = [
+                "G01 ", "G0 ", "G91 ", "G90 ", "X1. ", "Z-1. ", "F100. ", "(A) ", "M3 S500 ", "T1 M6 ",
+                "G41 D1 ",
+            ];
             let word = words[dice.roll(words.len())];
             let line = &mut lines[at];
-            let places: Vec<usize> = (0..=line.trim_end().len()).filter(|i| line.is_char_boundary(*i)).collect();
+            let places: Vec<usize> =
+                (0..=line.trim_end().len()).filter(|i| line.is_char_boundary(*i)).collect();
             let place = places[dice.roll(places.len())];
             line.insert_str(place, word);
             told = format!("put {word:?} in line {at} at {place}");
@@ -169,7 +174,8 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
         5 | 6 if !lines.is_empty() => {
             // A digit becomes another.
             let line = &mut lines[at];
-            let digits: Vec<usize> = line.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
+            let digits: Vec<usize> =
+                line.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
             if let Some(place) = digits.get(dice.roll(digits.len())) {
                 let digit = dice.roll(10).to_string();
                 line.replace_range(*place..place + 1, &digit);
@@ -247,7 +253,8 @@ fn edited_examples_of_every_rule_are_checked_as_fresh_ones() {
             // Longer programs keep more: three examples one behind the other.
             let mut start = example.code.clone();
             if seed % 3 == 0 {
-                start = format!("{}{}{start}", others[seed * 7 % others.len()], others[seed * 13 % others.len()]);
+                start =
+                    format!("{}{}{start}", others[seed * 7 % others.len()], others[seed * 13 % others.len()]);
             }
             let done = soak(seed as u64, &example.control, &world, &start, &others, 8);
             work.kept += done.kept;

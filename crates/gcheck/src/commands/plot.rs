@@ -109,7 +109,7 @@ fn page(
     // The main file is 0, and the others follow without a gap.
     let others: Vec<_> = (1..).map_while(|index| session.program.file(index)).collect();
     for file in &others {
-        texts.push((file.name.to_string(), readable(file.loaded.text())));
+        texts.push((file.name.to_string(), readable(&file.loaded.text()).into_owned().into()));
     }
     let sources: Vec<Source<'_>> = texts.iter().map(|(name, text)| Source { name, text }).collect();
     let findings: Vec<_> = found.findings(shown).collect();

@@ -3,8 +3,8 @@
 use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, Ending, Event};
 
-use crate::memory::{Remembers, remembers};
 use crate::bar_feeder::lengths;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 

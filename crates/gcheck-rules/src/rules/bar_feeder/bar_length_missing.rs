@@ -3,8 +3,8 @@
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::Event;
 
-use crate::memory::{Remembers, remembers};
 use crate::bar_feeder::{Given, Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 

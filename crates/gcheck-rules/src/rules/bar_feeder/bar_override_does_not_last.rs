@@ -2,8 +2,8 @@
 
 use gcheck_engine::{At, Event};
 
-use crate::memory::{Remembers, remembers};
 use crate::bar_feeder::{Given, Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 

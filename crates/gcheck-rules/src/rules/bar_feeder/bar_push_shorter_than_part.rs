@@ -3,8 +3,8 @@
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::memory::{Remembers, remembers};
 use crate::bar_feeder::{Length, lengths};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};

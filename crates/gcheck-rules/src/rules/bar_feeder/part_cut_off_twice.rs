@@ -2,8 +2,8 @@
 
 use gcheck_engine::{Event, Frame};
 
-use crate::memory::{Remembers, remembers};
 use crate::bar_feeder::lengths;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};

@@ -6,8 +6,8 @@ use gcheck_engine::{At, Fact, Role};
 
 use super::cycle_left_on::{Harm, place};
 use super::cycle_words_lost::is_cycle;
-use crate::memory::{Remembers, remembers};
 use crate::boundary::LeftOn;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 

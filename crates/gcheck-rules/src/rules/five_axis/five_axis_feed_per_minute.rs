@@ -2,8 +2,8 @@
 
 use gcheck_engine::{At, Event, Fact, FeedMode, Role, TravelKind};
 
-use crate::memory::{Remembers, remembers};
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 

@@ -3,8 +3,8 @@
 use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, Domain};
 
-use crate::memory::{Remembers, remembers};
 use crate::five_axis::is_along_tool;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 

@@ -6,8 +6,8 @@ use gcheck_controls::CodeIx;
 use gcheck_engine::At;
 
 use super::refused_in_five_axis_mode::{Clash, clashes, finding, set_by, uses_modes};
-use crate::memory::{Remembers, remembers};
 use crate::boundary::LeftOn;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 

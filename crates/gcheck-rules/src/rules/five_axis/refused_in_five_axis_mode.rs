@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
 use gcheck_engine::{At, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::LeftOn;
 use crate::five_axis::{is_along_tool, is_along_vectors};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
 

@@ -5,8 +5,8 @@ use std::ops::Range;
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Cylinder, Ending, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 

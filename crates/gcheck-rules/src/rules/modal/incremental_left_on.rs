@@ -6,8 +6,8 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
 use crate::boundary::{Boundary, LeftOn};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 

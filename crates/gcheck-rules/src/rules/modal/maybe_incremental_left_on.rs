@@ -6,8 +6,8 @@ use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
 use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 

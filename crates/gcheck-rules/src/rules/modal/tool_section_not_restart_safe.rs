@@ -3,8 +3,8 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Event, Role};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
 

@@ -3,8 +3,8 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Axis, Ending, Event};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 

@@ -49,9 +49,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         }
     }
     let Some(closing) = cx.survey.tape_marks.last() else { return };
-    let code = cx.text.from(cx.region.end).find_map(|(from, piece)| {
-        first_code(piece).map(|code| from + code.start..from + code.end)
-    });
+    let code = cx
+        .text
+        .from(cx.region.end)
+        .find_map(|(from, piece)| first_code(piece).map(|code| from + code.start..from + code.end));
     if let Some(code) = code {
         report.add(behind(closing.clone(), code));
     }

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use gcheck_controls::{CodeNumber, Control, Score, scores};
 
-use crate::meta::declare_rule;
 use crate::evidence::evidence_of;
+use crate::meta::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {

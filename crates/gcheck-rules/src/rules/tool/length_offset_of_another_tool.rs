@@ -3,8 +3,8 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::is_before;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
 use crate::{FinishCx, PathCx, PathRule, Report, Run, Watch};

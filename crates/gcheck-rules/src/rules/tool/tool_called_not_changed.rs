@@ -5,8 +5,8 @@ use std::ops::Range;
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Ending, Event, Fact};
 
-use crate::memory::{Remembers, remembers};
 use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
