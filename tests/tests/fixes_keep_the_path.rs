@@ -4,10 +4,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
-use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::{env, fs};
+mod moves;
+
+use std::fs;
+use std::path::Path;
 
 use gcheck_program::Dialect;
 use gcheck_rules::{
@@ -15,6 +15,7 @@ use gcheck_rules::{
 };
 use gcheck_syntax::SourceText;
 use gcheck_testkit::corpus;
+use moves::{moves, own_programs};
 use rayon::prelude::*;
 
 /// A program with its safe fixes; `None` when it has none.
@@ -41,28 +42,6 @@ fn mended(program: &[u8], control: &str) -> Option<Vec<u8>> {
     (mended.count > 0).then(|| mended.source.to_bytes())
 }
 
-/// The moves of a program, and whether it came to its end.
-fn moves(program: &[u8], control: &str, folder: &Path) -> (Vec<String>, bool) {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
-    command.current_dir(folder).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    command.args(["run", "--isolated", "--control", control, "--output-format", "canonical"]);
-    command.args(["--fuel", "200000", "-"]);
-    let mut child = command.spawn().unwrap();
-    let mut stdin = child.stdin.take().unwrap();
-    let bytes = program.to_vec();
-    let writer = std::thread::spawn(move || {
-        // A run that fails early reads no more.
-        let _ = stdin.write_all(&bytes);
-    });
-    let output = child.wait_with_output().unwrap();
-    writer.join().unwrap();
-    let text = String::from_utf8_lossy(&output.stdout);
-    // The number before a call counts blocks, the one with N is the block's own.
-    let calls = text.lines().map(|line| line.split_whitespace().skip(2).collect::<Vec<_>>().join(" "));
-    let said = |call: &String| !call.starts_with("COMMENT") && !call.starts_with("MESSAGE");
-    (calls.filter(said).collect(), output.status.code() == Some(0))
-}
-
 /// The law for one program; says whether it had anything to mend.
 fn holds(name: &str, program: &[u8], control: &str, folder: &Path) -> bool {
     let Some(after) = mended(program, control) else { return false };
@@ -81,19 +60,7 @@ fn holds(name: &str, program: &[u8], control: &str, folder: &Path) -> bool {
 
 #[test]
 fn on_our_own_programs() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap();
-    let mut files: Vec<PathBuf> = Vec::new();
-    let mut folders = vec![root.join("fixtures")];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|extension| extension == "ngc" || extension == "nc") {
-                files.push(path);
-            }
-        }
-    }
+    let files = own_programs();
     let count = files.len();
     let with_fixes = files
         .par_iter()

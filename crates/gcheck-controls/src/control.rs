@@ -5,7 +5,8 @@
 use crate::execution::{Effect, Semantics};
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
-    LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules, VariableEntry,
+    LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules,
+    VariableEntry,
 };
 use crate::{CodeNumber, Letter, LetterSet};
 

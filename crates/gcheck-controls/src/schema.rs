@@ -508,6 +508,9 @@ pub struct WordEntry {
     /// For labels and programs: what the word names stands in another program or memory, so it need not be in this file.
     #[serde(default)]
     pub elsewhere: bool,
+    /// For programs: a block of this program, by its sequence number, where it has one of that number.
+    #[serde(default)]
+    pub or_label: bool,
     /// For programs: digits before the last four are a repeat count.
     #[serde(default)]
     pub packed_repeats: bool,
@@ -720,6 +723,9 @@ pub struct VariableEntry {
     pub access: Access,
     /// How long it lives.
     pub kind: VariableKind,
+    /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
+    #[serde(default)]
+    pub sequence_number: bool,
     /// Where the entry stands.
     pub source: String,
     /// How sure it is.

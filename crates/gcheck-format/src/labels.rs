@@ -6,8 +6,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, Ends, Letter, LetterSet, WordKind};
-use gcheck_program::{Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Outline, StatementKind, Value, Word};
+use gcheck_controls::{Code, CodeIx, Ends, Letter, LetterSet, Variable, WordKind};
+use gcheck_program::{
+    Block, BlockFlags, BlockIx, BlockTable, Dialect, Loaded, Op, Outline, StatementKind, Value, Word,
+};
+
+/// Programs that call one, as far as they are followed.
+const MOST_CALLERS: usize = 64;
 
 /// A sequence number at the head of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,10 +45,14 @@ pub(crate) enum Target {
     Own(Number),
     /// A block of the program that calls this one; of its own when nothing calls it.
     Caller(Number),
+    /// A block of its own program where that has one of the number, else a program.
+    OwnOrProgram(Number),
     /// A block of its own program or of another one.
     Other,
     /// Computed, or written in a form that is not certain.
     Computed,
+    /// No block: it reads the number of one.
+    Reads,
     /// The block has a mistake in form, so that what it names is not certain.
     Unclear,
 }
@@ -119,13 +128,16 @@ impl Labels {
         labels.mains.dedup();
         for (block, number) in found.calls {
             // The digits in front of the last four may count repeats.
-            let called = number.and_then(|number| outline.program(number).or(outline.program(number % 10_000)));
+            let called =
+                number.and_then(|number| outline.program(number).or(outline.program(number % 10_000)));
             match called {
                 Some(called) => {
                     let callers = labels.callers.entry(called.blocks.start).or_default();
-                    callers.push(program(block));
                     // Calls come in text order, and so do those of one program.
-                    callers.dedup();
+                    let from = program(block);
+                    if callers.last() != Some(&from) && callers.len() <= MOST_CALLERS {
+                        callers.push(from);
+                    }
                 }
                 None => labels.calls_others = true,
             }
@@ -146,7 +158,9 @@ impl Labels {
             || control.codes().any(|code| {
                 code.is_user() || code.entry().words.iter().any(|word| word.kind == WordKind::Label)
             });
-        let is_known = |reference: &Reference| matches!(reference.target, Target::Own(_) | Target::Caller(_));
+        let is_known = |reference: &Reference| {
+            !matches!(reference.target, Target::Other | Target::Computed | Target::Reads | Target::Unclear)
+        };
         if names_blocks && (self.calls_others || !self.references.iter().all(is_known)) {
             return;
         }
@@ -154,7 +168,9 @@ impl Labels {
             .references
             .iter()
             .filter_map(|reference| match &reference.target {
-                Target::Own(number) | Target::Caller(number) => Some(number.value),
+                Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => {
+                    Some(number.value)
+                }
                 _ => None,
             })
             .collect();
@@ -167,8 +183,12 @@ impl Labels {
     /// The programs, by their first blocks, one of whose blocks a reference names; empty when that cannot be told.
     pub(crate) fn programs_named_by(&self, reference: &Reference) -> Vec<u32> {
         match (&reference.target, self.callers.get(&reference.program)) {
-            (Target::Own(_), _) => vec![reference.program],
-            (Target::Caller(_), Some(callers)) if !self.has_computed_call => callers.clone(),
+            (Target::Own(_) | Target::OwnOrProgram(_), _) => vec![reference.program],
+            (Target::Caller(_), Some(callers))
+                if !self.has_computed_call && callers.len() <= MOST_CALLERS =>
+            {
+                callers.clone()
+            }
             // A main program goes on at a block of its own.
             (Target::Caller(_), None) if self.mains.binary_search(&reference.program).is_ok() => {
                 vec![reference.program]
@@ -183,7 +203,11 @@ impl Found {
         let inside = |block: &Block| base + block.range.start < region_end;
         let first = self.blocks;
         self.blocks += table.blocks().filter(|(_, block)| inside(block)).count() as u32;
-        let interesting = BlockFlags::CODE | BlockFlags::LABEL | BlockFlags::STATEMENT | BlockFlags::ERROR;
+        let interesting = BlockFlags::CODE
+            | BlockFlags::LABEL
+            | BlockFlags::STATEMENT
+            | BlockFlags::EXPRESSION
+            | BlockFlags::ERROR;
         if !table.flags().intersects(interesting) {
             return;
         }
@@ -205,8 +229,12 @@ impl Found {
             self.labels.push((number, Label { number: value, range, digits, program: 0 }));
         }
         let references = self.references.len();
+        // A block may be as long as a file: what its codes ask for is gathered once.
+        let mut addresses = None;
         for word in words.iter().filter(|word| word.code.is_some()) {
-            self.add_code(place, words, word);
+            self.add_code(place, word, || {
+                *addresses.get_or_insert_with(|| Addresses::of(words, place.dialect))
+            });
         }
         for statement in table.statements(ix) {
             if let StatementKind::Goto { target } = &statement.kind {
@@ -214,6 +242,16 @@ impl Found {
                 let digits = target.and_then(|range| place.digits(&range));
                 let target = place.number(digits).map_or(Target::Computed, Target::Own);
                 self.refer(number, target, place.shift(&statement.range));
+            }
+        }
+        let computed = words.iter().filter_map(|word| match word.value {
+            Value::Expr(expr) => Some(expr),
+            Value::Number(_) | Value::Missing => None,
+        });
+        let statements = table.statements(ix).flat_map(|statement| statement.kind.expressions());
+        for expr in computed.chain(statements).map(|expr| table.expr(expr)) {
+            if table.ops(expr).iter().any(|op| place.holds_number(op)) {
+                self.refer(number, Target::Reads, place.shift(&expr.range));
             }
         }
         // In a block with a mistake in form nobody knows what was meant.
@@ -230,7 +268,7 @@ impl Found {
         self.references.push((block, Reference { target, range, program: 0 }));
     }
 
-    fn add_code(&mut self, place: &Place<'_>, words: &[Word], word: &Word) {
+    fn add_code<'t>(&mut self, place: &Place<'_>, word: &Word, addresses: impl FnOnce() -> Addresses<'t>) {
         let control = place.dialect.control();
         let Some(code) = control.code_at(word.code) else { return };
         let entry = code.entry();
@@ -244,35 +282,35 @@ impl Found {
         if !dialect_refers(place.dialect, word.code) {
             return;
         }
+        let addresses = addresses();
         let is_call = entry.words.iter().any(|word| word.kind == WordKind::Program);
         for target in &entry.words {
             let Some(letter) = Letter::parse(&target.letter) else { continue };
-            let mut named = words.iter().filter(|word| word.letter == letter);
-            let Some(found) = named.next() else { continue };
+            let Some(found) = addresses.first(letter) else { continue };
             let range = place.shift(&found.range());
-            let is_shared = named.next().is_some() || read_by(words, letter, place.dialect) > 1;
-            match target.kind {
-                WordKind::Program if is_shared => self.calls.push((place.number, None)),
-                WordKind::Program => self.calls.push((place.number, found.integer())),
-                WordKind::Label => {
-                    let digits = match found.value {
-                        Value::Number(_) => place.digits(&found.range()),
-                        Value::Expr(_) | Value::Missing => None,
-                    };
-                    let target = match place.number(digits) {
-                        None => Target::Computed,
-                        // Which of two codes reads the word is not for us to say.
-                        Some(_) if is_shared => Target::Other,
-                        Some(number) if !target.elsewhere => Target::Own(number),
-                        Some(number) if entry.ends == Some(Ends::Subprogram) => Target::Caller(number),
-                        // A block of this program or of the one that is called, where the code calls one.
-                        Some(number) if !is_call => Target::Own(number),
-                        Some(_) => Target::Other,
-                    };
-                    self.refer(place.number, target, range);
-                }
-                _ => {}
+            let is_shared = addresses.shared.contains(letter);
+            if target.kind == WordKind::Program {
+                self.calls.push((place.number, found.integer().filter(|_| !is_shared)));
             }
+            if target.kind != WordKind::Label && !target.or_label {
+                continue;
+            }
+            let digits = match found.value {
+                Value::Number(_) => place.digits(&found.range()),
+                Value::Expr(_) | Value::Missing => None,
+            };
+            let target = match place.number(digits) {
+                None => Target::Computed,
+                // Which of two codes reads the word is not for us to say.
+                Some(_) if is_shared => Target::Other,
+                Some(number) if target.or_label => Target::OwnOrProgram(number),
+                Some(number) if !target.elsewhere => Target::Own(number),
+                Some(number) if entry.ends == Some(Ends::Subprogram) => Target::Caller(number),
+                // A block of this program or of the one that is called, where the code calls one.
+                Some(number) if !is_call => Target::Own(number),
+                Some(_) => Target::Other,
+            };
+            self.refer(place.number, target, range);
         }
     }
 
@@ -280,7 +318,7 @@ impl Found {
     /// `G10 L50`, `N3032 P1`, `G11`.
     fn note_data(&mut self, place: &Place<'_>, code: CodeIx) {
         let control = place.dialect.control();
-        let Some(entry) = control.code_at(code).map(|code| code.entry()) else { return };
+        let Some(entry) = control.code_at(code).map(Code::entry) else { return };
         let reads_n = |word: &gcheck_controls::WordEntry| word.letter == "N" && word.kind != WordKind::Label;
         if entry.words.iter().any(reads_n) {
             self.data = Some((place.number, code));
@@ -289,7 +327,10 @@ impl Found {
         let Some((from, data)) = self.data else { return };
         let ends = control.code_at(data).map(|code| code.entry().cancelled_by.as_slice());
         if ends.is_some_and(|ends| ends.contains(&entry.code)) {
-            self.labels.retain(|(block, _)| !(from + 1..place.number).contains(block));
+            // In text order, so that they are the last ones, but for one that this block may have.
+            let first = self.labels.partition_point(|(block, _)| *block <= from);
+            let own = self.labels.partition_point(|(block, _)| *block < place.number);
+            self.labels.drain(first..own.max(first));
             self.data = None;
         }
     }
@@ -339,6 +380,12 @@ impl Place<'_> {
         Some(Number { value, digits })
     }
 
+    /// Does the operation read a variable that holds the number of a block?
+    fn holds_number(&self, op: &Op) -> bool {
+        let Op::Variable(number) = op else { return false };
+        matches!(self.dialect.control().variable(*number), Variable::Known(entry) if entry.sequence_number)
+    }
+
     /// Does the text of the block hold the word of a jump, comments taken for text as well?
     fn names_jump(&self) -> bool {
         let text = self.slice(&self.block.range).as_bytes();
@@ -363,8 +410,40 @@ fn dialect_refers(dialect: &Dialect<'_>, code: CodeIx) -> bool {
     })
 }
 
-/// How many codes of a block may read an address.
-fn read_by(words: &[Word], letter: Letter, dialect: &Dialect<'_>) -> usize {
-    let codes = words.iter().filter_map(|word| dialect.control().code_at(word.code));
-    codes.filter(|code| code.is_user() || LetterSet::contains(code.reads(), letter)).count()
+/// Which words of a block its codes may refer with.
+#[derive(Clone, Copy)]
+struct Addresses<'t> {
+    /// By address: its first word.
+    first: [Option<&'t Word>; Letter::COUNT],
+    /// Addresses that stand twice, or that several codes of the block may read.
+    shared: LetterSet,
+}
+
+impl<'t> Addresses<'t> {
+    fn of(words: &'t [Word], dialect: &Dialect<'_>) -> Self {
+        let mut first = [None; Letter::COUNT];
+        let (mut shared, mut by_one, mut all) = (LetterSet::EMPTY, LetterSet::EMPTY, LetterSet::EMPTY);
+        let mut by_users = 0_u32;
+        for word in words {
+            if !all.insert(word.letter) {
+                shared.insert(word.letter);
+            }
+            if let Some(slot) = first.get_mut(word.letter.index()) {
+                slot.get_or_insert(word);
+            }
+            let Some(code) = dialect.control().code_at(word.code) else { continue };
+            // What a code of the shop reads nobody knows.
+            by_users += u32::from(code.is_user());
+            shared = shared.or(by_one.and(code.reads()));
+            by_one = by_one.or(code.reads());
+        }
+        if by_users > 0 {
+            shared = shared.or(by_one);
+        }
+        Self { first, shared }
+    }
+
+    fn first(&self, letter: Letter) -> Option<&'t Word> {
+        self.first.get(letter.index()).copied().flatten()
+    }
 }

@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use gcheck_controls::{Control, SystemValue};
 use gcheck_program::{Dialect, code_region};
 use gcheck_syntax::{Sink, SourceText, SyntaxError, SyntaxKind, line_len, parse_into};
 
@@ -95,6 +96,7 @@ fn lay_out(
         Indentation::Keep | Indentation::None => head_of_blank_lines(text, window.start),
     };
     let Some(part) = text.get(start..end) else { return };
+    let counts_lines = style.blank_lines < u32::MAX && reads_line_number(text, dialect.control());
     let labels = match style.sequence_numbers {
         SequenceNumbers::Drop => Some(Labels::of(text, dialect)),
         SequenceNumbers::Keep => None,
@@ -106,6 +108,7 @@ fn lay_out(
         ready: Ready::new(style, dialect),
         writer: Writer::new(style, dialect, labels),
         style,
+        blank_lines: if counts_lines { u32::MAX } else { style.blank_lines },
         emit,
         parts: Vec::with_capacity(64),
         open: Vec::with_capacity(8),
@@ -122,6 +125,23 @@ fn lay_out(
     }
     parse_into(part, dialect.profile(), &mut layout);
     layout.finish_line();
+}
+
+/// Does the program ask for the number of a line of its file, which a line that goes would change?
+fn reads_line_number(text: &str, control: &Control) -> bool {
+    let names: Vec<&str> = control
+        .semantics()
+        .system_variables
+        .iter()
+        .filter(|variable| variable.holds == SystemValue::LineNumber)
+        .filter_map(|variable| variable.name.as_deref())
+        .collect();
+    let is_it = |at: usize| {
+        let name = text.get(at + 1..).unwrap_or_default().chars().take_while(|c| *c != '>');
+        let letters = name.filter(|c| !c.is_whitespace()).map(|c| c.to_ascii_lowercase());
+        names.iter().any(|known| letters.clone().eq(known.chars()))
+    };
+    !names.is_empty() && memchr::memchr_iter(b'<', text.as_bytes()).any(is_it)
 }
 
 /// Where the blank lines begin that end at `at`.
@@ -153,6 +173,8 @@ struct Layout<'t, 's, F> {
     /// Bytes of the file that may change.
     window: Range<u32>,
     style: &'s Style,
+    /// The most blank lines that may follow each other.
+    blank_lines: u32,
     ready: Ready,
     writer: Writer<'s>,
     emit: F,
@@ -182,7 +204,7 @@ impl<F: FnMut(Range<u32>, &str)> Layout<'_, '_, F> {
         let parts = self.parts.get(..parts).unwrap_or_default();
         if parts.iter().all(|part| part.kind == SyntaxKind::WHITESPACE) {
             self.blanks = self.blanks.saturating_add(1);
-            let most = self.style.blank_lines.max(u32::from(self.keeps_blank));
+            let most = self.blank_lines.max(u32::from(self.keeps_blank));
             let text_end = parts.last().map_or(line.start, |part| part.range.end);
             let gone = if self.blanks > most {
                 line
@@ -234,11 +256,10 @@ impl<F: FnMut(Range<u32>, &str)> Sink for Layout<'_, '_, F> {
     fn finish_node(&mut self) {
         match self.open.pop() {
             Some(SyntaxKind::PRINT_STATEMENT) => self.verbatim -= 1,
-            Some(_) => {}
             None if self.parts.last().is_some_and(|part| part.kind == SyntaxKind::NEWLINE) => {
                 self.finish_line();
             }
-            None => {}
+            Some(_) | None => {}
         }
     }
 

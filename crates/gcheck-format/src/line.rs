@@ -37,6 +37,9 @@ pub(crate) fn written_case(style: &Style, dialect: &Dialect<'_>) -> LetterCase {
     }
 }
 
+/// Blanks at the head of a line at most.
+const DEEPEST: usize = 100;
+
 /// Writes lines anew, one after the other.
 pub(crate) struct Writer<'s> {
     style: &'s Style,
@@ -199,9 +202,11 @@ impl<'s> Writer<'s> {
         let labels = self.labels.as_ref()?;
         let ix = self.items.iter().position(|item| item.kind != ItemKind::BlockDelete)?;
         let number = self.items.get(ix).filter(|item| item.kind == ItemKind::SequenceNumber)?;
-        // A number alone is a block, and a comment behind one speaks for its own line.
+        // A number alone is a block, and a comment behind one speaks for its own line. Of two numbers one may be the label.
         let next = self.items.get(ix + 1)?;
-        let has_code = next.kind.is_word() || next.kind == ItemKind::Statement;
+        let is_number = |item: &&Item| item.kind == ItemKind::SequenceNumber;
+        let has_code = self.items.iter().filter(is_number).count() == 1
+            && (next.kind.is_word() || next.kind == ItemKind::Statement);
         (has_code && labels.is_unnamed(base + number.range.start)).then_some(ix)
     }
 
@@ -222,6 +227,10 @@ impl<'s> Writer<'s> {
         let is_comment = |item: &Item| item.kind == ItemKind::Comment;
         let is_program = items.iter().any(|item| item.kind == ItemKind::ProgramNumber);
         let words_end = items.iter().rposition(|item| !is_comment(item)).map_or(0, |at| at + 1);
+        let label = items
+            .iter()
+            .position(|item| item.kind != ItemKind::BlockDelete)
+            .filter(|ix| items.get(*ix).is_some_and(|item| item.kind == ItemKind::SequenceNumber));
         let mut before = None;
         let mut has_code = false;
         for (ix, item) in items.iter().enumerate() {
@@ -230,8 +239,12 @@ impl<'s> Writer<'s> {
                 let is_remark = ix >= words_end && has_code;
                 let blanks = match before {
                     None => self.indentation(item.kind, depth),
-                    Some(_) if is_remark && is_program => None,
-                    Some(_) if is_remark => self.column(self.style.comment_column),
+                    Some(_) if is_remark && (is_program || self.style.comment_column == 0) => None,
+                    Some(_) if is_remark && ix == words_end => Some(self.up_to(self.style.comment_column)),
+                    Some(_) if is_remark => Some(1),
+                    Some(_) if label.is_some_and(|label| label + 1 == ix) && self.style.word_column > 0 => {
+                        Some(self.up_to(self.style.word_column))
+                    }
                     Some(before) => self.between(before, item.kind),
                 };
                 match blanks {
@@ -248,7 +261,8 @@ impl<'s> Writer<'s> {
             has_code |= matches!(item.kind, ItemKind::Word | ItemKind::Statement | ItemKind::ProgramNumber);
             before = Some(item.kind);
         }
-        let end = items.last().map_or(0, |item| item.range.end);
+        let head = parts.first().map_or(0, |part| part.range.start);
+        let end = items.last().map_or(head, |item| item.range.end);
         let tail = end..parts.last().map_or(end, |part| part.range.end);
         if self.style.drop_trailing_blanks {
             self.blanks(text, &tail, 0);
@@ -262,7 +276,7 @@ impl<'s> Writer<'s> {
             Indentation::Keep => None,
             Indentation::None => Some(0),
             Indentation::Nested(_) if first == ItemKind::BlockDelete => Some(0),
-            Indentation::Nested(width) => Some(depth * usize::from(width)),
+            Indentation::Nested(width) => Some((depth * usize::from(width)).min(DEEPEST)),
         }
     }
 
@@ -272,9 +286,6 @@ impl<'s> Writer<'s> {
         if ends(before) || ends(after) {
             return None;
         }
-        if before == ItemKind::SequenceNumber && self.style.word_column > 0 {
-            return self.column(self.style.word_column);
-        }
         match self.style.word_spacing {
             WordSpacing::Keep => None,
             WordSpacing::One => Some(1),
@@ -283,9 +294,8 @@ impl<'s> Writer<'s> {
     }
 
     /// Blanks up to a column, one at least.
-    fn column(&self, column: u16) -> Option<usize> {
-        let width = self.line.chars().count();
-        (column > 0).then(|| usize::from(column - 1).saturating_sub(width).max(1))
+    fn up_to(&self, column: u8) -> usize {
+        usize::from(column).saturating_sub(1).saturating_sub(self.line.chars().count()).max(1)
     }
 
     fn item(&mut self, text: &str, item: &Item, parts: &[Part]) {
@@ -300,11 +310,8 @@ impl<'s> Writer<'s> {
                     | [Some(K::LETTER), Some(K::PLUS | K::MINUS), Some(K::NUMBER), None]
             );
             if item.kind.is_word() && is_number {
-                let word: String = parts
-                    .iter()
-                    .filter(is_blank)
-                    .map(|part| slice(text, &part.range))
-                    .collect();
+                let word: String =
+                    parts.iter().filter(is_blank).map(|part| slice(text, &part.range)).collect();
                 self.replace(text, item.range.clone(), |writer| writer.word(&word));
                 return;
             }

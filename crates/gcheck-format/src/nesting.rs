@@ -45,13 +45,12 @@ impl Nesting {
                 (K::O_STATEMENT, keyword) => {
                     let label = || label(parts.get(..at).unwrap_or_default(), part.item, text);
                     match keyword {
-                        K::SUB_KW | K::REPEAT_KW | K::IF_KW => self.open.push(Body::Other),
                         K::DO_KW => self.open.push(Body::Do(label())),
                         K::WHILE_KW if self.open.last() == Some(&Body::Do(label())) => {
                             self.open.pop();
                             depth = self.depth();
                         }
-                        K::WHILE_KW => self.open.push(Body::Other),
+                        K::SUB_KW | K::REPEAT_KW | K::IF_KW | K::WHILE_KW => self.open.push(Body::Other),
                         K::ENDSUB_KW | K::ENDREPEAT_KW | K::ENDIF_KW | K::ENDWHILE_KW => {
                             self.open.pop();
                             depth = self.depth();
@@ -81,10 +80,11 @@ fn is_program_head(part: &Part, text: &str) -> bool {
     part.kind == K::COLON_NUMBER || part.kind == K::WORD && part.outer == K::WORD && is_o(part)
 }
 
-/// The text in front of the keyword of an O-word, without regard to case and blanks.
+/// The text of an O-word in front of its keyword, without regard to case and blanks; `parts` end there.
 fn label(parts: &[Part], item: u32, text: &str) -> u64 {
     let mut hasher = DefaultHasher::new();
-    for part in parts.iter().filter(|part| part.item == item && part.kind != K::WHITESPACE) {
+    let of_item = parts.iter().rev().take_while(|part| part.item == item);
+    for part in of_item.filter(|part| part.kind != K::WHITESPACE) {
         let text = text.get(part.range.start as usize..part.range.end as usize).unwrap_or_default();
         for byte in text.bytes().filter(|byte| !byte.is_ascii_whitespace()) {
             byte.to_ascii_lowercase().hash(&mut hasher);

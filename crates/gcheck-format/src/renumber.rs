@@ -3,7 +3,7 @@
 //! Knows: where numbers stand and what names them (see [`crate::labels`]), which numbers a control takes. Must not know: who
 //! asked. It is done as a whole or refused: a jump to the wrong block is worse than a crooked number.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::ops::Range;
 
@@ -37,10 +37,12 @@ pub struct RenumberRefused {
 /// What stands in the way of renumbering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// The start or the step is zero, or the start is below the least number that the control takes.
+    /// The step is zero, or the start is no number that the control takes.
     NoNumbering {
         /// The least number that the control takes.
         least: u32,
+        /// The largest.
+        most: u32,
     },
     /// A target is computed: `GOTO #1`.
     Computed,
@@ -50,6 +52,10 @@ pub enum Refusal {
     SeveralBlocks(u32),
     /// The target may stand in another program, of this file or another one.
     OtherProgram,
+    /// This number names a program, and a block of its own program would get it.
+    TakenByProgram(u32),
+    /// A variable is read that holds the number of a block.
+    ReadsNumber,
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -72,8 +78,8 @@ impl std::error::Error for RenumberRefused {}
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoNumbering { least } => {
-                write!(f, "the start of a numbering is {least} or more, its step 1 or more")
+            Self::NoNumbering { least, most } => {
+                write!(f, "block numbers of the control go from {least} to {most}, in steps of 1 or more")
             }
             Self::Computed => {
                 f.write_str("the block that this names is computed, so its number cannot be followed")
@@ -85,6 +91,10 @@ impl fmt::Display for Refusal {
             Self::OtherProgram => {
                 f.write_str("this may name a block of another program, which would not be renumbered with it")
             }
+            Self::TakenByProgram(number) => {
+                write!(f, "this names program O{number}, and a block would get that number")
+            }
+            Self::ReadsNumber => f.write_str("this reads the number of a block, which would be another one"),
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
             }
@@ -108,7 +118,8 @@ pub fn renumber(
     let Numbering { start, step } = *numbering;
     let limits = limits(dialect.control());
     if step == 0 || !limits.contains(&start) {
-        return Err(RenumberRefused { range: 0..0, reason: Refusal::NoNumbering { least: *limits.start() } });
+        let reason = Refusal::NoNumbering { least: *limits.start(), most: *limits.end() };
+        return Err(RenumberRefused { range: 0..0, reason });
     }
     let labels = Labels::of(text, dialect);
     // A number that the program has, the control evidently takes.
@@ -117,7 +128,7 @@ pub fn renumber(
 
     let mut edits = Vec::new();
     // By program and old number.
-    let mut numbers: HashMap<(u32, u32), New> = HashMap::new();
+    let mut numbers = Numbers::default();
     let (mut program, mut next) = (None, u64::from(start));
     for label in &labels.list {
         if program != Some(label.program) {
@@ -129,7 +140,7 @@ pub fn renumber(
             return Err(too_large(&label.range, next, most));
         }
         next += u64::from(step);
-        numbers.entry((label.program, old)).and_modify(|new| *new = New::Several).or_insert(New::One(new));
+        numbers.put(label.program, old, new);
         write(text, &label.digits, new, &mut edits);
     }
     for reference in &labels.references {
@@ -141,6 +152,23 @@ pub fn renumber(
     edits.sort_by_key(|edit| edit.range.start);
     edits.dedup();
     Ok(edits)
+}
+
+/// The numbers of a file, old and new.
+#[derive(Default)]
+struct Numbers {
+    /// By program and old number.
+    new: HashMap<(u32, u32), New>,
+    /// Programs with the new numbers of their blocks.
+    taken: HashSet<(u32, u32)>,
+}
+
+impl Numbers {
+    fn put(&mut self, program: u32, old: u32, new: u32) {
+        let several = |new: &mut New| *new = New::Several;
+        self.new.entry((program, old)).and_modify(several).or_insert(New::One(new));
+        self.taken.insert((program, new));
+    }
 }
 
 /// What an old number becomes.
@@ -155,17 +183,27 @@ enum New {
 fn follow<'l>(
     reference: &'l Reference,
     labels: &Labels,
-    numbers: &HashMap<(u32, u32), New>,
+    numbers: &Numbers,
 ) -> Result<(&'l Number, u32), Refusal> {
     let number = match &reference.target {
-        Target::Own(number) | Target::Caller(number) => number,
+        Target::Own(number) | Target::Caller(number) | Target::OwnOrProgram(number) => number,
         Target::Other => return Err(Refusal::OtherProgram),
         Target::Computed => return Err(Refusal::Computed),
+        Target::Reads => return Err(Refusal::ReadsNumber),
         Target::Unclear => return Err(Refusal::Unclear),
     };
     let mut new = None;
     for program in labels.programs_named_by(reference) {
-        match numbers.get(&(program, number.value)) {
+        match numbers.new.get(&(program, number.value)) {
+            // It stays the number of a program as long as no block gets that number.
+            None if matches!(reference.target, Target::OwnOrProgram(_)) => {
+                let is_taken = numbers.taken.contains(&(program, number.value));
+                return if is_taken {
+                    Err(Refusal::TakenByProgram(number.value))
+                } else {
+                    Ok((number, number.value))
+                };
+            }
             None => return Err(Refusal::NoSuchBlock(number.value)),
             Some(New::Several) => return Err(Refusal::SeveralBlocks(number.value)),
             Some(New::One(one)) if new.is_none_or(|new| new == *one) => new = Some(*one),

@@ -25,7 +25,8 @@ impl Reader {
     }
 
     fn meaning(&self, line: &str) -> Option<Vec<u8>> {
-        let mut meaning = Meaning { line, bytes: Vec::with_capacity(line.len() * 2), open: Vec::new(), is_whole: true };
+        let mut meaning =
+            Meaning { line, bytes: Vec::with_capacity(line.len() * 2), open: Vec::new(), is_whole: true };
         parse_into(line, self.profile, &mut meaning);
         meaning.is_whole.then_some(meaning.bytes)
     }

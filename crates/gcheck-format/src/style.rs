@@ -20,10 +20,10 @@ pub struct Style {
     pub sequence_numbers: SequenceNumbers,
     /// The column, counted from 1, in which the words behind an `N` number begin, where the number leaves room. 0 keeps the
     /// word spacing there.
-    pub word_column: u16,
+    pub word_column: u8,
     /// The column, counted from 1, in which a comment behind the words of a block begins, at least one blank behind them; 1
     /// puts one blank in front of it. 0 keeps the blanks that are there.
-    pub comment_column: u16,
+    pub comment_column: u8,
     /// The most blank lines that may follow each other.
     pub blank_lines: u32,
     /// Blanks at the end of a line go; those inside a comment are part of it.

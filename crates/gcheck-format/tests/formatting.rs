@@ -20,7 +20,11 @@ fn edits(control: &str, style: Option<&Style>, text: &str, lines: Option<std::op
 /// Formats, and makes sure that a second time changes nothing.
 fn tidy(control: &str, style: Option<&Style>, text: &str) -> String {
     let once = apply(text, &edits(control, style, text, None));
-    assert_eq!(apply(&once, &edits(control, style, &once, None)), once, "formatting twice is formatting once");
+    assert_eq!(
+        apply(&once, &edits(control, style, &once, None)),
+        once,
+        "formatting twice is formatting once"
+    );
     once
 }
 
@@ -141,6 +145,26 @@ fn blank_lines_are_counted_and_stay_behind_a_directive() {
 }
 
 #[test]
+fn blank_lines_stay_where_a_program_asks_for_the_number_of_its_line() {
+    let text = "G0 X1\n\n\n\nG0 X#< _LINE >\n";
+    assert_eq!(tidy("linuxcnc", None, text), text);
+    assert_eq!(tidy("linuxcnc", None, "G0 X#<_lines>\n\n\n\n"), "G0 X#<_lines>\n\n");
+}
+
+#[test]
+fn a_byte_order_mark_stays_wherever_it_stands() {
+    check(
+        "haas-mill",
+        "\u{FEFF}g0x1.\n\u{FEFF}  \ng0 \u{FEFF} x2.\n",
+        &expect![[r#"
+        ﻿G0 X1.
+        ﻿
+        g0 ﻿ x2.
+    "#]],
+    );
+}
+
+#[test]
 fn line_ends_stay() {
     check("haas-mill", "g0x1.\r\n\r\n\r\n\r\nx2. \rx3.", &expect![["G0 X1.\r\n\r\nX2.\rX3."]]);
 }
@@ -187,7 +211,8 @@ fn blanks_between_words_are_taken_away_where_nothing_hangs_on_them() {
 
 #[test]
 fn a_number_with_blanks_inside_stays_as_it_is() {
-    let style = Style { trailing_zeros: TrailingZeros::Drop, leading_zeros: LeadingZeros::Add, ..Style::KEEP };
+    let style =
+        Style { trailing_zeros: TrailingZeros::Drop, leading_zeros: LeadingZeros::Add, ..Style::KEEP };
     let style = Style { word_spacing: WordSpacing::One, ..style };
     assert_eq!(with(&style, "X1. 500  Y2.500\nG 1  X 1.500\n"), "X1. 500 Y2.5\nG01 X1.5\n");
 }
@@ -279,6 +304,9 @@ fn numbers_that_nothing_names_are_dropped() {
         "O1\nN10 G0 X1.\nN20 G0 X2.\n/ N30 G0 X3.\n/N35   G0 X4.\nN40 (COMMENT)\nN50\nN60 #1=2\nN70 GOTO 20\nN80 M30\n",
     ));
     for keeps_all in [
+        "N0N0M97 P0\n",
+        "N1 G0 ; N2 G1\n",
+        "N1 #1=#4114\n",
         "N10 GOTO #1\nN20 G0\n",
         "N10 M98 P1234\nN20 G0\n",
         "N10 GOTO N20\nN20 G0\n",
@@ -318,10 +346,7 @@ fn small_letters_are_not_written_where_they_are_not_read() {
 #[test]
 fn edits_are_as_small_as_they_can_be() {
     let edit = |range, text: &str| Edit { range, text: text.to_owned() };
-    assert_eq!(
-        edits("haas-mill", None, "G1X1.  y2.\n", None),
-        [edit(2..2, " "), edit(6..8, "Y")]
-    );
+    assert_eq!(edits("haas-mill", None, "G1X1.  y2.\n", None), [edit(2..2, " "), edit(6..8, "Y")]);
     assert_eq!(edits("haas-mill", None, "G1 X1. Y2.\n", None), []);
 }
 
@@ -348,7 +373,8 @@ fn a_range_of_lines_becomes_what_the_whole_would_make_of_it() {
 fn bytes_that_are_no_utf_8_stay() {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
-    let source = SourceText::from_bytes(b"\xEF\xBB\xBFg0x1. (D\xE9P\x1A\xFC)\r\ng1x2. (\xB5)".to_vec()).unwrap();
+    let source =
+        SourceText::from_bytes(b"\xEF\xBB\xBFg0x1. (D\xE9P\x1A\xFC)\r\ng1x2. (\xB5)".to_vec()).unwrap();
     let bytes = formatted(&source, &dialect, &Style::of(&control)).unwrap();
     assert_eq!(bytes, b"\xEF\xBB\xBFG0 X1. (D\xE9P\x1A\xFC)\r\nG1 X2. (\xB5)");
     let source = SourceText::from_bytes(bytes).unwrap();

@@ -5,6 +5,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gcheck_format::Numbering;
 use gcheck_report::Format;
 use gcheck_rules::Severity;
 
@@ -60,6 +61,8 @@ pub enum When {
 pub enum Command {
     /// Check files and folders
     Check(CheckOptions),
+    /// Format programs, and number their blocks anew
+    Fmt(FmtOptions),
     /// Execute a program and print its moves
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
@@ -157,6 +160,29 @@ pub struct CheckOptions {
     /// Print what is in force for each file
     #[arg(long)]
     pub show_settings: bool,
+}
+
+/// Options of `gcheck fmt`.
+#[derive(Debug, Args)]
+pub struct FmtOptions {
+    /// Files and folders; `-` reads standard input and writes standard output
+    #[arg(default_value = ".", value_name = "PATHS")]
+    pub paths: Vec<PathBuf>,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// Change nothing; print the files that would change and exit with 1 if there are any
+    #[arg(long, conflicts_with = "diff")]
+    pub check: bool,
+    /// Change nothing; print what would change and exit with 1 if anything would
+    #[arg(long)]
+    pub diff: bool,
+    /// Number the blocks that have an `N` number anew, and every word that names one with them: `--renumber 10:10`
+    #[arg(long, value_name = "START:STEP", value_parser = numbering)]
+    pub renumber: Option<Numbering>,
+    /// Files formatted at a time; the number of processors without it
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<usize>,
 }
 
 /// A file for findings.
@@ -368,6 +394,15 @@ impl VariableName {
         }
         inner.parse().ok().map(Self::Number)
     }
+}
+
+fn numbering(text: &str) -> Result<Numbering, String> {
+    let numbers = text.split_once(':').and_then(|(start, step)| {
+        Some(Numbering { start: start.trim().parse().ok()?, step: step.trim().parse().ok()? })
+    });
+    numbers
+        .filter(|n| n.start > 0 && n.step > 0)
+        .ok_or_else(|| "write the first number and the step, both whole and from 1, as in `10:10`".to_owned())
 }
 
 fn block_skip(text: &str) -> Result<BlockSkip, String> {

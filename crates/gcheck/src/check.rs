@@ -84,7 +84,7 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
 }
 
 /// Says the problems, each once, and gives the exit code.
-fn finish(problems: &[Problem], code: u8) -> u8 {
+pub(crate) fn finish(problems: &[Problem], code: u8) -> u8 {
     let mut problems: Vec<&Problem> = problems.iter().collect();
     problems.sort();
     problems.dedup();

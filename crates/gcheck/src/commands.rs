@@ -6,6 +6,7 @@ pub(crate) mod codes;
 pub(crate) mod completions;
 pub(crate) mod controls;
 pub(crate) mod explain;
+pub(crate) mod fmt;
 pub(crate) mod init;
 pub(crate) mod plot;
 pub(crate) mod rules;

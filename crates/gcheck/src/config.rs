@@ -3,6 +3,7 @@
 //! Knows: which configuration rules over which file, how several are put together. Must not know: how programs are checked.
 
 mod file;
+mod format;
 mod layer;
 mod pattern;
 mod placed;
@@ -18,6 +19,7 @@ pub use file::{
     CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar,
     SearchTable, ToolTable, ToolsTable, Units,
 };
+pub use format::FormatTable;
 pub use layer::{ExecutionFacts, Layer};
 pub use pattern::PathPattern;
 pub use placed::Placed;

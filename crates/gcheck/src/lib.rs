@@ -20,6 +20,7 @@ mod paths;
 mod problem;
 mod programs;
 mod reading;
+mod rewriting;
 
 use std::io::Write as _;
 use std::panic::{self, AssertUnwindSafe};
@@ -51,6 +52,7 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<u8, Problem> {
     match &arguments.command {
         Command::Check(options) => check::run(&arguments.global, options),
+        Command::Fmt(options) => commands::fmt::run(&arguments.global, options),
         Command::Run(options) => {
             guarded(&options.execution.file, || commands::run::run(&arguments.global, options))
         }

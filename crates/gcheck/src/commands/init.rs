@@ -94,6 +94,11 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 # select = ["recommended"]
 # missing-decimal-point = "info"
 
+# How `gcheck fmt` writes programs; what is left out follows the customs of the control.
+[format]
+# leading-zeros = "add"      # G01
+# comment-column = 40
+
 # Rules that are off for some programs.
 [per-file-ignores]
 # "legacy/**" = ["words"]

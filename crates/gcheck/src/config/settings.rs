@@ -9,7 +9,7 @@ use gcheck_controls::{Letter, LetterSet, UserCode};
 use gcheck_rules::{MachineFacts, Selection, Severity, UnknownRule};
 
 use super::layer::{ExecutionFacts, Facts};
-use super::{Config, MachineTable, RulesTable};
+use super::{Config, FormatTable, MachineTable, RulesTable};
 use crate::paths;
 
 /// The settings of one program.
@@ -27,6 +27,8 @@ pub struct FileSettings {
     pub codes: Vec<UserCode>,
     /// Folders in which called programs are looked for, besides the file's own.
     pub search: Vec<PathBuf>,
+    /// How the program is to be written.
+    pub format: FormatTable,
     /// Rules tables, in the order in which they apply.
     rules: Vec<RulesTable>,
     /// Rules that are off for this file.
@@ -88,6 +90,7 @@ impl FileSettings {
         }
         self.search.extend(facts.search.iter().cloned());
         self.rules.push(facts.rules.clone());
+        self.format.put(&facts.format);
     }
 
     /// The rules that run on the file.

@@ -18,6 +18,7 @@ mod determinism;
 mod exit_codes;
 mod fixes;
 mod formats;
+mod formatting;
 mod lists;
 mod output;
 mod run;
