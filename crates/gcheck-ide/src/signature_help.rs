@@ -115,7 +115,7 @@ mod tests {
                 let label =
                     |range: &std::ops::Range<u32>| &signature.label[range.start as usize..range.end as usize];
                 let active = active.map(|word| format!("{}: {}", label(&word.label), word.documentation));
-                format!("{}\n  {}\n", signature.label, active.unwrap_or_default())
+                format!("{}\n  {}\n", signature.label, active.unwrap_or_else(|| "no word".to_owned()))
             },
         );
         expected.assert_eq(&found.collect::<String>());

@@ -116,7 +116,7 @@ mod tests {
     use super::*;
 
     fn line(points: impl IntoIterator<Item = [f32; 3]>) -> Vec<Point> {
-        let points = points.into_iter().zip(0_u16..);
+        let points = (0_u16..).zip(points);
         points
             .map(|(ix, at)| Point {
                 at,

@@ -4,6 +4,7 @@ use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
 
 use super::feed_of_another_mode::goes_by_feed;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -54,12 +55,19 @@ const MOST_A_TURN: f64 = 10.0;
 /// Millimetres a minute: less than anybody waits for.
 const LEAST_A_MINUTE: f64 = 1.0;
 
+#[derive(Clone, PartialEq)]
 struct FeedImplausible {
     /// The block whose feed was told of.
     told: Option<At>,
 }
 
+remembers!(FeedImplausible: told);
+
 impl PathRule for FeedImplausible {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
