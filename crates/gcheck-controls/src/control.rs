@@ -4,8 +4,9 @@
 
 use crate::execution::{Effect, Semantics};
 use crate::schema::{
-    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FunctionEntry, Hint, LetterEntry,
-    Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules, VariableEntry,
+    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
+    LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules,
+    VariableEntry,
 };
 use crate::{CodeNumber, Letter, LetterSet};
 
@@ -50,6 +51,7 @@ pub struct Control {
     pub(crate) limits: Limits,
     pub(crate) code_list: CodeList,
     pub(crate) block: BlockRules,
+    pub(crate) format: FormatCustoms,
     pub(crate) phases: Vec<String>,
     pub(crate) axes: LetterSet,
     pub(crate) hints: Vec<Hint>,
@@ -196,6 +198,11 @@ impl Control {
     /// What becomes of contradictions and repetitions in a block.
     pub fn block_rules(&self) -> &BlockRules {
         &self.block
+    }
+
+    /// How programs are written where nobody wishes otherwise.
+    pub fn format_customs(&self) -> &FormatCustoms {
+        &self.format
     }
 
     /// Order in which the parts of a block take effect.

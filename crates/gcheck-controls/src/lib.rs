@@ -32,8 +32,9 @@ pub use execution::{
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
 pub use schema::{
-    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FunctionEntry, Handling, Hint,
-    LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules, Reference, Semicolon, SettingEntry,
-    SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, WordKind,
+    Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FormatCustoms, FunctionEntry,
+    Handling, Hint, LetterCase, LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules,
+    Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry,
+    WordKind,
 };
 pub use validate::problems;

@@ -174,6 +174,7 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         head.limits = head.limits.or(base.limits);
         head.code_list = head.code_list.or(base.code_list);
         head.block = head.block.or(base.block);
+        head.format = head.format.or(base.format);
         if head.phases.is_empty() {
             head.phases = base.phases;
         }
@@ -241,6 +242,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         limits: head.limits.unwrap_or_default(),
         code_list: head.code_list.unwrap_or_default(),
         block: head.block.unwrap_or_default(),
+        format: head.format.unwrap_or_default(),
         phases: head.phases,
         axes: head.axes.iter().filter_map(|a| Letter::parse(a)).collect(),
         hints: head.detect,

@@ -34,6 +34,8 @@ pub(crate) struct ControlFile {
     pub(crate) code_list: Option<CodeList>,
     #[serde(default)]
     pub(crate) block: Option<BlockRules>,
+    #[serde(default)]
+    pub(crate) format: Option<FormatCustoms>,
     /// Order in which the parts of one block take effect; identifiers used by `phase` of the codes.
     #[serde(default)]
     pub(crate) phases: Vec<String>,
@@ -273,6 +275,35 @@ pub enum Handling {
     Accepted,
 }
 
+/// How programs of the control are written where nobody wishes otherwise; for the formatter.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FormatCustoms {
+    /// Which letters addresses and keywords have.
+    pub letter_case: LetterCase,
+    /// Where this stands.
+    pub source: String,
+}
+
+impl Default for FormatCustoms {
+    /// Nothing is known: what is written stays.
+    fn default() -> Self {
+        Self { letter_case: LetterCase::Keep, source: "general knowledge".to_owned() }
+    }
+}
+
+/// Which letters addresses and keywords have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LetterCase {
+    /// Those that are written.
+    Keep,
+    /// `G1 X1.`
+    Upper,
+    /// `g1 x1.`
+    Lower,
+}
+
 /// One hint that a program is written for this control.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -477,6 +508,9 @@ pub struct WordEntry {
     /// For labels and programs: what the word names stands in another program or memory, so it need not be in this file.
     #[serde(default)]
     pub elsewhere: bool,
+    /// For programs: a block of this program, by its sequence number, where it has one of that number.
+    #[serde(default)]
+    pub or_label: bool,
     /// For programs: digits before the last four are a repeat count.
     #[serde(default)]
     pub packed_repeats: bool,
@@ -689,6 +723,9 @@ pub struct VariableEntry {
     pub access: Access,
     /// How long it lives.
     pub kind: VariableKind,
+    /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
+    #[serde(default)]
+    pub sequence_number: bool,
     /// Where the entry stands.
     pub source: String,
     /// How sure it is.

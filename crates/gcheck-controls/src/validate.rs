@@ -4,7 +4,7 @@
 //! that examples are legal blocks is proved where programs can be checked.
 
 use crate::control::Variable;
-use crate::schema::{Confidence, Motion, VariableKind};
+use crate::schema::{Confidence, LetterCase, Motion, VariableKind};
 use crate::{BarFeederRules, CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
@@ -57,6 +57,12 @@ impl Problems<'_> {
         }
         let source = numbers.source.clone();
         self.source("numbers", &source);
+        let customs = self.control.format_customs();
+        if customs.letter_case == LetterCase::Lower && !self.control.syntax().lower_case {
+            self.say("format", "small letters are customary, but the control does not read them");
+        }
+        let source = customs.source.clone();
+        self.source("format", &source);
     }
 
     fn groups(&mut self) {

@@ -19,6 +19,7 @@
 
 mod chunks;
 mod database;
+mod executable;
 mod settings;
 mod snapshot;
 mod states;

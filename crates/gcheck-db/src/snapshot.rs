@@ -182,7 +182,9 @@ impl Snapshot {
     /// Bytes of a line (from 0) without its end; empty, at the end of the text, for a line that is not there.
     pub fn line_range(&self, line: u32) -> Range<u32> {
         let end = self.len();
-        let index = self.0.lines.partition_point(|first| *first <= line).saturating_sub(1);
+        // A last line without an end is of the last chunk, though as many lines end before it as in the text.
+        let last = self.0.document.chunks().len().saturating_sub(1);
+        let index = self.0.lines.partition_point(|first| *first <= line).saturating_sub(1).min(last);
         let Some(chunk) = self.chunk(index) else { return end..end };
         let mut bytes = chunk.text.as_bytes();
         let mut start = chunk.base;

@@ -44,6 +44,7 @@ pub use run::{RunResult, Stopped, run};
 pub use state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
 pub use step::bar::Bar;
 pub use step::compensation::Compensation;
+pub use step::look::{Look, Trial};
 pub use step::{Ending, Options};
 pub use tool_shift::ToolShift;
 pub use touch::{Touch, Way, Ways};

@@ -11,6 +11,7 @@ mod cycle;
 mod cylinder;
 mod flow_control;
 mod lathe;
+pub(crate) mod look;
 mod message;
 mod modes;
 mod motion;

@@ -14,6 +14,7 @@ mod outline;
 mod plain;
 mod statement;
 mod survey;
+mod tool_names;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
@@ -26,3 +27,4 @@ pub use survey::{
     Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, TapeMarks,
     code_region,
 };
+pub use tool_names::{ToolNames, remark};

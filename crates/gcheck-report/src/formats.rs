@@ -135,11 +135,6 @@ pub fn write(report: &Report, format: Format, colour: Colour, out: &mut dyn Writ
 /// Where the project lives.
 const HOME: &str = env!("CARGO_PKG_REPOSITORY");
 
-/// The page of a rule.
-fn rule_page(id: &str) -> String {
-    format!("{HOME}/blob/main/docs/rules/{id}.md")
-}
-
 /// What is said below the source lines, or after the message in formats without them: `note: …`, `help: …`.
 fn remarks(finding: &Finding) -> Vec<String> {
     let notes = finding.notes.iter().map(|note| format!("note: {note}"));

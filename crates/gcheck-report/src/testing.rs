@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use gcheck_rules::{Finding, RuleMeta, Severity, Tier};
+use gcheck_rules::{Finding, Mends, RuleMeta, Severity, Tier};
 use gcheck_syntax::SourceText;
 
 use crate::{Colour, ControlChoice, ControlSource, FileReport, Format, Report};
@@ -17,6 +17,8 @@ pub(crate) static FEED_MISSING: RuleMeta = RuleMeta {
     severity: Severity::Error,
     tier: Tier::Block,
     recommended: true,
+    other_sets: &[],
+    mends: Mends::Nothing,
     since: "0.1.0",
     aliases: &["no-feed"],
     raw_docs: " A cutting move runs while no feed rate\n is in effect.\n\n ## Why it matters\n The control stops.\n\n\
@@ -30,6 +32,8 @@ pub(crate) static ARC_OFF_CIRCLE: RuleMeta = RuleMeta {
     severity: Severity::Warning,
     tier: Tier::Block,
     recommended: true,
+    other_sets: &[],
+    mends: Mends::Nothing,
     since: "0.1.0",
     aliases: &[],
     raw_docs: "",

@@ -245,7 +245,7 @@ pub(crate) fn check_file(
     survey: &Survey,
     collector: &mut Collector<'_>,
 ) {
-    let cx = FileCx { scene, text, region, survey };
+    let cx = FileCx::new(scene, text, region, survey);
     for (rule, severity) in &plan.program {
         if let Run::Program { check } = rule.run {
             check(&cx, &mut Report { add: &mut |finding| collector.add(*severity, finding) });

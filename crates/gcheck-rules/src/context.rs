@@ -2,6 +2,7 @@
 //!
 //! Knows: how to ask the block table and the knowledge base together. Must not know: how rules are chosen or findings shown.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -10,6 +11,7 @@ use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Expr, Survey, Value, W
 use gcheck_syntax::SyntaxError;
 
 use crate::suppression::Suppressions;
+use crate::writing::Writing;
 use crate::{Finding, ProgramText, Severity};
 
 /// How a rule runs, by tier.
@@ -346,9 +348,21 @@ pub struct FileCx<'a> {
     pub region: Range<u32>,
     /// Labels, jumps, calls, loops, ends.
     pub survey: &'a Survey,
+    /// How the file is written, once a rule has asked.
+    writing: OnceCell<Writing>,
 }
 
 impl<'a> FileCx<'a> {
+    /// A file with its survey; `region` is the part that the control reads.
+    pub fn new(scene: Scene<'a>, text: &'a ProgramText<'a>, region: Range<u32>, survey: &'a Survey) -> Self {
+        Self { scene, text, region, survey, writing: OnceCell::new() }
+    }
+
+    /// How the file is written.
+    pub(crate) fn writing(&self) -> &Writing {
+        self.writing.get_or_init(|| Writing::of(self))
+    }
+
     /// The control.
     pub fn control(&self) -> &'a Control {
         self.scene.control()

@@ -13,8 +13,8 @@ use crate::ProgramText;
 
 /// Lines whose comments count: people name the machine at the top.
 const COMMENT_LINES: usize = 300;
-/// Bytes whose codes and forms count: a program uses early what it uses at all.
-pub(crate) const SCANNED_BYTES: usize = 256 << 10;
+/// Bytes whose codes and forms count, and the rest of their last line: a program uses early what it uses at all.
+pub const EVIDENCE_BYTES: usize = 256 << 10;
 
 /// Collects the evidence of a program for [`gcheck_controls::guess`].
 pub fn collect_evidence(source: &SourceText) -> Evidence {
@@ -23,14 +23,14 @@ pub fn collect_evidence(source: &SourceText) -> Evidence {
 
 /// As [`collect_evidence`], from a text that may come in chunks.
 pub(crate) fn evidence_of(text: &ProgramText<'_>) -> Rc<Evidence> {
-    Rc::clone(text.evidence(|text| collect_from(&text.head(SCANNED_BYTES as u32))))
+    Rc::clone(text.evidence(|text| collect_from(&text.head(EVIDENCE_BYTES as u32))))
 }
 
 fn collect_from(text: &str) -> Evidence {
     let mut scan = Scan::default();
     for (number, line) in text.split(['\n', '\r']).enumerate() {
         let offset = line.as_ptr() as usize - text.as_ptr() as usize;
-        if offset > SCANNED_BYTES {
+        if offset > EVIDENCE_BYTES {
             break;
         }
         scan.keeps_comments = number < COMMENT_LINES;

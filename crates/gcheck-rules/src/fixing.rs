@@ -2,6 +2,7 @@
 //!
 //! Knows: edits, which of them may stand beside each other. Must not know: rules, files on disk.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use gcheck_syntax::SourceText;
@@ -32,7 +33,7 @@ struct Fixed {
 }
 
 /// Rounds of fixing. A fix that makes another possible needs one more each; fixes that undo each other never end.
-const MOST_ROUNDS: usize = 10;
+const MOST_ROUNDS: usize = 40;
 
 /// A program that was mended as far as its fixes go.
 #[derive(Debug)]
@@ -65,15 +66,21 @@ pub fn mend(source: SourceText, kinds: FixKinds, check: impl Fn(&SourceText) -> 
 /// the other, so the result is checked and fixed again.
 fn apply_fixes(source: &SourceText, findings: &[Finding], kinds: FixKinds) -> Option<Fixed> {
     let mut edits: Vec<(Range<usize>, Vec<u8>)> = Vec::new();
+    // Ends of the edits by their starts. Those of two fixes never touch, so the nearest one before tells of all.
+    let mut taken: BTreeMap<usize, usize> = BTreeMap::new();
     let mut count = 0;
     for finding in findings {
         let Some(fix) = finding.fixes.iter().find(|fix| kinds.include(fix)) else { continue };
         let Some(bytes) = in_bytes(source, fix) else { continue };
         let touches = |(range, _): &(Range<usize>, Vec<u8>)| {
-            edits.iter().any(|(other, _)| range.start <= other.end && other.start <= range.end)
+            taken.range(..=range.end).next_back().is_some_and(|(_, end)| range.start <= *end)
         };
         if bytes.is_empty() || bytes.iter().any(touches) {
             continue;
+        }
+        for (range, _) in &bytes {
+            let end = taken.entry(range.start).or_insert(range.end);
+            *end = range.end.max(*end);
         }
         edits.extend(bytes);
         count += 1;
@@ -135,6 +142,8 @@ mod tests {
         severity: Severity::Error,
         tier: Tier::Block,
         recommended: true,
+        other_sets: &[],
+        mends: crate::Mends::Nothing,
         since: "0.1.0",
         aliases: &[],
         raw_docs: "",

@@ -15,7 +15,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Evidence, LetterSet};
-use gcheck_engine::{FlowObserver, LookedUp, Model, Program};
+use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
 pub use chunk::{ChunkFacts, ChunkFindings};
@@ -26,7 +26,7 @@ pub use paths::Work;
 use paths::{Broken, Ground, Paths};
 
 use crate::check::{Collector, Omitted, Plan, Remarks, check_file, conclude, switch_positions};
-use crate::evidence::SCANNED_BYTES;
+use crate::evidence::EVIDENCE_BYTES;
 use crate::paths::SceneLibrary;
 use crate::{Execution, Outcome, ProgramText, Scene, Selection};
 
@@ -231,7 +231,7 @@ impl Incremental {
             }
         }
         // The head of a large file is as it was most of the time.
-        let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= SCANNED_BYTES as u32;
+        let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= EVIDENCE_BYTES as u32;
         let head: Vec<Arc<str>> =
             whole.starts.iter().zip(edited.chunks).take_while(is_head).map(|(_, c)| Arc::clone(c)).collect();
         let mut text = ProgramText::chunks(edited.chunks);
@@ -363,12 +363,14 @@ impl Incremental {
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
-    /// an observer. `false` when nothing is known of the paths of the text as it is.
+    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when nothing is
+    /// known of the paths of the text as it is.
     pub fn show_again<O: FlowObserver>(
         &mut self,
         edited: &Edited<'_>,
         blocks: &Range<u32>,
         observer: &mut O,
+        then: impl FnOnce(&mut O, &mut Look<'_, '_>),
     ) -> bool {
         let Some(whole) = self.whole.clone() else { return false };
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
@@ -396,7 +398,11 @@ impl Incremental {
             layout: &self.layout,
             stop: edited.stop,
         };
-        let shown = self.paths.show_again(&ground, &edited.scene.machine.engine, blocks, observer);
+        let machine = &edited.scene.machine.engine;
+        let shown = self.paths.show_again(&ground, machine, blocks, observer);
+        if shown {
+            then(observer, &mut Look::new(&program, &model, machine));
+        }
         self.looked_up = program.into_looked_up();
         shown
     }

@@ -17,6 +17,7 @@ mod fixing;
 mod incremental;
 mod loops;
 mod memory;
+mod mending;
 mod meta;
 mod mistakes;
 mod parting;
@@ -30,19 +31,21 @@ mod suppression;
 #[cfg(test)]
 mod testing;
 mod text;
+mod turning;
 mod usage;
+mod writing;
 
 pub use assumptions::{Described, describe, describe_all, pins, work_offset_name};
 pub use check::{Execution, Job, MAX_FINDINGS, Omitted, Outcome, check};
 pub use context::{
     BlockCx, FileCx, MachineFacts, NoPrograms, Programs, Report, Run, Scene, WordFacts, limit,
 };
-pub use evidence::collect_evidence;
+pub use evidence::{EVIDENCE_BYTES, collect_evidence};
 pub use finding::{Certainty, Edit, Finding, Fix, Label, Severity};
 pub use fixing::{FixKinds, Mended, mend};
 pub use incremental::{ChunkFacts, ChunkFindings, ChunkSource, Edited, Incremental, Stopped, Whole, Work};
 pub use memory::{Memory, Placed, Places, Remembers};
-pub use meta::{DocExample, RuleEntry, RuleMeta, Tier};
+pub use meta::{DocExample, Mends, RuleEntry, RuleMeta, RuleSet, Tier};
 pub use paths::{FinishCx, Ledger, PathCx, PathRule, Watch};
 pub use rules::{all, by_id};
 pub use sections::{LabelIndex, Section};

@@ -172,6 +172,15 @@ impl<A: Placed, B: Placed> Placed for (A, B) {
     }
 }
 
+impl<A: Placed, B: Placed, C: Placed> Placed for (A, B, C) {
+    fn visit(&mut self, places: &mut dyn Places) {
+        self.0.visit(places);
+        self.1.visit(places);
+        self.2.visit(places);
+    }
+}
+
+impl Placed for u16 {}
 impl Placed for u32 {}
 impl Placed for usize {}
 impl Placed for f64 {}

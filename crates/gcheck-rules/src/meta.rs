@@ -29,6 +29,64 @@ impl Tier {
     }
 }
 
+/// Rules that a shop chooses together, beside the set `recommended`, which is on by default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum RuleSet {
+    /// What is worth a look in a careful shop, though good programs do it too; `recommended` is part of it.
+    Strict,
+    /// Every tool's part of a program can be started by itself.
+    RestartSafe,
+    /// A file is written in one hand: one form of numbers, blanks and line ends.
+    HouseStyle,
+}
+
+impl RuleSet {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Strict, Self::RestartSafe, Self::HouseStyle];
+
+    /// The name used in selections.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Strict => "strict",
+            Self::RestartSafe => "restart-safe",
+            Self::HouseStyle => "house-style",
+        }
+    }
+
+    /// What it is for, in one line.
+    pub const fn summary(self) -> &'static str {
+        match self {
+            Self::Strict => {
+                "everything in `recommended`, and what is worth a look in a careful shop though good programs do it too"
+            }
+            Self::RestartSafe => "every tool's part of a program can be started by itself",
+            Self::HouseStyle => "a file is written in one hand: one form of numbers, blanks and line ends",
+        }
+    }
+}
+
+/// Whether a rule mends what it finds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mends {
+    /// It only tells.
+    Nothing,
+    /// Some of it, by fixes that change no move.
+    Safely,
+    /// Some of it, by fixes that change moves or need the programmer's word.
+    OnRequest,
+}
+
+impl Mends {
+    /// As lists of rules show it: the option that applies the fix.
+    pub const fn option(self) -> &'static str {
+        match self {
+            Self::Nothing => "",
+            Self::Safely => "--fix",
+            Self::OnRequest => "--unsafe-fixes",
+        }
+    }
+}
+
 /// A rule's identity, defaults and documentation.
 #[derive(Debug)]
 pub struct RuleMeta {
@@ -42,6 +100,10 @@ pub struct RuleMeta {
     pub severity: Severity,
     /// On by default.
     pub recommended: bool,
+    /// The sets that it is in beside `recommended`; see [`RuleMeta::sets`].
+    pub other_sets: &'static [RuleSet],
+    /// Whether it mends what it finds.
+    pub mends: Mends,
     /// Version that brought it.
     pub since: &'static str,
     /// Former ids, still accepted in configuration, suppressions and baselines.
@@ -77,6 +139,22 @@ pub struct DocExample {
 }
 
 impl RuleMeta {
+    /// Address of the rule's page.
+    pub fn page(&self) -> String {
+        format!("{}/blob/main/docs/rules/{}.md", env!("CARGO_PKG_REPOSITORY"), self.id)
+    }
+
+    /// Is the rule in a set?
+    pub fn is_in(&self, set: RuleSet) -> bool {
+        self.other_sets.contains(&set) || set == RuleSet::Strict && self.recommended
+    }
+
+    /// The sets that the rule is in, as selections name them.
+    pub fn sets(&self) -> Vec<&'static str> {
+        let others = RuleSet::ALL.into_iter().filter(|set| self.is_in(*set)).map(RuleSet::name);
+        self.recommended.then_some("recommended").into_iter().chain(others).collect()
+    }
+
     /// Markdown: meaning, why it matters, examples.
     pub fn docs(&self) -> String {
         let mut docs = String::with_capacity(self.raw_docs.len());
@@ -88,7 +166,8 @@ impl RuleMeta {
     }
 
     /// The examples: fences that read ```` ```nc,reported,CONTROL ```` or ```` ```nc,quiet,CONTROL ````, with `,guessed` behind
-    /// the control where nobody chose it.
+    /// the control where nobody chose it. In them `␠` stands for a blank, `␉` for a tabulator, `␍` for a carriage return, and
+    /// `␃` for the end of the file: signs that nobody sees.
     pub fn examples(&self) -> Vec<DocExample> {
         let mut examples = Vec::new();
         let mut open: Option<DocExample> = None;
@@ -107,15 +186,28 @@ impl RuleMeta {
                         });
                     }
                 }
-                Some(_) if line.trim() == "```" => examples.extend(open.take()),
+                Some(_) if line.trim() == "```" => {
+                    examples.extend(open.take().map(|mut example| {
+                        // `␃`: the file ends here, without a line end.
+                        if let Some((code, _)) = example.code.split_once('␃') {
+                            example.code = code.to_owned();
+                        }
+                        example
+                    }));
+                }
                 Some(example) => {
-                    example.code.push_str(line);
+                    example.code.push_str(&with_signs(line));
                     example.code.push('\n');
                 }
             }
         }
         examples
     }
+}
+
+/// A line of an example with the characters that its signs stand for.
+fn with_signs(line: &str) -> String {
+    line.replace('␠', " ").replace('␉', "\t").replace('␍', "\r")
 }
 
 /// Declares a rule: its documentation, its metadata and how it runs.
@@ -129,6 +221,8 @@ macro_rules! declare_rule {
             severity: $severity:ident,
             tier: $tier:ident,
             $(recommended: $recommended:literal,)?
+            $(sets: [$($set:ident),+],)?
+            $(mends: $mends:ident,)?
             $(aliases: $aliases:expr,)?
             since: $since:literal,
             run: $run:expr,
@@ -140,6 +234,8 @@ macro_rules! declare_rule {
             summary: $summary,
             severity: $crate::Severity::$severity,
             recommended: true $(&& $recommended)?,
+            other_sets: &[$($($crate::RuleSet::$set),+)?],
+            mends: declare_rule!(@mends $($mends)?),
             since: $since,
             aliases: declare_rule!(@aliases $($aliases)?),
             tier: $crate::Tier::$tier,
@@ -148,6 +244,8 @@ macro_rules! declare_rule {
 
         pub(crate) static RULE: $crate::RuleEntry = $crate::RuleEntry { meta: &META, run: $run };
     };
+    (@mends $mends:ident) => { $crate::Mends::$mends };
+    (@mends) => { $crate::Mends::Nothing };
     (@aliases $aliases:expr) => { $aliases };
     (@aliases) => { &[] };
 }

@@ -24,7 +24,7 @@ mod tests {
 
     use super::all;
     use crate::testing::{World, findings};
-    use crate::{RuleEntry, Run, Selection, Tier};
+    use crate::{Mends, RuleEntry, RuleSet, Run, Selection, Tier};
 
     /// Collects what is wrong with every rule, so that one run shows all of it.
     fn for_each_rule(mut judge: impl FnMut(&RuleEntry, &mut dyn FnMut(String))) {
@@ -81,6 +81,51 @@ mod tests {
     }
 
     #[test]
+    fn rules_say_whether_they_mend() {
+        for_each_rule(|rule, say| {
+            let (mut safe, mut risky) = (false, false);
+            for example in rule.meta.examples().iter().filter(|e| e.reported) {
+                let selection = match rule.run {
+                    Run::Suppressions { .. } => Selection::default(),
+                    _ => Selection::only(rule),
+                };
+                let world = World::of_example(rule.meta, example);
+                let found = findings(&selection, &example.control, &example.code, &world);
+                let own = found.iter().filter(|finding| std::ptr::eq(finding.rule, rule.meta));
+                for fix in own.flat_map(|finding| &finding.fixes) {
+                    safe |= fix.safe;
+                    risky |= !fix.safe;
+                }
+            }
+            let mends = match (safe, risky) {
+                (true, _) => Mends::Safely,
+                (false, true) => Mends::OnRequest,
+                (false, false) => Mends::Nothing,
+            };
+            if rule.meta.mends != mends {
+                say(format!(
+                    "says that it mends {:?}, and its examples are mended {mends:?}",
+                    rule.meta.mends
+                ));
+            }
+        });
+        let count = all().iter().filter(|rule| rule.meta.mends != Mends::Nothing).count();
+        assert!(count >= 30, "{count} rules mend what they find");
+    }
+
+    #[test]
+    fn every_rule_is_in_a_set_and_the_strict_set_holds_the_recommended_one() {
+        for_each_rule(|rule, say| {
+            if rule.meta.sets().is_empty() {
+                say("is in no set".to_owned());
+            }
+            if rule.meta.recommended && !rule.meta.is_in(RuleSet::Strict) {
+                say("is recommended and not strict".to_owned());
+            }
+        });
+    }
+
+    #[test]
     fn ids_name_the_defect() {
         let mut seen = BTreeSet::new();
         for_each_rule(|rule, say| {
@@ -93,7 +138,8 @@ mod tests {
                 say("does not name a defect".to_owned());
             }
             for name in rule.meta.aliases.iter().chain([&id]) {
-                if !seen.insert(*name) || ["all", "recommended"].contains(name) {
+                let is_set = RuleSet::ALL.iter().any(|set| set.name() == *name);
+                if !seen.insert(*name) || is_set || ["all", "recommended"].contains(name) {
                     say(format!("the name `{name}` is taken"));
                 }
             }

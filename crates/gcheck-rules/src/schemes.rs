@@ -2,8 +2,10 @@
 //!
 //! Knows: pairs of tool and offset number. Must not know: which offset it is, any rule.
 
-use crate::Finding;
+use std::ops::Range;
+
 use crate::memory::remembers;
+use crate::{Finding, Fix};
 
 /// Which tool worked with which offset, each pair with the finding to make of it if it is odd.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,9 +20,11 @@ struct Pair {
     tool: u32,
     offset: u32,
     finding: Finding,
+    /// The word that gives the offset by its number alone.
+    word: Option<Range<u32>>,
 }
 
-remembers!(Pair: finding);
+remembers!(Pair: finding, word);
 
 /// What the other tools of the program do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,11 +37,16 @@ pub(crate) struct Scheme {
     owner: i64,
     /// How many tools follow it.
     followers: usize,
+    /// The program has that tool.
+    is_owned: bool,
 }
 
 impl Scheme {
     /// Whose the offset is: "the length offset of tool 2".
     pub(crate) fn label(&self, what: &str) -> String {
+        if !self.is_owned {
+            return format!("no tool of the program has this {what} by its number");
+        }
         format!("the {what} of tool {}", self.owner)
     }
 
@@ -60,6 +69,9 @@ impl Scheme {
     }
 }
 
+/// So many tools with the offset of their own number make another number odd, whoever it belongs to.
+const MANY: usize = 2;
+
 /// More pairs than this say nothing clear.
 const MOST_PAIRS: usize = 1000;
 
@@ -70,15 +82,22 @@ impl Pairs {
     }
 
     /// A tool worked with an offset.
-    pub(crate) fn add(&mut self, tool: u32, offset: u32, finding: impl FnOnce() -> Finding) {
+    pub(crate) fn add(
+        &mut self,
+        tool: u32,
+        offset: u32,
+        finding: impl FnOnce() -> (Finding, Option<Range<u32>>),
+    ) {
         let is_known = self.pairs.iter().any(|pair| (pair.tool, pair.offset) == (tool, offset));
         if tool > 0 && offset > 0 && !is_known && self.pairs.len() < MOST_PAIRS {
-            self.pairs.push(Pair { tool, offset, finding: finding() });
+            let (finding, word) = finding();
+            self.pairs.push(Pair { tool, offset, finding, word });
         }
     }
 
-    /// The pairs that break the scheme which the other tools fix, and take another tool's offset.
-    pub(crate) fn take_odd(&mut self) -> Vec<(Finding, Scheme)> {
+    /// The pairs that break the scheme which the other tools fix, and take another tool's offset, or one of no tool where
+    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset.
+    pub(crate) fn take_odd(&mut self, letter: char) -> Vec<(Finding, Scheme)> {
         let Some((step, followers)) = self.step() else { return Vec::new() };
         let follows = |tool: u32| self.pairs.iter().any(|p| p.tool == tool && p.step() == step);
         let is_used = |tool: i64| self.pairs.iter().any(|p| i64::from(p.tool) == tool && p.step() == step);
@@ -91,17 +110,26 @@ impl Pairs {
                 (
                     pair.tool,
                     pair.offset,
-                    Scheme { step, expected: i64::from(pair.tool) + step, owner, followers },
+                    Scheme {
+                        step,
+                        expected: i64::from(pair.tool) + step,
+                        owner,
+                        followers,
+                        is_owned: is_used(owner),
+                    },
                 )
             })
-            .filter(|(_, _, scheme)| is_used(scheme.owner))
+            .filter(|(_, _, scheme)| is_used(scheme.owner) || (step == 0 && followers >= MANY))
             .collect();
         let mut found = Vec::new();
         for pair in std::mem::take(&mut self.pairs) {
             if let Some((.., scheme)) =
                 odd.iter().find(|(tool, offset, _)| (*tool, *offset) == (pair.tool, pair.offset))
             {
-                found.push((pair.finding, *scheme));
+                let written = format!("{letter}{}", scheme.expected);
+                let fix = pair.word.filter(|_| scheme.expected > 0);
+                let fix = fix.map(|word| Fix::risky(format!("write `{written}`"), word, written));
+                found.push((pair.finding.fix_if(fix), *scheme));
             }
         }
         found

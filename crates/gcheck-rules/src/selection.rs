@@ -2,7 +2,7 @@
 //!
 //! Knows: rule ids, groups, sets, aliases. Must not know: where the wishes come from (command line, configuration).
 
-use crate::{RuleEntry, Severity, all};
+use crate::{RuleEntry, RuleSet, Severity, all};
 
 /// Why a selector cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,7 +52,7 @@ impl Selection {
         Self { states: all().iter().map(|rule| if is_on(rule) { State::On } else { State::Off }).collect() }
     }
 
-    /// Turns on what a selector names: a rule, a group, `recommended` or `all`.
+    /// Turns on what a selector names: a rule, a group, a set or `all`.
     ///
     /// # Errors
     /// [`UnknownRule`] when it names nothing.
@@ -116,13 +116,20 @@ pub(crate) fn matches(rule: &RuleEntry, selector: &str) -> bool {
     match selector {
         "all" => true,
         "recommended" => meta.recommended,
-        _ => meta.id == selector || meta.group == selector || meta.aliases.contains(&selector),
+        _ => {
+            meta.id == selector
+                || meta.group == selector
+                || meta.aliases.contains(&selector)
+                || RuleSet::ALL.into_iter().any(|set| set.name() == selector && meta.is_in(set))
+        }
     }
 }
 
 /// The rule, group or set whose name is nearest, if one is near.
 pub fn suggest(name: &str) -> Option<&'static str> {
-    let names = all().iter().flat_map(|r| [r.meta.id, r.meta.group]).chain(["recommended", "all"]);
+    let sets = RuleSet::ALL.into_iter().map(RuleSet::name);
+    let names =
+        all().iter().flat_map(|r| [r.meta.id, r.meta.group]).chain(["recommended", "all"]).chain(sets);
     names
         .map(|candidate| (strsim::levenshtein(name, candidate), candidate))
         .filter(|(distance, candidate)| *distance <= 1 + candidate.len() / 4)

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::selection::matches;
-use crate::{Finding, ProgramText, all};
+use crate::{Finding, Fix, ProgramText, all};
 
 /// One directive of a comment.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,6 +25,8 @@ pub(crate) struct Suppression {
 pub(crate) struct Malformed {
     pub(crate) range: Range<u32>,
     pub(crate) message: String,
+    /// What was meant, where it is near enough to a name.
+    pub(crate) meant: Option<Fix>,
 }
 
 /// The directives of a file.
@@ -63,10 +65,17 @@ impl Suppressions {
             return self.refuse(range, format!("`{verb}` is no gcheck directive; there are {verbs}"));
         }
         if let Some(unknown) = unknown {
-            let near = crate::selection::suggest(unknown)
-                .map(|s| format!(", did you mean `{s}`?"))
-                .unwrap_or_default();
-            return self.refuse(range, format!("`{unknown}` is no rule, group or set{near}"));
+            let near = crate::selection::suggest(unknown);
+            let meant = near.and_then(|near| {
+                let comment = text.slice(range.clone());
+                let start = range.start + comment.find(unknown.as_str())? as u32;
+                let place = start..start + unknown.len() as u32;
+                Some(Fix::safe(format!("write `{near}`"), place, near))
+            });
+            let near = near.map(|s| format!(", did you mean `{s}`?")).unwrap_or_default();
+            let message = format!("`{unknown}` is no rule, group or set{near}");
+            self.malformed.push(Malformed { range: range.clone(), message, meant });
+            return;
         }
         if selectors.is_empty() {
             return self.refuse(range, format!("`{verb}` names no rule"));
@@ -94,7 +103,7 @@ impl Suppressions {
     }
 
     fn refuse(&mut self, range: &Range<u32>, message: String) {
-        self.malformed.push(Malformed { range: range.clone(), message });
+        self.malformed.push(Malformed { range: range.clone(), message, meant: None });
     }
 
     /// Is the finding silenced? Marks the suppression that does it as used.

@@ -4,3 +4,4 @@
 
 pub mod corpus;
 pub mod inputs;
+pub mod language_client;

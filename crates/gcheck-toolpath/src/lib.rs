@@ -1,4 +1,5 @@
-//! What is made of moves: the canonical form, move lists as JSON lines, CSV and text, times, statistics.
+//! What is made of moves: the canonical form, move lists as JSON lines, CSV and text, times, statistics,
+//! comparison, plots.
 //!
 //! Knows: the engine's events and what other programs and machinists want to read of them. Must not know: syntax,
 //! controls, how events are computed, terminals and files (writers are handed in).
@@ -7,10 +8,13 @@
 
 mod bar;
 mod canonical;
+mod compare;
 mod csv;
 mod jsonl;
 mod motion;
 mod number;
+mod placing;
+pub mod plot;
 mod record;
 mod sink;
 mod statistics;
@@ -18,16 +22,20 @@ mod step;
 mod summary;
 mod text;
 mod time;
+mod trail;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
+pub use compare::{Aspect, Difference, Differences, Parting, Place, Value, compare};
 pub use csv::Csv;
 pub use jsonl::JsonLines;
+pub use placing::WorkCoordinates;
 pub use record::Kind;
 pub use statistics::{
     Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
 };
-pub use step::{Beside, Step, View};
+pub use step::{Beside, Spot, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};
+pub use trail::{Act, Doing, Driven, Feed, Move, Setting, Stand, Trail};

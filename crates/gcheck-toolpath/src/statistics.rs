@@ -363,6 +363,8 @@ impl Statistics {
                 rpm: 0.0,
                 machine: Position::UNKNOWN,
                 tool: None,
+                h: None,
+                d: None,
                 beside: None,
                 file: "",
             };

@@ -2,7 +2,10 @@
 //!
 //! Knows: the form in which events come here. Must not know: who sends them.
 
-use gcheck_engine::{Axis, Event, FeedMode, Position, Units};
+use gcheck_engine::{
+    Axis, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Model, Position, Spindle, State, Truth,
+    Units,
+};
 use gcheck_geometry::Mm;
 
 /// One event with its place and the state in which it happens.
@@ -27,10 +30,80 @@ pub struct Step<'a> {
     pub machine: Position,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
+    /// Number of the tool length offset that was called last, 0 for none; `None` unknown.
+    pub h: Option<u32>,
+    /// Number of the cutter offset that was called last; `None` unknown.
+    pub d: Option<u32>,
     /// Why the axes stand beside the programmed point, where a reader is told both.
     pub beside: Option<Beside>,
     /// Name of the file that holds the block.
     pub file: &'a str,
+}
+
+/// Where an event comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Spot<'a> {
+    /// As [`Step::file`].
+    pub file: &'a str,
+    /// As [`Step::line`].
+    pub line: u32,
+    /// As [`Step::n`].
+    pub n: Option<u32>,
+}
+
+impl<'a> Step<'a> {
+    /// An event in the state that an observer is shown with it; `units` are those of a state that does not know them.
+    pub fn seen(
+        event: &'a Event,
+        state: &State<Concrete>,
+        model: &Model<'_>,
+        spot: Spot<'a>,
+        units: Units,
+    ) -> Self {
+        Self {
+            event,
+            n: spot.n,
+            line: spot.line,
+            units: state.units(model).unwrap_or(units),
+            feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),
+            feed: number(state.feed()),
+            rpm: turns(state),
+            machine: machine(state, model, event),
+            tool: tool(state.tool()),
+            h: tool(state.h()),
+            d: tool(state.d()),
+            beside: None,
+            file: spot.file,
+        }
+    }
+}
+
+fn number(value: &ConcreteValue) -> f64 {
+    Concrete::known(value).unwrap_or(f64::NAN)
+}
+
+#[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
+fn tool(value: &ConcreteValue) -> Option<u32> {
+    Concrete::known(value).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
+}
+
+/// Turns of the spindle, or of the live tool that stands in for it.
+fn turns(state: &State<Concrete>) -> f64 {
+    match (state.spindle(), state.live_tool()) {
+        (Some(Spindle::Stopped), Truth::False) => 0.0,
+        (Some(Spindle::Clockwise | Spindle::CounterClockwise), _) | (_, Truth::True) => number(state.speed()),
+        _ => f64::NAN,
+    }
+}
+
+/// Where a move ends. The state may be ahead of the move, so that its own end counts where there is one.
+fn machine(state: &State<Concrete>, model: &Model<'_>, event: &Event) -> Position {
+    match event {
+        Event::Travel(travel) => state.to_machine(&travel.to, model),
+        Event::Arc(arc) => state.to_machine(&arc.to, model),
+        Event::Curve(curve) => state.to_machine(&curve.to, model),
+        _ => state.machine(model),
+    }
 }
 
 /// Why the axes stand elsewhere than the programmed point says.

@@ -5,11 +5,12 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gcheck_format::Numbering;
 use gcheck_report::Format;
 use gcheck_rules::Severity;
 
 /// Blocks that may be executed when nobody says otherwise.
-const FUEL: u64 = 50_000_000;
+pub(crate) const FUEL: u64 = 50_000_000;
 
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
@@ -60,10 +61,16 @@ pub enum When {
 pub enum Command {
     /// Check files and folders
     Check(CheckOptions),
+    /// Format programs, and number their blocks anew
+    Fmt(FmtOptions),
     /// Execute a program and print its moves
     Run(RunOptions),
     /// Cycle time, distances, extents, feeds and speeds of a program, by tool and in total
     Stats(StatsOptions),
+    /// Compare two programs by what they make the machine do
+    Diff(DiffOptions),
+    /// Draw the toolpath of a program: a picture (SVG), or a page with a view in three dimensions (HTML)
+    Plot(PlotOptions),
     /// Explain a rule, or a code as a control reads it
     Explain(ExplainOptions),
     /// List the rules
@@ -76,6 +83,8 @@ pub enum Command {
     Init,
     /// Print the JSON schema of `gcheck.toml`
     Schema,
+    /// Serve an editor: the language server on standard input and output
+    Lsp(LspOptions),
     /// Print completions for a shell
     Completions {
         /// The shell
@@ -149,12 +158,44 @@ pub struct CheckOptions {
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
+    /// Check anew whatever is there, and remember nothing
+    #[arg(long)]
+    pub no_cache: bool,
+    /// Where results of earlier runs are kept; without it `GCHECK_CACHE` says so, or they are among the user's caches
+    #[arg(long, value_name = "DIR")]
+    pub cache_dir: Option<PathBuf>,
+    /// Check again whenever a program or a configuration changes, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["fix", "diff", "update_baseline", "show_files", "show_settings", "stdin_filename"])]
+    pub watch: bool,
     /// Print the files that would be checked
     #[arg(long)]
     pub show_files: bool,
     /// Print what is in force for each file
     #[arg(long)]
     pub show_settings: bool,
+}
+
+/// Options of `gcheck fmt`.
+#[derive(Debug, Args)]
+pub struct FmtOptions {
+    /// Files and folders; `-` reads standard input and writes standard output
+    #[arg(default_value = ".", value_name = "PATHS")]
+    pub paths: Vec<PathBuf>,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// Change nothing; print the files that would change and exit with 1 if there are any
+    #[arg(long, conflicts_with = "diff")]
+    pub check: bool,
+    /// Change nothing; print what would change and exit with 1 if anything would
+    #[arg(long)]
+    pub diff: bool,
+    /// Number the blocks that have an `N` number anew, and every word that names one with them: `--renumber 10:10`
+    #[arg(long, value_name = "START:STEP", value_parser = numbering)]
+    pub renumber: Option<Numbering>,
+    /// Files formatted at a time; the number of processors without it
+    #[arg(long, value_name = "N")]
+    pub jobs: Option<usize>,
 }
 
 /// A file for findings.
@@ -257,6 +298,55 @@ pub struct StatsOptions {
     pub output_file: Option<PathBuf>,
 }
 
+/// Options of `gcheck diff`.
+#[derive(Debug, Args)]
+pub struct DiffOptions {
+    /// A program; `-` reads standard input
+    #[arg(value_name = "A")]
+    pub a: PathBuf,
+    /// The program that it is compared with
+    #[arg(value_name = "B")]
+    pub b: PathBuf,
+    /// Paths are the same while they stay this close on every axis: millimetres, or degrees on rotary axes
+    #[arg(long, value_name = "MM", value_parser = tolerance, default_value = "0.001")]
+    pub tolerance: f64,
+    /// The control that runs B, where it is another one than that of A
+    #[arg(long, value_name = "NAME")]
+    pub control_b: Option<String>,
+    /// What standard input is called
+    #[arg(long, value_name = "PATH")]
+    pub stdin_filename: Option<PathBuf>,
+    /// A variable's value before both programs start: `--set '#100=2.5'`, `--set '#<name>=1'` (may be repeated)
+    #[arg(long, value_name = "VARIABLE=VALUE", value_parser = assignment)]
+    pub set: Vec<Assignment>,
+    /// The block delete switch: whether blocks with `/` are skipped; a list such as `1,3` switches those levels on
+    #[arg(long, value_name = "on|off|LEVELS", value_parser = block_skip, default_value = "off")]
+    pub block_skip: BlockSkip,
+    /// The optional stop switch: whether `M1` stops
+    #[arg(long, value_enum, value_name = "on|off", default_value_t)]
+    pub optional_stop: Switch,
+    /// Blocks of each program that may be executed
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    pub fuel: u64,
+    /// How differences are printed
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub output_format: ListFormat,
+    /// Write to this file instead of standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: Option<PathBuf>,
+}
+
+/// Options of `gcheck plot`.
+#[derive(Debug, Args)]
+pub struct PlotOptions {
+    /// What is executed, and how.
+    #[command(flatten)]
+    pub execution: ExecutionOptions,
+    /// Write to this file: `.svg` a picture, `.html` a page that needs nothing else
+    #[arg(long, short, value_name = "FILE")]
+    pub output_file: PathBuf,
+}
+
 /// A switch of the operator's panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Switch {
@@ -288,6 +378,14 @@ pub enum VariableName {
 /// Levels of block delete that are switched on: bit 0 is a plain `/` and level 1.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BlockSkip(pub u16);
+
+/// Options of `gcheck lsp`.
+#[derive(Debug, Args)]
+pub struct LspOptions {
+    /// Taken for editors that say so; there is no other way to talk to the server
+    #[arg(long, hide = true)]
+    pub stdio: bool,
+}
 
 /// Options of `gcheck explain`.
 #[derive(Debug, Args)]
@@ -332,6 +430,13 @@ fn output_file(text: &str) -> Result<OutputFile, String> {
     })
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
+        _ => Err("write a length in millimetres, such as 0.001".to_owned()),
+    }
+}
+
 fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("write `#100=2.5` or `#<name>=1`")?;
     let value: f64 = value.trim().parse().map_err(|_| format!("`{}` is no number", value.trim()))?;
@@ -355,6 +460,15 @@ impl VariableName {
         }
         inner.parse().ok().map(Self::Number)
     }
+}
+
+fn numbering(text: &str) -> Result<Numbering, String> {
+    let numbers = text.split_once(':').and_then(|(start, step)| {
+        Some(Numbering { start: start.trim().parse().ok()?, step: step.trim().parse().ok()? })
+    });
+    numbers
+        .filter(|n| n.start > 0 && n.step > 0)
+        .ok_or_else(|| "write the first number and the step, both whole and from 1, as in `10:10`".to_owned())
 }
 
 fn block_skip(text: &str) -> Result<BlockSkip, String> {

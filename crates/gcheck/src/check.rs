@@ -2,30 +2,41 @@
 //!
 //! Knows: the order of the work, what runs in parallel, what ends in which exit code. Must not know: rules or formats.
 
+mod cache;
 mod job;
 mod known;
 mod mending;
 mod progress;
 mod settings_page;
+mod watch;
 
 use std::collections::BTreeSet;
+use std::env;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use gcheck_report::{FileReport, Format, Report, Summary};
-use gcheck_rules::Selection;
+use gcheck_report::{FileReport, Format, Report, StaleEntry, Summary};
+use gcheck_rules::{RuleMeta, Selection};
+use gcheck_syntax::SourceText;
 use rayon::prelude::*;
 
 use crate::args::{CheckOptions, FailOn, Global, OutputFile};
-use crate::config::{Configs, RuleWishes, unknown_rule, validate_control};
+use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control};
 use crate::discovery::{self, Found};
 use crate::{Problem, output, paths, reading};
-use job::{Bench, Checked, Target};
+use cache::Cache;
+use job::{Bench, Change, Checked, Target};
 use known::KnownFindings;
 use progress::Progress;
 
 /// Standard input among the paths.
 const STANDARD_INPUT: &str = "-";
+
+/// Files that are checked together; what was found in them is put away before the next ones are read.
+const WAVE: usize = 256;
+/// Findings of a run that are kept; the rest are counted by file and rule. So many take about 100 MB.
+const MAX_KEPT: usize = 100_000;
 
 /// Runs the command; the exit code is its result.
 pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem> {
@@ -40,51 +51,105 @@ pub(crate) fn run(global: &Global, options: &CheckOptions) -> Result<u8, Problem
     for selector in wishes.select.iter().chain(&wishes.ignore).chain(&wishes.extend_select) {
         Selection::none().enable(selector).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
     }
-    if options.fix && options.paths.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
-        return Err(Problem::new("standard input cannot be mended").help("`--diff` shows what would change"));
-    }
-    let outputs = Outputs::new(options)?;
-    let mut known = match &options.baseline {
-        Some(path) => Some(KnownFindings::read(path, options.update_baseline)?),
-        None => None,
-    };
-    let mut configs = Configs::new(&global.config, global.isolated)?;
-    let (targets, mut problems) = targets(options, &mut configs);
-    if options.show_files {
-        let names: String = targets.iter().map(|target| format!("{}\n", target.shown)).collect();
-        output::print(&names)?;
-        return Ok(finish(&problems, 0));
-    }
-    let bench = Bench::new(global, options, wishes);
-    if options.show_settings {
-        output::print(&settings_page::page(&bench, &targets, &mut problems))?;
-        return Ok(finish(&problems, 0));
-    }
-    let checked = check_all(&bench, &targets, global, options)?;
-    if options.diff {
-        return show_differences(global, checked, problems);
-    }
-    let mut reports = write_mended(&targets, checked, &mut problems);
-    if let Some(known) = &mut known {
-        let mut remark = None;
-        if options.update_baseline {
-            remark = Some(known.update(&mut reports)?);
+    if options.paths.iter().any(|path| path.as_os_str() == STANDARD_INPUT) {
+        if options.fix {
+            return Err(
+                Problem::new("standard input cannot be mended").help("`--diff` shows what would change")
+            );
         }
-        let stale = known.apply(&mut reports);
-        // A run of some rules says nothing about the entries of others.
-        let all_rules = options.select.is_empty() && options.ignore.is_empty();
-        if let Some(remark) = remark.or(stale.filter(|_| all_rules)).filter(|_| !global.quiet) {
-            say(&remark);
+        if options.watch {
+            return Err(Problem::new("standard input cannot be watched").help("name files or folders"));
         }
     }
-    let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
-    write(global, options, &outputs, &report, &problems)?;
-    let summary = report.summary();
-    Ok(finish(&problems, u8::from(fails(&summary, options))))
+    let command = Check { global, options, wishes, outputs: Outputs::new(options)? };
+    if options.watch { watch::run(&command) } else { command.round(&mut Looked::default()) }
+}
+
+/// The command line, looked through for mistakes.
+struct Check<'o> {
+    global: &'o Global,
+    options: &'o CheckOptions,
+    wishes: RuleWishes,
+    outputs: Outputs<'o>,
+}
+
+/// What a round read: when any of it changes, the next round may find something else.
+#[derive(Debug, Default)]
+struct Looked {
+    /// Programs.
+    programs: Vec<PathBuf>,
+    /// Their configurations.
+    configs: Vec<Arc<Config>>,
+}
+
+impl Check<'_> {
+    /// Checks everything once.
+    fn round(&self, looked: &mut Looked) -> Result<u8, Problem> {
+        let Self { global, options, .. } = self;
+        let known = match &options.baseline {
+            Some(path) => Some(KnownFindings::read(path, options.update_baseline)?),
+            None => None,
+        };
+        let mut configs = Configs::new(&global.config, global.isolated)?;
+        let (targets, mut problems) = targets(options, &mut configs);
+        looked.programs = targets.iter().map(|target| paths::absolute(&target.path)).collect();
+        looked.configs = configs.read();
+        if options.show_files {
+            let names: String = targets.iter().map(|target| format!("{}\n", target.shown)).collect();
+            output::print(&names)?;
+            return Ok(finish(&problems, 0));
+        }
+        self.outputs.refuse_inputs(&looked.programs, &looked.configs, options.baseline.as_deref())?;
+        let is_cached = !(options.no_cache || options.show_settings);
+        let cache = if is_cached { Cache::open(cache_dir(options).as_deref())? } else { None };
+        let bench = Bench::new(global, options, self.wishes.clone(), cache);
+        if options.show_settings {
+            output::print(&settings_page::page(&bench, &targets, &mut problems))?;
+            return Ok(finish(&problems, 0));
+        }
+        let mut harvest = Harvest::default();
+        check_all(&bench, &targets, self, known.as_ref(), &mut harvest)?;
+        bench.end();
+        let Harvest { reports, stale, problems: of_files, differences, .. } = harvest;
+        problems.extend(of_files);
+        if options.diff {
+            return Ok(differences.finish(global, &problems));
+        }
+        if let Some(known) = known {
+            let remark = known.finish(&reports, stale)?;
+            // A run of some rules says nothing about the entries of others.
+            let all_rules = options.select.is_empty() && options.ignore.is_empty();
+            if let Some(remark) = remark.filter(|_| (all_rules || options.update_baseline) && !global.quiet) {
+                say(&remark);
+            }
+        }
+        let report = Report::new(reports).with_rules(gcheck_rules::all().iter().map(|rule| rule.meta));
+        write(global, options, &self.outputs, &report, &problems)?;
+        let summary = report.summary();
+        Ok(finish(&problems, u8::from(fails(&summary, options))))
+    }
+}
+
+/// The folder for results, if somebody names one. A variable that is empty names none: CI servers leave them so.
+fn cache_dir(options: &CheckOptions) -> Option<PathBuf> {
+    let named = || env::var_os("GCHECK_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
+    options.cache_dir.clone().or_else(named)
+}
+
+/// What came out of the files so far, in their order.
+#[derive(Default)]
+struct Harvest {
+    reports: Vec<FileReport>,
+    /// Findings in the reports.
+    kept: usize,
+    /// Entries of the baseline that found nothing.
+    stale: Vec<StaleEntry>,
+    problems: Vec<Problem>,
+    differences: Differences,
 }
 
 /// Says the problems, each once, and gives the exit code.
-fn finish(problems: &[Problem], code: u8) -> u8 {
+pub(crate) fn finish(problems: &[Problem], code: u8) -> u8 {
     let mut problems: Vec<&Problem> = problems.iter().collect();
     problems.sort();
     problems.dedup();
@@ -113,80 +178,123 @@ fn targets(options: &CheckOptions, configs: &mut Configs) -> (Vec<Target>, Vec<P
     (targets, problems)
 }
 
-/// Checks the files, several at a time; the order of the results is that of the files.
+/// Checks the files, several at a time; what comes out is in the order of the files.
 fn check_all(
     bench: &Bench<'_>,
     targets: &[Target],
-    global: &Global,
-    options: &CheckOptions,
-) -> Result<Vec<Result<Checked, Problem>>, Problem> {
-    let progress = Progress::new(targets.len(), global.quiet);
-    let work = || -> Vec<Result<Checked, Problem>> {
-        targets.par_iter().map(|target| progress.counting(|| job::guarded(bench, target))).collect()
+    command: &Check<'_>,
+    known: Option<&KnownFindings>,
+    harvest: &mut Harvest,
+) -> Result<(), Problem> {
+    let progress = Progress::new(targets.len(), command.global.quiet);
+    let pool = match command.options.jobs {
+        Some(jobs) if targets.len() > 1 => Some(
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(jobs.max(1))
+                .build()
+                .map_err(|error| Problem::new(format!("cannot start {jobs} threads: {error}")))?,
+        ),
+        _ => None,
     };
-    let results = match (options.jobs, targets.len()) {
-        // Threads cost more than one file takes.
-        (_, 0 | 1) => targets.iter().map(|target| job::guarded(bench, target)).collect(),
-        (None, _) => work(),
-        (Some(jobs), _) => rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.max(1))
-            .build()
-            .map_err(|error| Problem::new(format!("cannot start {jobs} threads: {error}")))?
-            .install(work),
-    };
-    progress.end();
-    Ok(results)
-}
-
-/// Writes the programs that were mended. One that cannot be written is a problem, and no more is said of it: what was found
-/// last was found in a text that is on no disk.
-fn write_mended(
-    targets: &[Target],
-    checked: Vec<Result<Checked, Problem>>,
-    problems: &mut Vec<Problem>,
-) -> Vec<FileReport> {
-    let mut reports = Vec::with_capacity(checked.len());
-    for (target, checked) in targets.iter().zip(checked) {
-        let written = checked.and_then(|Checked { report, change }| match change {
-            Some(change) => mending::write(&target.path, &change).map(|()| report),
-            None => Ok(report),
-        });
-        match written {
-            Ok(report) => reports.push(report),
-            Err(problem) => problems.push(problem),
-        }
-    }
-    reports
-}
-
-/// Prints what `--fix` would change; the exit code says whether it would change anything.
-fn show_differences(
-    global: &Global,
-    checked: Vec<Result<Checked, Problem>>,
-    mut problems: Vec<Problem>,
-) -> Result<u8, Problem> {
-    let (mut findings, mut files, mut text) = (0, 0, String::new());
-    for checked in checked {
-        match checked {
-            Ok(Checked { report, change: Some(change) }) => {
-                findings += report.fixed;
-                files += 1;
-                text.push_str(&mending::difference(&report.path, &change));
+    for wave in targets.chunks(WAVE) {
+        // No file of the wave can have more room than there is before the first; so what is kept does not depend on which
+        // of them is done first.
+        let room = MAX_KEPT.saturating_sub(harvest.kept);
+        let check = |target| {
+            progress.counting(|| {
+                job::guarded(bench, target).map(|mut checked| {
+                    let stale = known.map(|known| known.apply(&mut checked.report)).unwrap_or_default();
+                    keep(&mut checked.report, room);
+                    (checked, stale)
+                })
+            })
+        };
+        let work = || -> Vec<_> { wave.par_iter().map(check).collect() };
+        let results: Vec<_> = match &pool {
+            // Threads cost more than one file takes.
+            _ if targets.len() == 1 => wave.iter().map(check).collect(),
+            None => work(),
+            Some(pool) => pool.install(work),
+        };
+        for (target, result) in wave.iter().zip(results) {
+            match result {
+                Ok((checked, stale)) => {
+                    harvest.stale.extend(stale);
+                    harvest.add(target, checked, command.options)?;
+                }
+                Err(problem) => harvest.problems.push(problem),
             }
-            Ok(_) => {}
-            Err(problem) => problems.push(problem),
         }
     }
-    output::print(&text)?;
-    if !global.quiet {
-        let words = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
-        say(&format!(
-            "{} would be mended in {}",
-            words(findings, "finding", "findings"),
-            words(files, "file", "files")
-        ));
+    progress.end();
+    Ok(())
+}
+
+impl Harvest {
+    /// Takes what came out of a file: mends it or shows how it would be, and keeps its report. One that cannot be written is
+    /// a problem, and no more is said of it: what was found last was found in a text that is on no disk.
+    fn add(&mut self, target: &Target, checked: Checked, options: &CheckOptions) -> Result<(), Problem> {
+        let Checked { mut report, change } = checked;
+        if options.diff {
+            return change.map_or(Ok(()), |change| self.differences.show(&report, &change));
+        }
+        if let Some(change) = change
+            && let Err(problem) = mending::write(&target.path, &change)
+        {
+            self.problems.push(problem);
+            return Ok(());
+        }
+        keep(&mut report, MAX_KEPT.saturating_sub(self.kept));
+        self.kept += report.findings.len();
+        self.reports.push(report);
+        Ok(())
     }
-    Ok(finish(&problems, u8::from(files > 0)))
+}
+
+/// Keeps the first findings of a report; the others are counted, as those beyond the limit of a file are.
+fn keep(report: &mut FileReport, most: usize) {
+    if report.findings.len() <= most {
+        return;
+    }
+    for finding in report.findings.drain(most..) {
+        let same = |(rule, severity, _): &&mut (&RuleMeta, _, usize)| {
+            rule.id == finding.rule.id && *severity == finding.severity
+        };
+        match report.omitted.iter_mut().find(same) {
+            Some((.., count)) => *count += 1,
+            None => report.omitted.push((finding.rule, finding.severity, 1)),
+        }
+    }
+    if report.findings.is_empty() {
+        report.text = Arc::new(SourceText::from(""));
+    }
+}
+
+/// What `--fix` would change; the exit code says whether it would change anything.
+#[derive(Default)]
+struct Differences {
+    findings: usize,
+    files: usize,
+}
+
+impl Differences {
+    fn show(&mut self, report: &FileReport, change: &Change) -> Result<(), Problem> {
+        self.findings += report.fixed;
+        self.files += 1;
+        output::print(&mending::difference(&report.path, change)).map(|_| ())
+    }
+
+    fn finish(&self, global: &Global, problems: &[Problem]) -> u8 {
+        if !global.quiet {
+            let words = |n: usize, one: &str, many: &str| format!("{n} {}", if n == 1 { one } else { many });
+            say(&format!(
+                "{} would be mended in {}",
+                words(self.findings, "finding", "findings"),
+                words(self.files, "file", "files")
+            ));
+        }
+        finish(problems, u8::from(self.files > 0))
+    }
 }
 
 fn fails(summary: &Summary, options: &CheckOptions) -> bool {
@@ -216,7 +324,7 @@ impl<'o> Outputs<'o> {
         let mut outputs = Self { main: None, besides: Vec::new() };
         let mut taken = BTreeSet::new();
         for OutputFile { format, path } in &options.output_file {
-            if !taken.insert(paths::absolute(path)) {
+            if !taken.insert(real(path)) {
                 return Err(Problem::with_file(path, "two outputs cannot go to one file"));
             }
             match format {
@@ -230,6 +338,32 @@ impl<'o> Outputs<'o> {
         }
         Ok(outputs)
     }
+
+    /// # Errors
+    /// When an output would replace something that the run reads.
+    fn refuse_inputs(
+        &self,
+        programs: &[PathBuf],
+        configs: &[Arc<Config>],
+        baseline: Option<&Path>,
+    ) -> Result<(), Problem> {
+        let outputs = self.main.into_iter().chain(self.besides.iter().map(|(_, path)| *path));
+        // What is not there yet replaces nothing; what is no file (a pipe, a terminal) is not replaced.
+        for path in outputs.filter(|path| path.is_file()) {
+            let output = real(path);
+            let files = configs.iter().flat_map(|config| config.files()).chain(baseline);
+            if programs.iter().map(PathBuf::as_path).chain(files).any(|read| real(read) == output) {
+                return Err(Problem::with_file(path, "is read in this run, and findings would replace it")
+                    .help("name another file for them"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The file that a path leads to, links followed where they lead somewhere.
+fn real(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| paths::absolute(path))
 }
 
 /// Findings to standard output or files; what is for people to read besides, where it does not disturb.
@@ -290,6 +424,6 @@ fn say(text: &str) {
 }
 
 /// Reads a target.
-fn read(target: &Target) -> Result<gcheck_syntax::SourceText, Problem> {
+fn read(target: &Target) -> Result<SourceText, Problem> {
     if target.is_standard_input { reading::standard_input(&target.path) } else { reading::file(&target.path) }
 }

@@ -5,8 +5,11 @@
 pub(crate) mod codes;
 pub(crate) mod completions;
 pub(crate) mod controls;
+pub(crate) mod diff;
 pub(crate) mod explain;
+pub(crate) mod fmt;
 pub(crate) mod init;
+pub(crate) mod plot;
 pub(crate) mod rules;
 pub(crate) mod run;
 pub(crate) mod stats;

@@ -3,6 +3,7 @@
 //! Knows: which configuration rules over which file, how several are put together. Must not know: how programs are checked.
 
 mod file;
+mod format;
 mod layer;
 mod pattern;
 mod placed;
@@ -18,6 +19,7 @@ pub use file::{
     CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar,
     SearchTable, ToolTable, ToolsTable, Units,
 };
+pub use format::FormatTable;
 pub use layer::{ExecutionFacts, Layer};
 pub use pattern::PathPattern;
 pub use placed::Placed;
@@ -44,6 +46,16 @@ impl Config {
     /// The file that was found or named, without those it extends.
     pub fn path(&self) -> Option<&Path> {
         self.layers.iter().rev().find_map(|layer| layer.path.as_deref())
+    }
+
+    /// Files besides programs that a verdict may rest on: the configurations themselves and the tool tables they name.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        self.layers.iter().flat_map(|layer| layer.path.as_deref().into_iter().chain(layer.tables()))
+    }
+
+    /// Folders besides a program's own in which called programs are looked for.
+    pub(crate) fn search(&self) -> impl Iterator<Item = &Path> {
+        self.layers.iter().flat_map(|layer| layer.search())
     }
 
     /// Whether a walk over a folder reads a file: neither excluded nor, where `include` is given, left out by it.
@@ -102,6 +114,22 @@ impl Configs {
             None => Source::Discovered,
         };
         Ok(Self { inline, source, by_folder: HashMap::new(), by_file: HashMap::new() })
+    }
+
+    /// The configurations read so far.
+    pub(crate) fn read(&self) -> Vec<Arc<Config>> {
+        match &self.source {
+            Source::Fixed(config) => vec![Arc::clone(config)],
+            Source::Discovered => {
+                let mut read: Vec<(&PathBuf, &Arc<Config>)> = self
+                    .by_file
+                    .iter()
+                    .filter_map(|(path, config)| Some((path, config.as_ref().ok()?)))
+                    .collect();
+                read.sort_by_key(|(path, _)| *path);
+                read.into_iter().map(|(_, config)| Arc::clone(config)).collect()
+            }
+        }
     }
 
     /// The configuration of a program, or why it cannot be read.

@@ -11,7 +11,8 @@ use crate::config::Configs;
 use crate::{Problem, paths};
 
 /// Extensions of part programs, lower case.
-const EXTENSIONS: [&str; 11] = ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
+pub(crate) const EXTENSIONS: [&str; 11] =
+    ["nc", "ngc", "cnc", "tap", "eia", "ncf", "gcode", "iso", "din", "prg", "mpf"];
 
 /// What was found.
 #[derive(Debug, Default)]
@@ -80,6 +81,12 @@ fn walk(folder: &Path, configs: &mut Configs, found: &mut Found, seen: &mut BTre
             Ok(_) => {}
             Err(error) => found.problems.push(Problem::new(format!("cannot look into a folder: {error}"))),
         }
+    }
+    // Without programs nobody else would read it, and its author would think it right.
+    if programs.is_empty()
+        && let Err(problem) = configs.of_folder(folder)
+    {
+        found.problems.push(problem);
     }
     programs.sort();
     for path in programs {

@@ -6,7 +6,6 @@ mod bridge;
 mod closing;
 mod equipment;
 mod rotary;
-mod tool_names;
 mod tool_table;
 
 use std::path::PathBuf;
@@ -14,23 +13,22 @@ use std::sync::Arc;
 
 use gcheck_controls::Control;
 use gcheck_engine::{Axis, Model, Options, Program, Role, RunResult, Stopped};
-use gcheck_program::{Dialect, Loaded};
+use gcheck_program::{Dialect, Loaded, ToolNames};
 use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
 use gcheck_toolpath::View;
 
 pub(crate) use bridge::Steps;
-pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, say};
+pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, problem_of, say};
 pub(crate) use equipment::{Equipment, Start};
 
 use crate::args::{ExecutionOptions, Global, Switch};
 use crate::config::{Configs, validate_control};
 use crate::control_choice::choose;
-use crate::programs::{ProgramFolders, Reachable};
+use crate::programs::Reachable;
 use crate::{Problem, paths, reading};
 use bridge::Bridge;
 use equipment::{AxesMoved, AxesSeen};
-use tool_names::ToolNames;
 
 /// Standard input as a file name.
 const STANDARD_INPUT: &str = "-";
@@ -45,8 +43,8 @@ pub(crate) struct Prepared {
     pub(crate) equipment: Equipment,
     options: Options,
     fuel: u64,
-    path: PathBuf,
-    search: Vec<PathBuf>,
+    pub(crate) path: PathBuf,
+    pub(crate) search: Vec<PathBuf>,
 }
 
 /// Reads the program and what is in force for it.
@@ -100,10 +98,9 @@ impl Prepared {
     pub(crate) fn session<R>(&self, with: impl FnOnce(&Session<'_>) -> R) -> R {
         let dialect = Dialect::new(&self.control);
         let model = Model::new(&self.control);
-        let folders = ProgramFolders::default();
-        let library = Reachable::new(&folders, &self.path, &self.search);
+        let library = Reachable::new(Arc::default(), &self.path, &self.search);
         let mut axes = AxesSeen::new(&model);
-        let mut tools = ToolNames::new(&model);
+        let mut tools = ToolNames::new(&self.control);
         let loaded = Loaded::new(self.source.text(), &dialect, |_, table, text| {
             axes.look(table);
             tools.look(table, text);

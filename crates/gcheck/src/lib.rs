@@ -14,12 +14,15 @@ mod control_choice;
 mod discovery;
 mod execution;
 mod fault_words;
+mod in_force;
+mod lsp;
 mod nearest;
 mod output;
 mod paths;
 mod problem;
 mod programs;
 mod reading;
+mod rewriting;
 
 use std::io::Write as _;
 use std::panic::{self, AssertUnwindSafe};
@@ -51,11 +54,16 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Result<u8, Problem> {
     match &arguments.command {
         Command::Check(options) => check::run(&arguments.global, options),
+        Command::Fmt(options) => commands::fmt::run(&arguments.global, options),
         Command::Run(options) => {
             guarded(&options.execution.file, || commands::run::run(&arguments.global, options))
         }
         Command::Stats(options) => {
             guarded(&options.execution.file, || commands::stats::run(&arguments.global, options))
+        }
+        Command::Diff(options) => guarded(&options.a, || commands::diff::run(&arguments.global, options)),
+        Command::Plot(options) => {
+            guarded(&options.execution.file, || commands::plot::run(&arguments.global, options))
         }
         Command::Explain(options) => commands::explain::run(&arguments.global, options),
         Command::Rules(options) => commands::rules::run(options),
@@ -63,6 +71,7 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
         Command::Controls(options) => commands::controls::run(options),
         Command::Init => commands::init::run(&arguments.global),
         Command::Schema => output::print(&config::schema()),
+        Command::Lsp(_) => lsp::run(&arguments.global),
         Command::Completions { shell } => commands::completions::run(*shell),
     }
 }

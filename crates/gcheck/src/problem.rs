@@ -12,11 +12,20 @@ use crate::paths;
 /// Something that keeps a file, a configuration or the whole run from being done. One of these is one message.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
-    place: Option<String>,
+    place: Option<Place>,
     message: String,
     excerpt: Option<Box<Excerpt>>,
     note: Option<String>,
     help: Option<String>,
+}
+
+/// Where something went wrong.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    /// As messages call the file.
+    name: String,
+    /// Line and column from 1, in characters; none for the file as a whole.
+    at: Option<(usize, usize)>,
 }
 
 /// A line of a file with a part of it marked.
@@ -40,7 +49,7 @@ impl Problem {
 
     /// A problem with a file.
     pub fn with_file(path: &Path, message: impl Into<String>) -> Self {
-        Self { place: Some(paths::shown(path)), ..Self::new(message) }
+        Self { place: Some(Place { name: paths::shown(path), at: None }), ..Self::new(message) }
     }
 
     /// What a panic of our own code left.
@@ -55,7 +64,7 @@ impl Problem {
     /// The same, with a file.
     #[must_use]
     pub(crate) fn in_file(self, path: &Path) -> Self {
-        Self { place: Some(paths::shown(path)), ..self }
+        Self { place: Some(Place { name: paths::shown(path), at: None }), ..self }
     }
 
     /// A problem at some bytes of a text; `name` is what the text is called.
@@ -73,7 +82,7 @@ impl Problem {
         let shown: String = line.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
         let excerpt = Excerpt { line: number, text: shown, before, marked };
         Self {
-            place: Some(format!("{name}:{number}:{}", before + 1)),
+            place: Some(Place { name: name.to_owned(), at: Some((number, before + 1)) }),
             excerpt: (before < SHOWN).then_some(Box::new(excerpt)),
             ..Self::new(message)
         }
@@ -97,12 +106,26 @@ impl Problem {
     pub fn message(&self) -> &str {
         &self.message
     }
+
+    /// What messages call the file, with line and column from 1 and the number of characters that are meant.
+    pub(crate) fn place(&self) -> Option<(&str, usize, usize, usize)> {
+        let Place { name, at } = self.place.as_ref()?;
+        let (line, column) = at.unwrap_or((1, 1));
+        Some((name, line, column, self.excerpt.as_ref().map_or(0, |excerpt| excerpt.marked)))
+    }
+
+    /// The message with what is to be done, in one line.
+    pub(crate) fn advice(&self) -> String {
+        self.help.as_ref().map_or_else(|| self.message.clone(), |help| format!("{}; {help}", self.message))
+    }
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(place) = &self.place {
-            write!(f, "{place}: ")?;
+        match &self.place {
+            Some(Place { name, at: Some((line, column)) }) => write!(f, "{name}:{line}:{column}: ")?,
+            Some(Place { name, at: None }) => write!(f, "{name}: ")?,
+            None => {}
         }
         f.write_str(&self.message)?;
         if let Some(Excerpt { line, text, before, marked }) = self.excerpt.as_deref() {

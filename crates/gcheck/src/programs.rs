@@ -2,7 +2,7 @@
 //!
 //! Knows: folders, how a file shows the program numbers it holds. Must not know: calls. A folder is looked through when the
 //! first call asks, and once; a folder too large to be looked through is said to have everything, so that nothing false is
-//! reported.
+//! reported. Programs that are open in an editor stand in the place of their files.
 
 use std::collections::HashMap;
 use std::fs;
@@ -11,6 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use gcheck_engine::{Library, SourceFile};
 use gcheck_rules::Programs;
+use gcheck_server::OpenPrograms;
 
 use crate::discovery::is_program_name;
 use crate::{paths, reading};
@@ -38,20 +39,64 @@ struct Folder {
 }
 
 /// The programs that one file can call.
-pub(crate) struct Reachable<'f> {
-    folders: &'f ProgramFolders,
+pub(crate) struct Reachable {
+    folders: Arc<ProgramFolders>,
     /// The file's own folder, then those of the search path.
     paths: Vec<PathBuf>,
     /// The file itself: what it lacks is not found by reading it once more.
     main: PathBuf,
+    open: Option<Open>,
 }
 
-impl<'f> Reachable<'f> {
+/// The programs that are open in an editor.
+struct Open {
+    texts: Arc<dyn OpenPrograms>,
+    /// The numbers in each, with the state of the text that they were read from.
+    numbers: Mutex<HashMap<PathBuf, (u64, Vec<u32>)>>,
+}
+
+impl Open {
+    /// The open program of a folder that has a number.
+    fn by_number(&self, folder: &Path, number: u32) -> Option<PathBuf> {
+        let mut known = self.numbers.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut has = |path: &PathBuf, state: u64| {
+            let is_fresh = known.get(path).is_some_and(|(read, _)| *read == state);
+            if !is_fresh {
+                let text = self.texts.text(path).unwrap_or_default();
+                known.insert(path.clone(), (state, numbers_in(text.as_bytes()).collect()));
+            }
+            is_named(path, number) || known.get(path).is_some_and(|(_, numbers)| numbers.contains(&number))
+        };
+        let programs = self.texts.in_folder(folder).into_iter();
+        programs
+            .filter(|(path, _)| is_program_name(path))
+            .find(|(path, state)| has(path, *state))
+            .map(|(path, _)| path)
+    }
+
+    /// The open program of a folder whose file has a name.
+    fn by_name(&self, folder: &Path, name: &str) -> Option<PathBuf> {
+        let programs = self.texts.in_folder(folder).into_iter().map(|(path, _)| path);
+        programs.filter(|path| is_program_name(path)).find(|path| stem(path).as_deref() == Some(name))
+    }
+}
+
+impl Reachable {
     /// For the program at `path`, with the folders of its search path.
-    pub(crate) fn new(folders: &'f ProgramFolders, path: &Path, search: &[PathBuf]) -> Self {
+    pub(crate) fn new(folders: Arc<ProgramFolders>, path: &Path, search: &[PathBuf]) -> Self {
         let own = path.parent().map(PathBuf::from).unwrap_or_default();
         let paths = std::iter::once(own).chain(search.iter().cloned()).collect();
-        Self { folders, paths, main: paths::absolute(path) }
+        Self { folders, paths, main: paths::absolute(path), open: None }
+    }
+
+    /// The same with programs that are open in an editor.
+    pub(crate) fn with_open(self, texts: Arc<dyn OpenPrograms>) -> Self {
+        Self { open: Some(Open { texts, numbers: Mutex::default() }), ..self }
+    }
+
+    /// The folders, the file's own first.
+    pub(crate) fn folders(&self) -> &[PathBuf] {
+        &self.paths
     }
 
     /// A file that cannot be read is not there: who asks says which program is missing.
@@ -59,32 +104,61 @@ impl<'f> Reachable<'f> {
         if path == self.main {
             return None;
         }
-        let text = reading::file(path).ok()?.text().to_owned();
-        Some(SourceFile { name: paths::shown_from_here(path).into(), text })
+        let Some(open) = &self.open else {
+            let text = reading::file(path).ok()?.text().to_owned();
+            return Some(SourceFile { name: paths::shown_from_here(path).into(), text });
+        };
+        // An editor needs to find the file, from wherever it was started.
+        let name = path.to_string_lossy().into();
+        let text = open.texts.text(path).or_else(|| Some(reading::file(path).ok()?.text().to_owned()))?;
+        Some(SourceFile { name, text })
     }
 
-    fn in_first_folder(&self, find: impl Fn(&Folder) -> Option<&PathBuf>) -> Option<SourceFile> {
-        self.paths.iter().find_map(|path| {
-            let folder = self.folders.of(path);
-            let found = find(&folder).cloned()?;
-            self.read(&found)
+    /// The file of the first folder that has the program.
+    fn find(
+        &self,
+        in_open: impl Fn(&Open, &Path) -> Option<PathBuf>,
+        on_disk: impl Fn(&Folder) -> Option<&PathBuf>,
+        by_name: impl Fn(&Path) -> bool,
+    ) -> Option<PathBuf> {
+        self.paths.iter().find_map(|folder| {
+            let open = self.open.as_ref();
+            if let Some(found) = open.and_then(|open| in_open(open, folder)) {
+                return Some(found);
+            }
+            let found = on_disk(&self.folders.of(folder)).cloned()?;
+            // What the file holds on disk says nothing about what it holds in the editor.
+            let is_open =
+                open.is_some_and(|open| open.texts.in_folder(folder).iter().any(|(path, _)| *path == found));
+            (!is_open || by_name(&found)).then_some(found)
         })
+    }
+
+    fn file_of_number(&self, number: u32) -> Option<PathBuf> {
+        self.find(
+            |open, folder| open.by_number(folder, number),
+            |folder| folder.numbers.get(&number),
+            |path| is_named(path, number),
+        )
+    }
+
+    fn file_of_name(&self, name: &str) -> Option<PathBuf> {
+        self.find(|open, folder| open.by_name(folder, name), |folder| folder.names.get(name), |_| true)
+    }
+
+    /// A folder too large to be looked through may hold anything.
+    fn is_partial(&self) -> bool {
+        self.paths.iter().any(|path| self.folders.of(path).is_partial)
     }
 }
 
-impl Programs for Reachable<'_> {
+impl Programs for Reachable {
     fn has_number(&self, number: u32) -> bool {
-        self.paths.iter().any(|path| {
-            let folder = self.folders.of(path);
-            folder.is_partial || folder.numbers.contains_key(&number)
-        })
+        self.file_of_number(number).is_some() || self.is_partial()
     }
 
     fn has_name(&self, name: &str) -> bool {
-        self.paths.iter().any(|path| {
-            let folder = self.folders.of(path);
-            folder.is_partial || folder.names.contains_key(name)
-        })
+        self.file_of_name(name).is_some() || self.is_partial()
     }
 
     fn source_of_number(&self, number: u32) -> Option<SourceFile> {
@@ -96,13 +170,13 @@ impl Programs for Reachable<'_> {
     }
 }
 
-impl Library for Reachable<'_> {
+impl Library for Reachable {
     fn by_number(&self, number: u32) -> Option<SourceFile> {
-        self.in_first_folder(|folder| folder.numbers.get(&number))
+        self.read(&self.file_of_number(number)?)
     }
 
     fn by_name(&self, name: &str) -> Option<SourceFile> {
-        self.in_first_folder(|folder| folder.names.get(name))
+        self.read(&self.file_of_name(name)?)
     }
 }
 
@@ -128,11 +202,8 @@ impl Folder {
         // Folders are listed in any order; which of two programs of one number is called must not depend on it.
         programs.sort();
         for path in &programs {
-            let Some(stem) = path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()) else {
-                continue;
-            };
-            let digits = stem.strip_prefix('o').unwrap_or(&stem);
-            if let Ok(number) = digits.parse() {
+            let Some(stem) = stem(path) else { continue };
+            if let Some(number) = number_of_name(&stem) {
                 folder.numbers.entry(number).or_insert_with(|| path.clone());
             }
             // Subroutines called by name stand in files of one extension.
@@ -156,6 +227,20 @@ impl Folder {
         }
         folder
     }
+}
+
+/// The name of a file without its extension, lower case.
+fn stem(path: &Path) -> Option<String> {
+    path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase())
+}
+
+/// The number of `o1234` or `1234`.
+fn number_of_name(stem: &str) -> Option<u32> {
+    stem.strip_prefix('o').unwrap_or(stem).parse().ok()
+}
+
+fn is_named(path: &Path, number: u32) -> bool {
+    stem(path).is_some_and(|stem| number_of_name(&stem) == Some(number))
 }
 
 /// Numbers of `O1234` and `:1234` at the heads of lines.

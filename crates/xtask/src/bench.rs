@@ -6,6 +6,8 @@
 mod command_line;
 mod in_process;
 mod keystrokes;
+mod language_server;
+mod many_files;
 mod peer;
 mod row;
 
@@ -17,17 +19,30 @@ use crate::product;
 
 /// Measures everything in a release build.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    if !arguments.is_empty() {
-        bail!("bench takes no arguments");
-    }
+    let only_server = match arguments {
+        [] => false,
+        [part] if part == "lsp" => true,
+        _ => bail!("bench takes no arguments, or `lsp` for the language server alone"),
+    };
     // Functions that are called in process must be as optimised as the product.
     if cfg!(debug_assertions) {
         return product::rerun("bench", arguments, true);
     }
-    let mut rows = in_process::rows()?;
-    rows.extend(keystrokes::rows()?);
-    match command_line::rows() {
-        Ok(more) => rows.extend(more),
+    let mut rows = Vec::new();
+    if !only_server {
+        rows.extend(in_process::rows()?);
+        rows.extend(keystrokes::rows()?);
+    }
+    match command_line::build() {
+        Ok((gcheck, inputs)) => {
+            if !only_server {
+                match command_line::rows(&gcheck, &inputs) {
+                    Ok(more) => rows.extend(more),
+                    Err(error) => eprintln!("{error:#}"),
+                }
+            }
+            rows.extend(language_server::rows(&gcheck));
+        }
         Err(error) => eprintln!("{error:#}"),
     }
     print!("{}", row::table(&rows));

@@ -65,10 +65,16 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     Ok(ExitCode::SUCCESS)
 }
 
-fn check(gcheck: &Path, folder: &Path, options: &[&str], paths: &[&str]) -> anyhow::Result<Output> {
+/// What `gcheck check` says about programs of the corpus, as JSON.
+pub(crate) fn check(
+    gcheck: &Path,
+    folder: &Path,
+    options: &[&str],
+    paths: &[&str],
+) -> anyhow::Result<Output> {
     let output = Command::new(gcheck)
         .current_dir(folder)
-        .args(["check", "--isolated", "--output-format", "json"])
+        .args(["check", "--isolated", "--no-cache", "--output-format", "json"])
         .args(options)
         .arg("--")
         .args(paths)

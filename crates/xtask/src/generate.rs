@@ -11,6 +11,8 @@ pub(crate) mod registry;
 mod rule_pages;
 #[cfg(feature = "product")]
 mod schema;
+#[cfg(feature = "product")]
+mod summary;
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -88,6 +90,7 @@ fn from_product() -> anyhow::Result<Generated> {
     let mut files = rule_pages::generate();
     files.extend(control_pages::generate()?);
     files.extend(schema::generate());
+    files.extend(summary::generate(workspace::root(), &files)?);
     Ok(files)
 }
 

@@ -9,12 +9,15 @@
 
 #[cfg(feature = "product")]
 mod bench;
+mod competitors;
 #[cfg(feature = "product")]
 mod corpus;
 mod generate;
 #[cfg(feature = "product")]
 mod measure;
 mod new_rule;
+#[cfg(feature = "product")]
+mod precision;
 mod product;
 mod test;
 mod tidy;
@@ -30,9 +33,15 @@ usage: cargo xtask COMMAND
   gen [--check]               write (or check) registries, pages and schemas that come from code and data
   new-rule ID --tier token|block|program --group GROUP
                               scaffold a rule
-  test [--quick] [ARGS…]      install what tests need, then run everything that CI runs; ARGS go to the tests
-  bench                       measure speed and memory against the budgets, in one table
-  corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md";
+  test [--quick] [--editors] [--soak] [ARGS…]
+                              install what tests need, then run everything that CI runs; ARGS go to the tests;
+                              --editors runs the editors of the system as well; --soak types at the language server for
+                              as long as an afternoon does
+  bench [lsp]                 measure speed and memory against the budgets, in one table; `lsp`: of the server alone
+  corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
+  precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write
+                              docs/precision.md
+  competitors                 run other checkers on the seeded mistakes and write tests/competitors.tsv";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
@@ -50,11 +59,16 @@ fn main() -> ExitCode {
         #[cfg(feature = "product")]
         "corpus" => corpus::run(rest),
         #[cfg(feature = "product")]
+        "precision" => precision::run(rest),
+        "competitors" => competitors::run(rest),
+        #[cfg(feature = "product")]
         "measure" => measure::run(rest),
         #[cfg(not(feature = "product"))]
         "bench" => product::rerun("bench", rest, true),
         #[cfg(not(feature = "product"))]
         "corpus" => product::rerun("corpus", rest, false),
+        #[cfg(not(feature = "product"))]
+        "precision" => product::rerun("precision", rest, false),
         "help" | "--help" | "-h" => {
             println!("{USAGE}");
             Ok(ExitCode::SUCCESS)

@@ -2,9 +2,12 @@
 //!
 //! Knows: the steps and their tools. Must not know: what is tested.
 
+mod book;
+mod editors;
+
 use std::env;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::Context as _;
@@ -14,14 +17,27 @@ use crate::workspace;
 /// Tools of tests that are no crates, git-ignored. Tests find them there, and skip themselves where they are missing.
 const TOOLS: &str = ".test-tools";
 
+/// Asks the editor tests for the editors of the system.
+const ALL_EDITORS: &str = "GCHECK_ALL_EDITORS";
+
 /// The SARIF validator, as an npm package with its own runtime.
 const SARIF_VALIDATOR: &str = "@microsoft/sarif-multitool-linux";
 const SARIF_VALIDATOR_VERSION: &str = "5.7.0";
 
+/// Tells the soak test how many edits and requests to make.
+const SOAK: &str = "GCHECK_SOAK";
+/// Edits and requests that `--soak` makes at the language server.
+const SOAK_ROUNDS: &str = "20000";
+
 /// Runs every step, and all of them whatever fails.
+///
+/// `--quick` leaves out what takes long; `--editors` runs the editors of the system as well; `--soak` types at the language
+/// server for as long as an afternoon does. The rest is for the tests.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
-    let quick = arguments.first().is_some_and(|a| a == "--quick");
-    let for_tests = if quick { arguments.get(1..).unwrap_or_default() } else { arguments };
+    let is_ours = |argument: &&String| ["--quick", "--editors", "--soak"].contains(&argument.as_str());
+    let (ours, for_tests) = arguments.split_at(arguments.iter().take_while(is_ours).count());
+    let is_asked = |name: &str| ours.iter().any(|argument| argument == name);
+    let quick = is_asked("--quick");
     let mut failed = Vec::new();
     if !quick {
         install_tools()?;
@@ -61,7 +77,14 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         test.push("--");
         test.extend(for_tests.iter().map(String::as_str));
     }
-    let passed = cargo(&test)?;
+    let mut tests = cargo_command();
+    if is_asked("--editors") {
+        tests.env(ALL_EDITORS, "1");
+    }
+    if is_asked("--soak") {
+        tests.env(SOAK, SOAK_ROUNDS);
+    }
+    let passed = succeeds(tests.args(&test))?;
     if !failed.is_empty() {
         say(&format!("failed before the tests: {}", failed.join(", ")));
     }
@@ -74,8 +97,14 @@ fn say(message: &str) {
 
 /// Runs cargo on the workspace; true if it succeeds.
 fn cargo(arguments: &[&str]) -> anyhow::Result<bool> {
+    succeeds(cargo_command().args(arguments))
+}
+
+fn succeeds(command: &mut Command) -> anyhow::Result<bool> {
+    let arguments: Vec<_> =
+        command.get_args().map(|argument| argument.to_string_lossy().into_owned()).collect();
     say(&format!("cargo {}", arguments.join(" ")));
-    let status = cargo_command().args(arguments).status().context("cargo does not start")?;
+    let status = command.status().context("cargo does not start")?;
     Ok(status.success())
 }
 
@@ -93,7 +122,10 @@ fn has_cargo_command(name: &str) -> bool {
 
 /// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
 fn install_tools() -> anyhow::Result<()> {
+    book::install(&workspace::root().join(TOOLS));
     install_interpreter();
+    install_browser()?;
+    editors::install(&workspace::root().join(TOOLS));
     install_validator()
 }
 
@@ -101,15 +133,34 @@ fn install_tools() -> anyhow::Result<()> {
 const INTERPRETER: &str = "linuxcnc-uspace";
 
 fn install_interpreter() {
-    if !cfg!(target_os = "linux") || is_in_path("rs274") {
-        return;
+    if cfg!(target_os = "linux") && !is_in_path("rs274") {
+        install_package(INTERPRETER, "rs274", "the engine is not compared with the LinuxCNC interpreter");
     }
-    let without = "the engine is not compared with the LinuxCNC interpreter";
+}
+
+/// The browser that looks at pages of `gcheck plot`, as a Debian package and by its other names.
+const BROWSER: &str = "chromium";
+const OTHER_BROWSERS: [&str; 3] = ["chromium-browser", "google-chrome", "google-chrome-stable"];
+/// What steers it: an npm package without a browser of its own.
+const DRIVER: &str = "playwright-core";
+const DRIVER_VERSION: &str = "1.65.1";
+
+fn install_browser() -> anyhow::Result<()> {
+    let without = "pages of `gcheck plot` are not looked at in a browser";
+    if cfg!(target_os = "linux") && !is_in_path(BROWSER) && !OTHER_BROWSERS.into_iter().any(is_in_path) {
+        install_package(BROWSER, BROWSER, without);
+    }
+    install_from_npm(DRIVER, DRIVER_VERSION, without)?;
+    Ok(())
+}
+
+/// Installs a Debian package for the sake of a program in it; says what is left out without it.
+fn install_package(package: &str, program: &str, without: &str) {
     if !is_in_path("apt-get") {
-        say(&format!("rs274 (Debian's {INTERPRETER}) is not installed and there is no apt-get: {without}"));
+        say(&format!("{program} (Debian's {package}) is not installed and there is no apt-get: {without}"));
         return;
     }
-    say(&format!("installing {INTERPRETER}"));
+    say(&format!("installing {package}"));
     let apt = |arguments: &[&str]| {
         let mut command = Command::new("apt-get");
         command
@@ -120,9 +171,9 @@ fn install_interpreter() {
         command.status().is_ok_and(|status| status.success())
     };
     // Only root may; the package's name is looked up in lists that may be old or missing.
-    let is_installed = apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", INTERPRETER]);
-    if !is_installed || !is_in_path("rs274") {
-        say(&format!("apt-get could not install {INTERPRETER} (root may): {without}"));
+    let is_installed = apt(&["update"]) && apt(&["install", "-y", "--no-install-recommends", package]);
+    if !is_installed || !is_in_path(program) {
+        say(&format!("apt-get could not install {package} (root may): {without}"));
     }
 }
 
@@ -132,38 +183,38 @@ fn is_in_path(program: &str) -> bool {
 }
 
 fn install_validator() -> anyhow::Result<()> {
+    let without = "SARIF output is not validated";
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
-        say("the SARIF validator is made for Linux on x86-64: SARIF output is not validated here");
+        say(&format!("the SARIF validator is made for Linux on x86-64: {without} here"));
         return Ok(());
     }
+    if let Some(package) = install_from_npm(SARIF_VALIDATOR, SARIF_VALIDATOR_VERSION, without)? {
+        make_executable(&package.join("Sarif.Multitool"))?;
+    }
+    Ok(())
+}
+
+/// Installs an npm package into the folder of tools, unless it is there; its folder if it was installed.
+fn install_from_npm(name: &str, version: &str, without: &str) -> anyhow::Result<Option<PathBuf>> {
     let tools = workspace::root().join(TOOLS);
-    let package = tools.join("node_modules").join(SARIF_VALIDATOR);
-    if is_installed(&package) {
-        return Ok(());
+    let package = tools.join("node_modules").join(name);
+    let version_line = format!("\"version\": \"{version}\"");
+    if fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&version_line)) {
+        return Ok(None);
     }
     fs::create_dir_all(&tools)?;
-    say(&format!("installing {SARIF_VALIDATOR} into {TOOLS}"));
+    say(&format!("installing {name} into {TOOLS}"));
     let install = Command::new("npm")
         .args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--prefix"])
         .arg(&tools)
-        .arg(format!("{SARIF_VALIDATOR}@{SARIF_VALIDATOR_VERSION}"))
+        .arg(format!("{name}@{version}"))
         .status();
     match install {
-        Ok(status) if status.success() => make_executable(&package.join("Sarif.Multitool")),
-        Ok(_) => {
-            say("npm could not install the SARIF validator: SARIF output is not validated");
-            Ok(())
-        }
-        Err(_) => {
-            say("npm is not installed: SARIF output is not validated");
-            Ok(())
-        }
+        Ok(status) if status.success() => return Ok(Some(package)),
+        Ok(_) => say(&format!("npm could not install {name}: {without}")),
+        Err(_) => say(&format!("npm is not installed: {without}")),
     }
-}
-
-fn is_installed(package: &Path) -> bool {
-    let version = format!("\"version\": \"{SARIF_VALIDATOR_VERSION}\"");
-    fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&version))
+    Ok(None)
 }
 
 /// npm unpacks the program without its permission to run, because install scripts are off.

@@ -5,6 +5,7 @@
 mod deny;
 mod forms;
 mod layers;
+mod links;
 mod names;
 mod paths;
 mod surroundings;
@@ -66,6 +67,7 @@ pub(crate) fn check() -> anyhow::Result<Vec<Problem>> {
     problems.extend(deny::bans(&deny));
     problems.extend(deny::licences(&deny, &deny::licences_in_use(&workspace::graph()?)));
     problems.extend(check_files(&files));
+    problems.extend(links::problems(&files, |path| workspace::root().join(path).exists()));
     problems.sort_by(|a, b| (&a.path, a.line).cmp(&(&b.path, b.line)));
     Ok(problems)
 }

@@ -4,6 +4,7 @@
 //!
 //! A file is a suite and a finding a case of it. Errors and warnings fail; milder findings are cases that pass and say what
 //! was found, and a file without findings is a case that passes, since servers take a suite without cases for a mistake.
+//! The file is an attribute of the suite, not of the case: servers that hold reports against a schema know it only there.
 
 use std::io::{self, Write};
 
@@ -59,7 +60,8 @@ fn write_suite<W: Write>(file: &File, writer: &mut Writer<W>) -> io::Result<()> 
         .with_attribute(("name", path.as_ref()))
         .with_attribute(("tests", cases(file).to_string().as_str()))
         .with_attribute(("failures", failed(file).to_string().as_str()))
-        .with_attribute(("errors", "0"));
+        .with_attribute(("errors", "0"))
+        .with_attribute(("file", path.as_ref()));
     suite.write_inner_content(|writer| {
         if file.findings.is_empty() {
             let case = writer.create_element("testcase").with_attribute(("name", "no findings"));
@@ -76,9 +78,7 @@ fn write_case<W: Write>(file: &File, finding: &Finding, writer: &mut Writer<W>) 
     let case = writer
         .create_element("testcase")
         .with_attribute(("name", format!("{}:{} {}", at.line, at.column, finding.rule.id).as_str()))
-        .with_attribute(("classname", xml::text(&file.path).as_ref()))
-        .with_attribute(("file", xml::text(&file.path).as_ref()))
-        .with_attribute(("line", at.line.to_string().as_str()));
+        .with_attribute(("classname", xml::text(&file.path).as_ref()));
     let mut said = format!("{place}: {}[{}] {}", finding.severity, finding.rule.id, finding.message);
     for remark in remarks(finding) {
         said.push('\n');
@@ -110,11 +110,11 @@ mod tests {
         expect![[r#"
             <?xml version="1.0" encoding="UTF-8"?>
             <testsuites name="gcheck" tests="3" failures="1" errors="0">
-              <testsuite name="empty.nc" tests="1" failures="0" errors="0">
+              <testsuite name="empty.nc" tests="1" failures="0" errors="0" file="empty.nc">
                 <testcase name="no findings" classname="empty.nc"/>
               </testsuite>
-              <testsuite name="part.nc" tests="2" failures="1" errors="0">
-                <testcase name="4:5 feed-missing" classname="part.nc" file="part.nc" line="4">
+              <testsuite name="part.nc" tests="2" failures="1" errors="0" file="part.nc">
+                <testcase name="4:5 feed-missing" classname="part.nc">
                   <failure type="error" message="no feed rate is in effect">part.nc:4:5: error[feed-missing] no feed rate is in effect
             note: the control stops without a feed rate
             note: from the manual:
@@ -123,7 +123,7 @@ mod tests {
             note: assuming setting 162 is off
             help: write a feed rate, e.g. `F200.`</failure>
                 </testcase>
-                <testcase name="5:5 arc-end-off-circle" classname="part.nc" file="part.nc" line="5">
+                <testcase name="5:5 arc-end-off-circle" classname="part.nc">
                   <system-out>part.nc:5:5: info[arc-end-off-circle] arc may end off the circle</system-out>
                 </testcase>
               </testsuite>

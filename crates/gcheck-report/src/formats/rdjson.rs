@@ -9,7 +9,7 @@ use gcheck_rules::{Finding, Severity};
 use serde::Serialize;
 
 use super::list::List;
-use super::{HOME, remarks, rule_page};
+use super::{HOME, remarks};
 use crate::Report;
 use crate::report::File;
 use crate::source::Source;
@@ -89,7 +89,7 @@ fn diagnostic<'r>(file: &'r File, finding: &'r Finding) -> Diagnostic<'r> {
             Severity::Warning => "WARNING",
             Severity::Info | Severity::Hint => "INFO",
         },
-        code: Code { value: finding.rule.id, url: rule_page(finding.rule.id) },
+        code: Code { value: finding.rule.id, url: finding.rule.page() },
         suggestions: suggestions.collect(),
     }
 }

@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use gcheck_rules::{Finding, Fix, Label, RuleMeta, Severity};
 use serde::Serialize;
 
-use super::{HOME, remarks, rule_page};
+use super::{HOME, remarks};
 use crate::closing::number;
 use crate::report::File;
 use crate::source::Source;
@@ -333,7 +333,7 @@ fn rule(meta: &'static RuleMeta) -> Rule {
     let summary = sentence(meta.summary);
     let docs = meta.docs();
     let about = first_paragraph(&docs).unwrap_or_else(|| summary.clone());
-    let help_uri = rule_page(meta.id);
+    let help_uri = meta.page();
     let markdown = if docs.trim().is_empty() { about.clone() } else { docs.trim().to_owned() };
     Rule {
         id: meta.id,

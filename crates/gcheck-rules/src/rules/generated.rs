@@ -31,6 +31,7 @@ pub(crate) mod bar_feeder {
 
 pub(crate) mod compensation {
     pub(crate) mod compensation_gouge;
+    pub(crate) mod compensation_in_thread;
     pub(crate) mod compensation_left_on;
     pub(crate) mod compensation_off_in_arc;
     pub(crate) mod compensation_offset_missing;
@@ -47,6 +48,8 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_left_on;
     pub(crate) mod cycle_numbers_contradict;
     pub(crate) mod cycle_r_below_bottom;
+    pub(crate) mod cycle_repeated_in_place;
+    pub(crate) mod cycle_return_not_stated;
     pub(crate) mod cycle_under_compensation;
     pub(crate) mod cycle_with_rotary_word;
     pub(crate) mod cycle_word_missing;
@@ -58,7 +61,11 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_outline_unfit;
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
+    pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod turning_profile_first_block;
     pub(crate) mod turning_profile_not_usable;
+    pub(crate) mod turning_profile_turns_back;
+    pub(crate) mod turning_start_inside_profile;
 }
 
 pub(crate) mod five_axis {
@@ -114,10 +121,12 @@ pub(crate) mod macros {
     pub(crate) mod loop_end_missing;
     pub(crate) mod loops_nested_too_deep;
     pub(crate) mod maybe_variable_unset;
+    pub(crate) mod modal_call_left_on;
     pub(crate) mod named_parameter_unset;
     pub(crate) mod o_word_label_reused;
     pub(crate) mod o_word_unmatched;
     pub(crate) mod several_assignments;
+    pub(crate) mod variable_never_read;
     pub(crate) mod variable_number_not_whole;
     pub(crate) mod variable_read_before_set;
     pub(crate) mod variable_unlisted;
@@ -142,22 +151,27 @@ pub(crate) mod modal {
     pub(crate) mod maybe_incremental_left_on;
     pub(crate) mod modal_change_in_skipped_block;
     pub(crate) mod restart_with_changed_mode;
+    pub(crate) mod safe_start_missing;
     pub(crate) mod saved_modes_missing;
     pub(crate) mod too_many_m_codes;
     pub(crate) mod tool_section_not_restart_safe;
     pub(crate) mod two_codes_of_one_group;
+    pub(crate) mod units_changed;
     pub(crate) mod units_not_stated;
 }
 
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
+    pub(crate) mod corner_before_rapid;
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
+    pub(crate) mod feed_implausible;
     pub(crate) mod feed_missing;
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
     pub(crate) mod inverse_time_feed_missing;
+    pub(crate) mod machine_coordinates_in_increments;
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
@@ -165,17 +179,20 @@ pub(crate) mod motion {
     pub(crate) mod probe_without_feed;
     pub(crate) mod rapid_in_material;
     pub(crate) mod rapid_plunge;
+    pub(crate) mod rapid_sideways_and_down;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
 }
 
 pub(crate) mod offsets {
     pub(crate) mod mirror_left_on;
+    pub(crate) mod plane_changed_under_rotation;
     pub(crate) mod rotation_left_on;
     pub(crate) mod scaling_left_on;
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
     pub(crate) mod work_offset_not_chosen;
+    pub(crate) mod work_offset_of_one_tool;
 }
 
 pub(crate) mod probing {
@@ -206,6 +223,7 @@ pub(crate) mod program {
     pub(crate) mod stray_tape_mark;
     pub(crate) mod subprogram_missing;
     pub(crate) mod tape_mark_missing;
+    pub(crate) mod units_comment_contradicts;
     pub(crate) mod wrong_control_suspicion;
 }
 
@@ -214,6 +232,27 @@ pub(crate) mod spindle {
     pub(crate) mod speed_missing;
     pub(crate) mod spindle_stopped_while_cutting;
     pub(crate) mod surface_speed_without_limit;
+    pub(crate) mod tap_in_wrong_direction;
+    pub(crate) mod thread_at_surface_speed;
+}
+
+pub(crate) mod style {
+    pub(crate) mod blank_lines_in_a_row;
+    pub(crate) mod blanks_between_words_mixed;
+    pub(crate) mod decimal_points_mixed;
+    pub(crate) mod last_line_without_end;
+    pub(crate) mod leading_zeros_mixed;
+    pub(crate) mod letter_case_mixed;
+    pub(crate) mod line_ends_mixed;
+    pub(crate) mod minus_zero;
+    pub(crate) mod plus_signs_mixed;
+    pub(crate) mod program_without_name;
+    pub(crate) mod sequence_numbers_not_rising;
+    pub(crate) mod tab_in_code;
+    pub(crate) mod tool_change_without_comment;
+    pub(crate) mod trailing_blanks;
+    pub(crate) mod zero_before_point_mixed;
+    pub(crate) mod zero_behind_point_mixed;
 }
 
 pub(crate) mod suppressions {
@@ -255,9 +294,14 @@ pub(crate) mod syntax {
 }
 
 pub(crate) mod tool {
+    pub(crate) mod length_cancelled_before_cut;
     pub(crate) mod length_offset_of_another_tool;
+    pub(crate) mod length_offset_zero;
     pub(crate) mod tool_called_not_changed;
+    pub(crate) mod tool_change_without_stop;
     pub(crate) mod tool_change_without_t;
+    pub(crate) mod tool_comment_of_another_tool;
+    pub(crate) mod tool_cuts_dry;
     pub(crate) mod tool_length_missing;
 }
 
@@ -308,6 +352,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &bar_feeder::part_cut_off_twice::RULE,
     &bar_feeder::turret_in_the_way_of_bar::RULE,
     &compensation::compensation_gouge::RULE,
+    &compensation::compensation_in_thread::RULE,
     &compensation::compensation_left_on::RULE,
     &compensation::compensation_off_in_arc::RULE,
     &compensation::compensation_offset_missing::RULE,
@@ -321,6 +366,8 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::cycle_left_on::RULE,
     &cycles::cycle_numbers_contradict::RULE,
     &cycles::cycle_r_below_bottom::RULE,
+    &cycles::cycle_repeated_in_place::RULE,
+    &cycles::cycle_return_not_stated::RULE,
     &cycles::cycle_under_compensation::RULE,
     &cycles::cycle_with_rotary_word::RULE,
     &cycles::cycle_word_missing::RULE,
@@ -332,7 +379,11 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &cycles::pocket_outline_unfit::RULE,
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
+    &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::turning_profile_first_block::RULE,
     &cycles::turning_profile_not_usable::RULE,
+    &cycles::turning_profile_turns_back::RULE,
+    &cycles::turning_start_inside_profile::RULE,
     &five_axis::cutter_vector_incomplete::RULE,
     &five_axis::cutter_vector_not_unit::RULE,
     &five_axis::cutter_vector_without_size::RULE,
@@ -376,10 +427,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &macros::loop_end_missing::RULE,
     &macros::loops_nested_too_deep::RULE,
     &macros::maybe_variable_unset::RULE,
+    &macros::modal_call_left_on::RULE,
     &macros::named_parameter_unset::RULE,
     &macros::o_word_label_reused::RULE,
     &macros::o_word_unmatched::RULE,
     &macros::several_assignments::RULE,
+    &macros::variable_never_read::RULE,
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
     &macros::variable_unlisted::RULE,
@@ -398,19 +451,24 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &modal::maybe_incremental_left_on::RULE,
     &modal::modal_change_in_skipped_block::RULE,
     &modal::restart_with_changed_mode::RULE,
+    &modal::safe_start_missing::RULE,
     &modal::saved_modes_missing::RULE,
     &modal::too_many_m_codes::RULE,
     &modal::tool_section_not_restart_safe::RULE,
     &modal::two_codes_of_one_group::RULE,
+    &modal::units_changed::RULE,
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
+    &motion::corner_before_rapid::RULE,
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
+    &motion::feed_implausible::RULE,
     &motion::feed_missing::RULE,
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,
     &motion::inverse_time_feed_missing::RULE,
+    &motion::machine_coordinates_in_increments::RULE,
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
@@ -418,14 +476,17 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::probe_without_feed::RULE,
     &motion::rapid_in_material::RULE,
     &motion::rapid_plunge::RULE,
+    &motion::rapid_sideways_and_down::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &offsets::mirror_left_on::RULE,
+    &offsets::plane_changed_under_rotation::RULE,
     &offsets::rotation_left_on::RULE,
     &offsets::scaling_left_on::RULE,
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_not_chosen::RULE,
+    &offsets::work_offset_of_one_tool::RULE,
     &probing::first_touch_missing::RULE,
     &probing::kept_touch_never_used::RULE,
     &probing::length_written_for_another_tool::RULE,
@@ -450,11 +511,30 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &program::stray_tape_mark::RULE,
     &program::subprogram_missing::RULE,
     &program::tape_mark_missing::RULE,
+    &program::units_comment_contradicts::RULE,
     &program::wrong_control_suspicion::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::speed_missing::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
+    &spindle::tap_in_wrong_direction::RULE,
+    &spindle::thread_at_surface_speed::RULE,
+    &style::blank_lines_in_a_row::RULE,
+    &style::blanks_between_words_mixed::RULE,
+    &style::decimal_points_mixed::RULE,
+    &style::last_line_without_end::RULE,
+    &style::leading_zeros_mixed::RULE,
+    &style::letter_case_mixed::RULE,
+    &style::line_ends_mixed::RULE,
+    &style::minus_zero::RULE,
+    &style::plus_signs_mixed::RULE,
+    &style::program_without_name::RULE,
+    &style::sequence_numbers_not_rising::RULE,
+    &style::tab_in_code::RULE,
+    &style::tool_change_without_comment::RULE,
+    &style::trailing_blanks::RULE,
+    &style::zero_before_point_mixed::RULE,
+    &style::zero_behind_point_mixed::RULE,
     &suppressions::malformed_suppression::RULE,
     &suppressions::suppression_without_reason::RULE,
     &suppressions::unused_suppression::RULE,
@@ -487,9 +567,14 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::value_without_address::RULE,
     &syntax::while_without_do::RULE,
     &syntax::zero_for_letter_o::RULE,
+    &tool::length_cancelled_before_cut::RULE,
     &tool::length_offset_of_another_tool::RULE,
+    &tool::length_offset_zero::RULE,
     &tool::tool_called_not_changed::RULE,
+    &tool::tool_change_without_stop::RULE,
     &tool::tool_change_without_t::RULE,
+    &tool::tool_comment_of_another_tool::RULE,
+    &tool::tool_cuts_dry::RULE,
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
     &words::computed_value_out_of_range::RULE,

@@ -151,6 +151,8 @@ impl Run {
                 rpm: step.rpm,
                 machine: step.machine,
                 tool: step.tool,
+                h: None,
+                d: None,
                 beside: step.beside,
                 file: "part.nc",
             });

@@ -2,25 +2,24 @@
 //!
 //! Knows: how configuration, control and rules come together for a file. Must not know: other files, output.
 
-use std::collections::HashMap;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
-use gcheck_controls::{Control, UserCode};
 use gcheck_engine::Model;
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
 use gcheck_rules::{Execution, FixKinds, Job, Mended, Scene, Selection, check, describe_all, mend};
 use gcheck_syntax::SourceText;
 
+use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use super::read;
-use crate::Problem;
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
 use crate::control_choice::choose;
-use crate::execution::{Equipment, Start};
+use crate::in_force::Controls;
 use crate::programs::{ProgramFolders, Reachable};
+use crate::{Problem, in_force};
 
 /// A file that is to be checked.
 #[derive(Debug)]
@@ -32,9 +31,6 @@ pub(super) struct Target {
     pub(super) config: Arc<Config>,
 }
 
-/// A control's name and the codes that a configuration adds to it.
-type ControlKey = (String, Vec<UserCode>);
-
 /// What all files of a run share.
 pub(super) struct Bench<'o> {
     pub(super) control: Option<&'o str>,
@@ -43,41 +39,46 @@ pub(super) struct Bench<'o> {
     execution: Execution,
     fixes: Option<FixKinds>,
     set: &'o [Assignment],
-    folders: ProgramFolders,
-    /// Controls with the codes that configurations add to them.
-    controls: Mutex<HashMap<ControlKey, Arc<Control>>>,
+    folders: Arc<ProgramFolders>,
+    pub(super) controls: Controls,
+    /// Results of earlier runs, and what this run is called in them.
+    cache: Option<(Cache, Run)>,
 }
 
 impl<'o> Bench<'o> {
-    pub(super) fn new(global: &'o Global, options: &'o CheckOptions, wishes: RuleWishes) -> Self {
+    pub(super) fn new(
+        global: &'o Global,
+        options: &'o CheckOptions,
+        wishes: RuleWishes,
+        cache: Option<Cache>,
+    ) -> Self {
+        let control = global.control.as_deref();
+        let suppressions = !options.no_suppressions;
+        let execution =
+            Execution { fuel: options.fuel, block_skip: options.block_skip.map(|skip| skip == Switch::On) };
+        let run = Run::new(control, &wishes, suppressions, execution, &options.set);
         Self {
-            control: global.control.as_deref(),
+            control,
             wishes,
-            suppressions: !options.no_suppressions,
-            execution: Execution {
-                fuel: options.fuel,
-                block_skip: options.block_skip.map(|skip| skip == Switch::On),
-            },
+            suppressions,
+            execution,
             fixes: (options.fix || options.diff).then_some(if options.unsafe_fixes {
                 FixKinds::All
             } else {
                 FixKinds::Safe
             }),
             set: &options.set,
-            folders: ProgramFolders::default(),
-            controls: Mutex::default(),
+            folders: Arc::default(),
+            controls: Controls::default(),
+            cache: cache.map(|cache| (cache, run)),
         }
     }
 
-    /// A control with a shop's own codes; made once for each set of codes.
-    fn control_of(&self, name: &str, codes: &[UserCode]) -> Result<Arc<Control>, Problem> {
-        let plain = gcheck_controls::load(name).map_err(|error| Problem::new(error.to_string()))?;
-        if codes.is_empty() {
-            return Ok(plain);
+    /// To be called when all files are checked.
+    pub(super) fn end(&self) {
+        if let Some((cache, _)) = &self.cache {
+            cache.tidy();
         }
-        let key = (name.to_owned(), codes.to_vec());
-        let mut controls = self.controls.lock().unwrap_or_else(PoisonError::into_inner);
-        Ok(Arc::clone(controls.entry(key).or_insert_with(|| Arc::new(plain.with_user_codes(codes)))))
     }
 }
 
@@ -91,8 +92,15 @@ pub(super) struct Prepared {
 
 /// Reads a file and finds out what is in force for it.
 pub(super) fn prepare(bench: &Bench<'_>, target: &Target) -> Result<Prepared, Problem> {
-    let source = read(target)?;
-    let settings = target.config.settings(&target.path);
+    decide(bench, target, read(target)?, target.config.settings(&target.path))
+}
+
+fn decide(
+    bench: &Bench<'_>,
+    target: &Target,
+    source: SourceText,
+    settings: FileSettings,
+) -> Result<Prepared, Problem> {
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let choice = choose(&target.path, &source, bench.control, from)?;
     let selection =
@@ -120,19 +128,25 @@ pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Pro
 }
 
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
-    let Prepared { source, mut settings, choice, selection } = prepare(bench, target)?;
-    let control = bench.control_of(&choice.name, &settings.codes)?;
+    let source = read(target)?;
+    let settings = target.config.settings(&target.path);
+    // What is mended is checked over and over, and what comes in by a pipe has no place.
+    let cache = bench.cache.as_ref().filter(|_| bench.fixes.is_none() && !target.is_standard_input);
+    let slot = cache.and_then(|(cache, run)| Some((cache, run.key(&target.shown, &source, &settings)?)));
+    if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &settings, cache, key)) {
+        return Ok(Checked { report: report(target, source, verdict, 0), change: None });
+    }
+    let Prepared { source, settings, choice, selection } = decide(bench, target, source, settings)?;
+    let control = bench.controls.get(&choice.name, &settings.codes)?;
     let dialect = Dialect::new(&control);
-    let programs = Reachable::new(&bench.folders, &target.path, &settings.search);
+    let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
+    let questions = Questions::new(&programs);
     let model = Model::new(&control);
-    let mut equipment = Equipment::new(&settings, &model, Start::Any)?;
-    equipment.set(bench.set);
-    settings.machine.units_are_told = !equipment.units_assumed;
-    settings.machine.engine = equipment.machine;
+    let machine = in_force::machine(&settings, &control, bench.set)?;
     let scene = Scene {
         dialect: &dialect,
-        machine: &settings.machine,
-        programs: &programs,
+        machine: &machine,
+        programs: &questions,
         control_is_guessed: matches!(choice.source, ControlSource::Detected | ControlSource::Default),
     };
     let run = |source: &SourceText| {
@@ -157,20 +171,48 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
             (mended, change)
         }
     };
-    // A program without findings is never shown: let go of its text before the last file is read.
-    let text = if outcome.findings.is_empty() { SourceText::from("") } else { source };
-    let report = FileReport {
-        path: target.shown.clone(),
-        text: Arc::new(text),
+    let verdict = Verdict {
         control: choice,
         findings: outcome.findings,
         omitted: outcome.omitted,
         lines: outcome.lines,
         suppressed: outcome.suppressed,
-        baseline: 0,
-        fixed,
         out_of_fuel: outcome.out_of_fuel,
         assumptions: describe_all(&outcome.ledger, &model),
     };
-    Ok(Checked { report, change })
+    if let Some((cache, key)) = slot {
+        cache.store(key, &Entry::new(questions.into_asked(), &verdict));
+    }
+    Ok(Checked { report: report(target, source, verdict, fixed), change })
+}
+
+/// The verdict of an earlier run, if it would be found again.
+fn known(
+    bench: &Bench<'_>,
+    target: &Target,
+    settings: &FileSettings,
+    cache: &Cache,
+    key: Key,
+) -> Option<Verdict> {
+    let entry = cache.load(key)?;
+    let programs = Reachable::new(Arc::clone(&bench.folders), &target.path, &settings.search);
+    if answers_hold(&entry.asked, &programs) { entry.verdict() } else { None }
+}
+
+fn report(target: &Target, source: SourceText, verdict: Verdict, fixed: usize) -> FileReport {
+    // A program without findings is never shown: let go of its text before the last file is read.
+    let text = if verdict.findings.is_empty() { SourceText::from("") } else { source };
+    FileReport {
+        path: target.shown.clone(),
+        text: Arc::new(text),
+        control: verdict.control,
+        findings: verdict.findings,
+        omitted: verdict.omitted,
+        lines: verdict.lines,
+        suppressed: verdict.suppressed,
+        baseline: 0,
+        fixed,
+        out_of_fuel: verdict.out_of_fuel,
+        assumptions: verdict.assumptions,
+    }
 }

@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use std::sync::{PoisonError, RwLock};
 
 use gcheck_report::{Baseline, FileReport, StaleEntry};
 
@@ -21,7 +22,10 @@ pub(super) struct KnownFindings {
     path: PathBuf,
     /// Files are called by their paths from here, so that it does not matter where gcheck is started.
     folder: PathBuf,
-    baseline: Baseline,
+    /// It is being written, not only read.
+    is_written: bool,
+    /// Files are checked several at a time.
+    baseline: RwLock<Baseline>,
 }
 
 impl KnownFindings {
@@ -39,63 +43,70 @@ impl KnownFindings {
             }
         };
         let folder = paths::absolute(path).parent().map(Path::to_owned).unwrap_or_default();
-        Ok(Self { path: path.to_owned(), folder, baseline })
+        Ok(Self { path: path.to_owned(), folder, is_written, baseline: RwLock::new(baseline) })
     }
 
-    /// Takes known findings out of the reports, and gives what to say about entries that nothing answers to: the file was
-    /// checked, or is gone.
-    pub(super) fn apply(&self, reports: &mut [FileReport]) -> Option<String> {
-        let mut checked = BTreeSet::new();
-        let mut stale = Vec::new();
-        for report in reports {
-            let name = self.name_of(&report.path);
-            stale.extend(self.baseline.apply(&name, report));
-            checked.insert(name);
+    /// Takes known findings out of a report; gives the entries that found nothing.
+    ///
+    /// When the baseline is being written, everything in the report becomes known first.
+    pub(super) fn apply(&self, report: &mut FileReport) -> Vec<StaleEntry> {
+        let name = self.name_of(&report.path);
+        // A panic while it was locked cannot have left it half-written: files are put in whole.
+        if self.is_written {
+            self.baseline.write().unwrap_or_else(PoisonError::into_inner).record(&name, report);
         }
-        for file in
-            self.baseline.files().filter(|file| !checked.contains(*file) && is_gone(&self.folder, file))
-        {
-            stale.extend(self.baseline.entries_of(file));
-        }
-        (!stale.is_empty()).then(|| self.words(&stale))
+        self.baseline.read().unwrap_or_else(PoisonError::into_inner).apply(&name, report)
     }
 
-    /// Makes everything in the reports known and writes the baseline; gives what to say.
-    pub(super) fn update(&mut self, reports: &mut [FileReport]) -> Result<String, Problem> {
-        for report in reports.iter_mut() {
-            let name = self.name_of(&report.path);
-            self.baseline.record(&name, report);
+    /// Writes the baseline, if it is to be written, and gives what to say: how much is known, or which entries nothing answers
+    /// to. `stale` are those of the files that were checked; those of files that are gone are added.
+    pub(super) fn finish(
+        self,
+        reports: &[FileReport],
+        mut stale: Vec<StaleEntry>,
+    ) -> Result<Option<String>, Problem> {
+        let Self { path, folder, is_written, baseline } = self;
+        let mut baseline = baseline.into_inner().unwrap_or_else(PoisonError::into_inner);
+        if is_written {
+            baseline.forget(|file| is_gone(&folder, file));
+            let text = baseline.to_text();
+            output::to_file(&path, |out| out.write_all(text.as_bytes()))?;
+            let known = baseline.len();
+            let findings = if known == 1 { "finding is" } else { "findings are" };
+            return Ok(Some(format!("{}: {known} {findings} known from now on", paths::shown(&path))));
         }
-        let folder = &self.folder;
-        self.baseline.forget(|file| is_gone(folder, file));
-        let text = self.baseline.to_text();
-        output::to_file(&self.path, |out| out.write_all(text.as_bytes()))?;
-        let known = self.baseline.len();
-        let findings = if known == 1 { "finding is" } else { "findings are" };
-        Ok(format!("{}: {known} {findings} known from now on", paths::shown(&self.path)))
+        let checked: BTreeSet<String> = reports.iter().map(|report| name_in(&folder, &report.path)).collect();
+        for file in baseline.files().filter(|file| !checked.contains(*file) && is_gone(&folder, file)) {
+            stale.extend(baseline.entries_of(file));
+        }
+        Ok((!stale.is_empty()).then(|| words(&path, &stale)))
     }
 
     /// What the baseline calls a file.
     fn name_of(&self, shown: &str) -> String {
-        let path = paths::absolute(Path::new(shown));
-        paths::shown(path.strip_prefix(&self.folder).unwrap_or(&path))
+        name_in(&self.folder, shown)
     }
+}
 
-    fn words(&self, stale: &[StaleEntry]) -> String {
-        let named: Vec<String> =
-            stale.iter().take(NAMED).map(|entry| format!("{} of {}", entry.rule, entry.file)).collect();
-        let more = match stale.len().saturating_sub(NAMED) {
-            0 => String::new(),
-            more => format!(" and {more} more"),
-        };
-        let entries = if stale.len() == 1 { "entry is" } else { "entries are" };
-        format!(
-            "{}: {} {entries} stale, nothing is found there any more: {}{more}; `--update-baseline` drops them",
-            paths::shown(&self.path),
-            stale.len(),
-            named.join(", ")
-        )
-    }
+fn name_in(folder: &Path, shown: &str) -> String {
+    let path = paths::absolute(Path::new(shown));
+    paths::shown(path.strip_prefix(folder).unwrap_or(&path))
+}
+
+fn words(path: &Path, stale: &[StaleEntry]) -> String {
+    let named: Vec<String> =
+        stale.iter().take(NAMED).map(|entry| format!("{} of {}", entry.rule, entry.file)).collect();
+    let more = match stale.len().saturating_sub(NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    let entries = if stale.len() == 1 { "entry is" } else { "entries are" };
+    format!(
+        "{}: {} {entries} stale, nothing is found there any more: {}{more}; `--update-baseline` drops them",
+        paths::shown(path),
+        stale.len(),
+        named.join(", ")
+    )
 }
 
 fn is_gone(folder: &Path, file: &str) -> bool {

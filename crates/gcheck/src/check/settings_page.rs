@@ -4,7 +4,11 @@
 
 use std::fmt::Write as _;
 
+use gcheck_engine::{Machine, Model};
+use gcheck_geometry::{MmPerMin, Rpm};
+
 use super::job::{Bench, Prepared, Target, prepare};
+use crate::execution::{Equipment, Start};
 use crate::{Problem, paths};
 
 /// The settings of each target; what cannot be read is added to `problems`.
@@ -13,16 +17,25 @@ pub(super) fn page(bench: &Bench<'_>, targets: &[Target], problems: &mut Vec<Pro
     for target in targets {
         match prepare(bench, target) {
             // Writing to a string cannot fail.
-            Ok(prepared) => {
-                let _ = writeln!(out, "{}", of_file(target, &prepared));
-            }
+            Ok(prepared) => match machine(bench, &prepared) {
+                Ok(machine) => {
+                    let _ = writeln!(out, "{}", of_file(target, &prepared, &machine));
+                }
+                Err(problem) => problems.push(problem),
+            },
             Err(problem) => problems.push(problem),
         }
     }
     out
 }
 
-fn of_file(target: &Target, prepared: &Prepared) -> String {
+/// The machine as the program would find it.
+fn machine(bench: &Bench<'_>, prepared: &Prepared) -> Result<Machine, Problem> {
+    let control = bench.controls.get(&prepared.choice.name, &prepared.settings.codes)?;
+    Ok(Equipment::new(&prepared.settings, &Model::new(&control), Start::Any)?.machine)
+}
+
+fn of_file(target: &Target, prepared: &Prepared, machine: &Machine) -> String {
     let Prepared { settings, choice, selection, .. } = prepared;
     let mut out = format!("{}\n", target.shown);
     let because = choice.because.as_ref().map(|b| format!(" ({b})")).unwrap_or_default();
@@ -33,6 +46,21 @@ fn of_file(target: &Target, prepared: &Prepared) -> String {
     if let Some(axes) = settings.machine.axes {
         let axes: Vec<String> = axes.iter().map(|a| a.to_string()).collect();
         let _ = writeln!(out, "  axes: {}", axes.join(" "));
+    }
+    for (axis, (low, high)) in &machine.travel {
+        let unit = if axis.is_rotary() { "degrees" } else { "mm" };
+        let _ = writeln!(out, "  travel {}: {low} to {high} {unit}", axis.letter());
+    }
+    if let Some(Rpm(most)) = machine.max_rpm {
+        let _ = writeln!(out, "  speed: at most {most} rpm");
+    }
+    if let Some(MmPerMin(most)) = machine.max_feed {
+        let _ = writeln!(out, "  feed: at most {most} mm/min");
+    }
+    for (what, count) in [("work offsets", machine.offsets.len()), ("tools", machine.tools.len())] {
+        if count > 0 {
+            let _ = writeln!(out, "  {what} known: {count}");
+        }
     }
     for (number, value) in &settings.machine.settings {
         let _ = writeln!(out, "  setting {number}: {value}");

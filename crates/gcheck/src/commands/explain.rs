@@ -67,9 +67,17 @@ fn explain_code(global: &Global, number: CodeNumber) -> Result<u8, Problem> {
 }
 
 fn of_rule(meta: &RuleMeta) -> String {
-    let on = if meta.recommended { "on by default" } else { "off by default" };
+    let on = if meta.recommended {
+        "on by default".to_owned()
+    } else {
+        format!("off by default (in {})", meta.sets().join(", "))
+    };
+    let mends = match meta.mends.option() {
+        "" => String::new(),
+        option => format!(", mended by {option}"),
+    };
     format!(
-        "{}: {}\n\nseverity {}, {on}, group {}, since {}\n\n{}",
+        "{}: {}\n\nseverity {}, {on}{mends}, group {}, since {}\n\n{}",
         meta.id,
         meta.summary,
         meta.severity,

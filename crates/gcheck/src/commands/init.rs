@@ -9,30 +9,20 @@ use crate::args::Global;
 use crate::config::{Configs, FILE_NAMES, validate_control};
 use crate::{Problem, discovery, output, reading};
 
-/// Programs that are looked at to find the control of the folder.
-const LOOKED_AT: usize = 50;
+/// Programs that are looked at to find the control of the folder, at most.
+const LOOKED_AT: usize = 200;
 
 /// Writes the file; refuses to write over one.
 pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     if let Some(existing) = FILE_NAMES.iter().map(Path::new).find(|path| path.symlink_metadata().is_ok()) {
         return Err(Problem::with_file(existing, "is here already; it was left as it is"));
     }
-    let (control, why) = match &global.control {
+    let line = match &global.control {
         Some(name) => {
             validate_control(name).map_err(Problem::new)?;
-            (Some(name.clone()), String::new())
+            format!("control = \"{name}\"")
         }
-        None => {
-            let (control, programs) = most_common_control()?;
-            let why = control
-                .as_ref()
-                .map_or_else(String::new, |_| format!("  # detected from {programs} of the programs here"));
-            (control, why)
-        }
-    };
-    let line = match &control {
-        Some(name) => format!("control = \"{name}\"{why}"),
-        None => format!("# control = \"{}\"", gcheck_controls::fallback()),
+        None => control_line(&detected()?),
     };
     let names = gcheck_controls::names().join(", ");
     let text = TEMPLATE.replace("{control}", &line).replace("{names}", &names);
@@ -41,19 +31,40 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     output::print(&format!("wrote {}\n", path.display()))
 }
 
-/// The control that most programs of the folder show, and how many do.
-fn most_common_control() -> Result<(Option<String>, usize), Problem> {
+/// The controls that programs of the folder show of themselves, with how many do.
+fn detected() -> Result<BTreeMap<String, usize>, Problem> {
     let mut configs = Configs::new(&[], true)?;
     let found = discovery::find(&[PathBuf::from(".")], &mut configs);
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    for path in found.files.iter().take(LOOKED_AT) {
+    // From everywhere in the folder: what stands together is often of one machine.
+    let step = found.files.len().div_ceil(LOOKED_AT).max(1);
+    for path in found.files.iter().step_by(step) {
         let Ok(source) = reading::file(path) else { continue };
         if let Some(guess) = gcheck_controls::guess(&gcheck_rules::collect_evidence(&source)) {
             *counts.entry(guess.control).or_default() += 1;
         }
     }
-    let most = counts.into_iter().max_by_key(|(_, count)| *count);
-    Ok(most.map_or((None, 0), |(name, count)| (Some(name), count)))
+    Ok(counts)
+}
+
+/// Says the control where the programs agree on one. Where they do not, a line for all would be wrong for many of them.
+fn control_line(counts: &BTreeMap<String, usize>) -> String {
+    let all: usize = counts.values().sum();
+    let Some((name, count)) = counts.iter().max_by_key(|(_, count)| **count) else {
+        return format!("# control = \"{}\"", gcheck_controls::fallback());
+    };
+    if count * 10 >= all * 9 {
+        return format!("control = \"{name}\"  # detected from {count} of the programs here");
+    }
+    let mut counts: Vec<(&String, &usize)> = counts.iter().collect();
+    counts.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
+    let list: Vec<String> = counts.iter().map(|(name, count)| format!("{name} ({count})")).collect();
+    format!(
+        "# The programs here look like several: {}.\n\
+         # Without this line each is read as what it looks like; `[[overrides]]` below says it for a folder.\n\
+         # control = \"{name}\"",
+        list.join(", ")
+    )
 }
 
 const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this folder and below.
@@ -91,13 +102,19 @@ const TEMPLATE: &str = r#"# Configuration of gcheck for the programs in this fol
 # paths = ["macros/"]
 
 [rules]
-# select = ["recommended"]
+# select = ["recommended"]  # also "strict", "restart-safe", "house-style"
 # missing-decimal-point = "info"
+
+# How `gcheck fmt` writes programs; what is left out follows the customs of the control.
+[format]
+# leading-zeros = "add"      # G01
+# comment-column = 40
 
 # Rules that are off for some programs.
 [per-file-ignores]
 # "legacy/**" = ["words"]
 
+# What holds for some programs only.
 # [[overrides]]
 # files = ["lathe/**"]
 # control = "…"

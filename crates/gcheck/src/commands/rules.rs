@@ -2,6 +2,7 @@
 //!
 //! Knows: what a list of rules shows. Must not know: any rule.
 
+use gcheck_rules::RuleSet;
 use serde::Serialize;
 
 use super::{columns, json};
@@ -16,6 +17,8 @@ struct Row {
     summary: &'static str,
     severity: &'static str,
     recommended: bool,
+    sets: Vec<&'static str>,
+    mends: Option<&'static str>,
     tier: &'static str,
     since: &'static str,
     aliases: &'static [&'static str],
@@ -31,6 +34,8 @@ pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
             summary: meta.summary,
             severity: meta.severity.name(),
             recommended: meta.recommended,
+            sets: meta.sets(),
+            mends: Some(meta.mends.option()).filter(|option| !option.is_empty()),
             tier: meta.tier.name(),
             since: meta.since,
             aliases: meta.aliases,
@@ -43,7 +48,10 @@ pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
             let row = |r: &Row| {
                 let severity =
                     if r.recommended { r.severity.to_owned() } else { format!("({})", r.severity) };
-                vec![r.id.to_owned(), r.group.to_owned(), severity, r.summary.to_owned()]
+                // The strict set holds the recommended one: of a rule in both, one says all.
+                let sets = r.sets.iter().filter(|set| !(r.recommended && **set == RuleSet::Strict.name()));
+                let sets = sets.copied().collect::<Vec<_>>().join(" ");
+                vec![r.id.to_owned(), r.group.to_owned(), severity, sets, r.summary.to_owned()]
             };
             output::print(&columns(&rows.iter().map(row).collect::<Vec<_>>()))
         }

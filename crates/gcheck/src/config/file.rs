@@ -11,7 +11,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use super::Placed;
+use super::{FormatTable, Placed};
 
 /// Configuration of gcheck: `gcheck.toml` or `.gcheck.toml` in the folder of the programs or above it.
 #[derive(Debug, Clone, Default, Deserialize, JsonSchema)]
@@ -45,6 +45,8 @@ pub struct ConfigFile {
     pub overrides: Vec<OverrideTable>,
     /// Which files of a folder are read.
     pub files: FilesTable,
+    /// How `gcheck fmt` writes programs.
+    pub format: FormatTable,
 }
 
 /// What differs for the files that fit a pattern.
@@ -73,6 +75,8 @@ pub struct OverrideTable {
     pub search: SearchTable,
     /// As above.
     pub rules: RulesTable,
+    /// As above.
+    pub format: FormatTable,
 }
 
 /// `[machine]`.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use gcheck_controls::UserCode;
 
 use super::file::{FilesTable, OverrideTable, RulesTable, SearchTable, ToolTable, Units};
-use super::{ConfigFile, MachineTable, PathPattern, Placed, validate};
+use super::{ConfigFile, FormatTable, MachineTable, PathPattern, Placed, validate};
 use crate::Problem;
 
 /// A configuration text that has been checked.
@@ -36,6 +36,7 @@ pub(super) struct Facts {
     pub(super) execution: ExecutionFacts,
     pub(super) search: Vec<PathBuf>,
     pub(super) rules: RulesTable,
+    pub(super) format: FormatTable,
 }
 
 /// What a layer, or an override in it, says for the execution of programs. Lengths are in its own units.
@@ -101,6 +102,7 @@ impl Layer {
             execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
             search: text.search(&file.search),
             rules: facts.rules(&file.rules)?,
+            format: file.format.clone(),
         };
         let overrides =
             file.overrides.iter().map(|table| overriding(text, &file, table)).collect::<Result<_, _>>()?;
@@ -114,6 +116,21 @@ impl Layer {
         let include = include.as_ref().map(|patterns| text.patterns(patterns)).transpose()?;
         let exclude = text.patterns(exclude)?;
         Ok(Self { path, file, base, overrides, per_file_ignores, include, exclude })
+    }
+
+    /// What it says about some programs or all.
+    fn facts(&self) -> impl Iterator<Item = &Facts> {
+        std::iter::once(&self.base).chain(self.overrides.iter().map(|(_, facts)| facts))
+    }
+
+    /// Tool tables on disk.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &Path> {
+        self.facts().filter_map(|facts| facts.execution.table.as_deref())
+    }
+
+    /// Folders in which called programs are looked for.
+    pub(super) fn search(&self) -> impl Iterator<Item = &Path> {
+        self.facts().flat_map(|facts| facts.search.iter().map(PathBuf::as_path))
     }
 }
 
@@ -133,6 +150,7 @@ fn overriding(
         execution,
         search: text.search(&table.search),
         rules: facts.rules(&table.rules)?,
+        format: table.format.clone(),
     };
     Ok((text.patterns(&table.files)?, own))
 }

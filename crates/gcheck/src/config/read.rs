@@ -129,13 +129,14 @@ fn in_words(message: &str) -> String {
 }
 
 /// Names of types in messages, and what they are called outside Rust.
-const RUST_WORDS: [(&str, &str); 12] = [
+const RUST_WORDS: [(&str, &str); 13] = [
     ("floating point `", "number `"),
     ("integer `", "number `"),
     ("boolean `", "`"),
     ("string \"", "text \""),
     ("expected f64", "expected a number"),
     ("expected u32", "expected a whole number from 0"),
+    ("expected u8", "expected a whole number from 0 to 255"),
     ("expected i8", "expected a whole number"),
     ("expected a string", "expected a text"),
     ("expected a sequence", "expected a list"),
@@ -182,6 +183,18 @@ mod tests {
         check(
             "[rules]\nunknown-code = \"loud\"\n",
             "gcheck.toml:2:16: unknown value `loud`; known are off, hint, info, warning, error",
+        );
+        check(
+            "[format]\nword-spacing = \"two\"\n",
+            "gcheck.toml:2:16: unknown value `two`; did you mean `one`?",
+        );
+        check(
+            "[format]\nword_spacing = 1\n",
+            "gcheck.toml:2:1: unknown key `word_spacing`; did you mean `word-spacing`?",
+        );
+        check(
+            "[format]\ncomment-column = 300\n",
+            "gcheck.toml:2:18: wrong value: number `300`, expected a whole number from 0 to 255",
         );
         check("machine = 3\n", "gcheck.toml:1:11: wrong type: number `3`, expected a table");
         check(

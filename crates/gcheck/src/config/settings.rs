@@ -3,13 +3,14 @@
 //! Knows: the order in which layers and overrides win. Must not know: the program's text.
 
 use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gcheck_controls::{Letter, LetterSet, UserCode};
 use gcheck_rules::{MachineFacts, Selection, Severity, UnknownRule};
 
 use super::layer::{ExecutionFacts, Facts};
-use super::{Config, MachineTable, RulesTable};
+use super::{Config, FormatTable, MachineTable, RulesTable};
 use crate::paths;
 
 /// The settings of one program.
@@ -27,6 +28,8 @@ pub struct FileSettings {
     pub codes: Vec<UserCode>,
     /// Folders in which called programs are looked for, besides the file's own.
     pub search: Vec<PathBuf>,
+    /// How the program is to be written.
+    pub format: FormatTable,
     /// Rules tables, in the order in which they apply.
     rules: Vec<RulesTable>,
     /// Rules that are off for this file.
@@ -70,6 +73,29 @@ impl Config {
 }
 
 impl FileSettings {
+    /// Everything it says, for telling settings apart. Tables on disk are left to [`Self::tables`]; folders and files are
+    /// called as messages call them, so that the place of a checkout does not count.
+    pub(crate) fn in_words(&self) -> String {
+        // Named one by one: a field that is added must be thought of here.
+        // How programs are formatted changes no finding.
+        let Self { control, control_from, machine, execution, codes, search, rules, ignored, format: _ } =
+            self;
+        let control_from = control_from.as_deref().map(paths::shown_from_here);
+        let search: Vec<String> = search.iter().map(|folder| paths::shown_from_here(folder)).collect();
+        let mut words = format!("{:?}", (control, control_from, machine, codes, search, rules, ignored));
+        for facts in execution {
+            let ExecutionFacts { units, machine, variables, offsets, tools, table: _ } = facts;
+            // Writing to a string cannot fail.
+            let _ = write!(words, "{:?}", (units, machine, variables, offsets, tools));
+        }
+        words
+    }
+
+    /// Tool tables on disk that it names.
+    pub(crate) fn tables(&self) -> impl Iterator<Item = &Path> {
+        self.execution.iter().filter_map(|facts| facts.table.as_deref())
+    }
+
     fn put(&mut self, facts: &Facts, from: Option<&Path>) {
         if let Some(control) = &facts.control {
             self.control = Some(control.clone());
@@ -88,6 +114,7 @@ impl FileSettings {
         }
         self.search.extend(facts.search.iter().cloned());
         self.rules.push(facts.rules.clone());
+        self.format.put(&facts.format);
     }
 
     /// The rules that run on the file.

@@ -7,12 +7,11 @@ use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
 use gcheck_engine::{
-    At, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Model, Observer, Origin, Position, RunResult,
-    Spindle, State, Stop, Truth,
+    At, Concrete, ConcreteValue, Domain as _, Event, Observer, Origin, Position, RunResult, State, Stop,
 };
 use gcheck_geometry::Mm;
 use gcheck_report::LineIndex;
-use gcheck_toolpath::{Beside, Step};
+use gcheck_toolpath::{Beside, Spot, Step};
 
 use super::Session;
 
@@ -144,23 +143,14 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         }
         let model = self.session.model;
         let (file, line) = self.place(origin);
-        let step = Step {
-            event,
-            n: if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) {
-                self.executing
-            } else {
-                origin.n
-            },
-            line,
-            units: state.units(model).unwrap_or(self.session.prepared.equipment.units),
-            feed_mode: state.feed_mode(model).unwrap_or(FeedMode::PerMinute),
-            feed: number(state.feed()),
-            rpm: turns(state),
-            machine: machine(state, model, event),
-            tool: tool(state.tool()),
-            beside: self.beside(state, event),
-            file: &file,
+        let n = if S::AS_INTERPRETED && (origin.n.is_some() || origin.at != self.executing_at) {
+            self.executing
+        } else {
+            origin.n
         };
+        let spot = Spot { file: &file, line, n };
+        let units = self.session.prepared.equipment.units;
+        let step = Step { beside: self.beside(state, event), ..Step::seen(event, state, model, spot, units) };
         if let Err(error) = self.steps.step(&step) {
             self.error = Some(error);
             panic::resume_unwind(Box::new(OutputFailed));
@@ -168,30 +158,7 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     }
 }
 
-fn number(value: &ConcreteValue) -> f64 {
-    Concrete::known(value).unwrap_or(f64::NAN)
-}
-
 #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
 fn tool(value: &ConcreteValue) -> Option<u32> {
     Concrete::known(value).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
-}
-
-/// Turns of the spindle, or of the live tool that stands in for it.
-fn turns(state: &State<Concrete>) -> f64 {
-    match (state.spindle(), state.live_tool()) {
-        (Some(Spindle::Stopped), Truth::False) => 0.0,
-        (Some(Spindle::Clockwise | Spindle::CounterClockwise), _) | (_, Truth::True) => number(state.speed()),
-        _ => f64::NAN,
-    }
-}
-
-/// Where a move ends. The state may be ahead of the move, so that its own end counts where there is one.
-fn machine(state: &State<Concrete>, model: &Model<'_>, event: &Event) -> Position {
-    match event {
-        Event::Travel(travel) => state.to_machine(&travel.to, model),
-        Event::Arc(arc) => state.to_machine(&arc.to, model),
-        Event::Curve(curve) => state.to_machine(&curve.to, model),
-        _ => state.machine(model),
-    }
 }

@@ -49,16 +49,22 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
 
 /// Says why a run did not come to the end of the program.
 pub(crate) fn end_of_run(session: &Session<'_>, result: &RunResult) {
-    if let Some(Fault { words, range, name, text }) = fault_of(session, result) {
-        let mut problem = Problem::at(&name, &text, &range, words.message);
-        if let Some(why) = words.why {
-            problem = problem.note(why);
-        }
-        if let Some(help) = words.help {
-            problem = problem.help(help);
-        }
-        crate::report(&problem);
+    if let Some(fault) = fault_of(session, result) {
+        crate::report(&problem_of(&fault));
     }
+}
+
+/// The message about a run that did not come to the end of the program.
+pub(crate) fn problem_of(fault: &Fault) -> Problem {
+    let Fault { words, range, name, text } = fault;
+    let mut problem = Problem::at(name, text, range, words.message.clone());
+    if let Some(why) = &words.why {
+        problem = problem.note(why.clone());
+    }
+    if let Some(help) = &words.help {
+        problem = problem.help(help.clone());
+    }
+    problem
 }
 
 /// Why a run ended before the program did, and where.

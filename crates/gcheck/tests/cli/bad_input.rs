@@ -365,12 +365,12 @@ fn names_that_do_not_exist() {
     "#]],
     );
     check_configuration(
-        "[per-file-ignores]\n\"old/**\" = [\"stile\"]\n",
+        "[per-file-ignores]\n\"old/**\" = [\"quirk\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:13: `stile` is no rule, group or set of rules; `gcheck rules` lists them
+        ! error: shop/gcheck.toml:2:13: `quirk` is no rule, group or set of rules; `gcheck rules` lists them
         !   |
-        ! 2 | "old/**" = ["stile"]
+        ! 2 | "old/**" = ["quirk"]
         !   |             ^^^^^^^
         exit 2
     "#]],

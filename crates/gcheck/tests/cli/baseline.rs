@@ -132,7 +132,21 @@ fn a_baseline_that_is_missing_or_damaged_is_left_alone() {
     update(&shop);
     let good = shop.read("gcheck-baseline.json");
     let conflict = good.replace("  {\"file\":\"a.nc\"", "<<<<<<< HEAD\n  {\"file\":\"a.nc\"");
-    for (damage, also) in [(conflict.as_str(), ""), ("{", ""), ("", " --update-baseline")] {
+    let later = good.replace("\"version\": 1", "\"version\": 2");
+    let twice = format!("{good}{good}");
+    let cut = good.get(..good.len() / 2).unwrap();
+    for (damage, also) in [
+        (conflict.as_str(), ""),
+        (conflict.as_str(), " --update-baseline"),
+        (later.as_str(), ""),
+        (later.as_str(), " --update-baseline"),
+        (twice.as_str(), ""),
+        (cut, ""),
+        ("{", ""),
+        ("[]", ""),
+        ("null", ""),
+        ("", " --update-baseline"),
+    ] {
         shop.file("gcheck-baseline.json", damage);
         let run = shop.gcheck(&format!("{CHECK}{also}"));
         assert_eq!((run.code, shop.read("gcheck-baseline.json").as_str()), (2, damage), "{run}");
@@ -147,6 +161,35 @@ fn a_baseline_that_is_missing_or_damaged_is_left_alone() {
         exit 2
     "#]]
     .assert_eq(&shop.gcheck(CHECK).to_string());
+}
+
+#[test]
+fn a_baseline_of_a_later_version_is_refused() {
+    let shop = shop();
+    shop.file("gcheck-baseline.json", "{\n\"version\": 2,\n\"findings\": []\n}\n");
+    expect![[r#"
+        ! error: gcheck-baseline.json:1:1: is of version 2; this gcheck reads version 1
+        !   |
+        ! 1 | {
+        !   | ^
+        !   help: use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck(CHECK).to_string());
+}
+
+#[test]
+fn a_merge_that_kept_lines_of_both_sides_is_read() {
+    let shop = shop();
+    update(&shop);
+    let good = shop.read("gcheck-baseline.json");
+    let line = good.lines().find(|line| line.contains("a.nc")).unwrap().trim_end_matches(',');
+    // The same entry twice, out of order.
+    shop.file("gcheck-baseline.json", good.replace("\n]", &format!(",\n{line}\n]")));
+    let run = shop.gcheck(CHECK);
+    assert_eq!(run.code, 0, "{run}");
+    update(&shop);
+    assert_eq!(shop.read("gcheck-baseline.json"), good);
 }
 
 #[test]

@@ -306,3 +306,37 @@ fn what_is_in_force_is_shown() {
         exit 0
     "#]].assert_eq(&shop.gcheck("check --show-settings --isolated --select too-many-m-codes,codes-conflict --control linuxcnc").to_string());
 }
+
+#[test]
+fn the_machine_in_force_can_be_looked_at() {
+    let shop = Shop::with(&[
+        (
+            "gcheck.toml",
+            "control = \"haas-mill\"\n[machine]\nunits = \"inch\"\ntravel.X = [-30.0, 0.0]\ntravel.B = [-32.0, 32.0]\n\
+             max_rpm = 8100\nmax_feed = 500.0\n[offsets]\nG54 = { X = -10.0 }\n[tools]\n1 = { length = 4.0 }\n2 = { length = 5.0 }\n",
+        ),
+        ("part.nc", GOOD),
+    ]);
+    expect![[r#"
+        part.nc
+          control: haas-mill, by configuration (gcheck.toml)
+          configuration: gcheck.toml
+          travel X: -762 to 0 mm
+          travel B: -32 to 32 degrees
+          speed: at most 8100 rpm
+          feed: at most 12700 mm/min
+          work offsets known: 1
+          tools known: 2
+          rules (8): arc-centre-and-radius, arc-end-off-circle, arc-mode-left-on, arc-radius-too-small, arc-turns-not-whole, arc-wrong-plane-word, full-circle-by-radius, zero-radius-arc
+
+        exit 0
+    "#]].assert_eq(&shop.gcheck("check --show-settings --select arcs").to_string());
+}
+
+#[test]
+fn a_mistake_is_said_where_there_are_no_programs_yet() {
+    let shop = Shop::with(&[("gcheck.toml", "[machine]\naxis = [\"X\"]\n")]);
+    let run = shop.gcheck("check");
+    assert_eq!(run.code, 2, "{run}");
+    assert!(run.stderr.contains("gcheck.toml:2:1: ") && run.stderr.contains("`axes`"), "{run}");
+}

@@ -113,3 +113,32 @@ fn standard_input_and_flags_without_their_command() {
     assert_eq!(shop.gcheck("check --unsafe-fixes").code, 2);
     assert_eq!(shop.gcheck("check --fix --diff").code, 2);
 }
+
+/// The second input is a pipe that is not filled before the first file was checked and changed by somebody else.
+#[cfg(unix)]
+#[test]
+fn a_file_that_changes_while_it_is_mended_is_left_alone() {
+    use std::fs;
+    use std::process::{Command, Stdio};
+
+    let shop = Shop::with(&[("part.nc", MENDABLE)]);
+    assert!(Command::new("mkfifo").arg(shop.path("pipe")).status().unwrap().success());
+    let mut command = shop.command();
+    command.args(format!("{CHECK} --quiet --fix --jobs 1 part.nc pipe").split_whitespace());
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // Opening it waits for its reader.
+    let mut pipe = fs::File::options().write(true).open(shop.path("pipe")).unwrap();
+    let theirs = MENDABLE.replace("Y2.", "Y3.");
+    shop.file("part.nc", &theirs);
+    std::io::Write::write_all(&mut pipe, GOOD.as_bytes()).unwrap();
+    drop(pipe);
+    let output = child.wait_with_output().unwrap();
+    expect![[r#"
+        error: part.nc: was changed by somebody else meanwhile, and is left alone
+          help: run gcheck again
+    "#]]
+    .assert_eq(&String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(2));
+    assert_eq!(shop.read("part.nc"), theirs);
+    assert_eq!(shop.names(), ["part.nc", "pipe"], "nothing else stays behind");
+}

@@ -119,7 +119,9 @@ fn what_cannot_be_explained() {
 fn rules_are_listed() {
     let rules = list("rules");
     assert!(rules.len() >= 35);
-    for key in ["id", "group", "summary", "severity", "recommended", "tier", "since", "aliases"] {
+    for key in
+        ["id", "group", "summary", "severity", "recommended", "sets", "mends", "tier", "since", "aliases"]
+    {
         assert!(rules.iter().all(|rule| rule.get(key).is_some()), "{key}");
     }
     let text = Shop::new().gcheck("rules").stdout;
@@ -170,6 +172,24 @@ fn init_writes_a_configuration_that_is_valid() {
     let run = shop.gcheck("check --output-format json");
     assert_eq!(run.code, 0, "{run}");
     assert_eq!(run.json()["files"][0]["control"]["source"], "configuration");
+}
+
+/// One line for all would be wrong for many of them.
+#[test]
+fn init_chooses_no_control_for_a_mixed_folder() {
+    let shop = Shop::with(&[
+        ("a.nc", "%\nO0001 (PART FOR HAAS VF-2)\nM30\n%\n"),
+        ("b.nc", "%\nO0002 (PART FOR HAAS VF-2)\nM30\n%\n"),
+        ("c.ngc", "o<sub> sub\n#<_x> = 1\no<sub> endsub\nM2\n"),
+    ]);
+    assert_eq!(shop.gcheck("init").code, 0);
+    let text = shop.read("gcheck.toml");
+    assert!(text.contains("# The programs here look like several: haas-mill (2), linuxcnc (1).\n"), "{text}");
+    assert!(text.contains("\n# control = \"haas-mill\"\n"), "{text}");
+    assert_eq!(
+        shop.gcheck("check --output-format json c.ngc").json()["files"][0]["control"]["source"],
+        "detected"
+    );
 }
 
 #[test]

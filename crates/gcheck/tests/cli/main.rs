@@ -12,17 +12,24 @@
 
 mod bad_input;
 mod baseline;
+mod cache;
+mod ci_files;
 mod configuration;
 mod control;
 mod determinism;
+mod diff;
 mod exit_codes;
 mod fixes;
 mod formats;
+mod formatting;
 mod lists;
 mod output;
+mod plot;
+mod readers;
 mod run;
 mod shop;
 mod stats;
 mod suppressions;
 mod tour;
 mod walking;
+mod watch;

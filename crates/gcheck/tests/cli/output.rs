@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 use std::io::Read as _;
-use std::process::Stdio;
+use std::process::{Command, Stdio};
 
 use expect_test::expect;
 
@@ -258,4 +258,82 @@ fn two_outputs_do_not_share_a_file() {
     "#]]
     .assert_eq(&shop.gcheck("check --quiet -o one -o two").to_string());
     assert_eq!(shop.names(), ["part.nc"]);
+}
+
+/// What is found in many files is bounded together: a thousand times a thousand findings, told whole and shown in part.
+#[test]
+fn a_thousand_files_with_a_thousand_findings() {
+    let program = format!("%\nO0001\n{}M30\n%\n", "G999\n".repeat(1_000));
+    let shop = Shop::new();
+    for number in 0..1_000 {
+        shop.file(&format!("{number:03}.nc"), &program);
+    }
+    let arguments =
+        "check --control haas-mill --select unknown-code -o concise=findings.txt --output-format junit";
+    let run = |jobs: usize| {
+        // Half a gigabyte is more than it takes, and half of what all findings would.
+        let mut command = shop.command();
+        if cfg!(target_os = "linux") {
+            let gcheck = env!("CARGO_BIN_EXE_gcheck");
+            command = Command::new("sh");
+            command.current_dir(shop.path("")).env_clear();
+            command.args([
+                "-c",
+                &format!("ulimit -v 600000; exec {gcheck} {arguments} --jobs {jobs} -o all.xml"),
+            ]);
+        } else {
+            command.args(arguments.split_whitespace()).args(["-o", "all.xml"]);
+        }
+        let run = shop.finish(&mut command, b"");
+        assert_eq!((run.code, run.stderr.as_str()), (1, ""), "{run}");
+        (shop.read("findings.txt"), shop.read("all.xml"))
+    };
+    let (concise, junit) = run(1);
+    assert_eq!(concise.lines().count(), 100_000, "those of the first files");
+    assert!(concise.lines().last().unwrap().starts_with("099.nc:1002:1: "));
+    assert_eq!(junit.matches("<testsuite ").count(), 1_000, "every file is told");
+    assert!(run(4) == (concise, junit), "which of them does not depend on the number of threads");
+    let run = shop.gcheck("check --control haas-mill --select unknown-code --output-format gitlab -o a.json");
+    assert_eq!(run.stderr, "", "{run}");
+    let run = shop.gcheck("check --control haas-mill --select unknown-code --output-format concise -o b.txt");
+    assert!(run.stderr.contains("1,000,000 errors in 1,000 files"), "{run}");
+    assert!(run.stderr.contains("900,000 of them counted but not shown"), "{run}");
+}
+
+/// Findings never take the place of what they were found in.
+#[test]
+fn an_output_does_not_replace_what_is_read() {
+    let shop = Shop::with(&[("part.nc", BAD), ("jobs/other.nc", BAD), ("gcheck.toml", "")]);
+    assert_eq!(shop.gcheck("check --baseline known.json --update-baseline").code, 0);
+    let baseline = shop.read("known.json");
+    expect![[r#"
+        ! error: jobs/../part.nc: is read in this run, and findings would replace it
+        !   help: name another file for them
+        exit 2
+    "#]]
+    .assert_eq(&shop.gcheck("check -o sarif=jobs/../part.nc").to_string());
+    for arguments in [
+        "check part.nc -o part.nc",
+        "check -o junit=gcheck.toml",
+        "check --baseline known.json -o json=known.json",
+    ] {
+        let run = shop.gcheck(arguments);
+        assert!(run.code == 2 && run.stderr.contains("findings would replace it"), "{run}");
+    }
+    assert_eq!(
+        (shop.read("part.nc"), shop.read("gcheck.toml"), shop.read("known.json")),
+        (BAD.into(), String::new(), baseline)
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn two_outputs_do_not_meet_through_links() {
+    let shop = Shop::with(&[("part.nc", BAD), ("real.txt", "")]);
+    std::os::unix::fs::symlink("real.txt", shop.path("link.txt")).unwrap();
+    std::os::unix::fs::symlink("part.nc", shop.path("program.txt")).unwrap();
+    for arguments in ["check -o json=real.txt -o junit=link.txt", "check part.nc -o program.txt"] {
+        assert_eq!(shop.gcheck(arguments).code, 2, "{arguments}");
+    }
+    assert_eq!((shop.read("part.nc"), shop.read("real.txt")), (BAD.into(), String::new()));
 }

@@ -11,8 +11,8 @@ use gcheck_testkit::inputs;
 use serde_json::Value;
 
 use super::in_process::CONTROL;
-use super::peer;
 use super::row::{Limit, Row};
+use super::{many_files, peer};
 use crate::measure::{Usage, measure};
 use crate::workspace;
 
@@ -20,8 +20,8 @@ const RUNS: usize = 3;
 const STARTS: usize = 21;
 const SMALL: &str = "O1000\nG21 G90 G94\nT1 M6\nG43 H1\nS800 M3\nG0 X0. Y0.\nG1 X10. F200.\nM30\n";
 
-/// Measures.
-pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
+/// Builds the program in release; gives where it is, and the folder of the inputs.
+pub(super) fn build() -> anyhow::Result<(PathBuf, PathBuf)> {
     let target = workspace::members()?.target_directory.into_std_path_buf();
     let build = Command::new("cargo")
         .current_dir(workspace::root())
@@ -31,17 +31,18 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
     let gcheck = target.join("release").join(format!("gcheck{}", std::env::consts::EXE_SUFFIX));
     let inputs = target.join("bench-inputs");
     fs::create_dir_all(&inputs)?;
+    Ok((gcheck, inputs))
+}
 
-    let surfacing = Input::write(&inputs, "surfacing.nc", &inputs::surfacing(1_000_000))?;
-    let drilling = Input::write(&inputs, "drilling.nc", &inputs::drilling(100_000))?;
-    let macros = Input::write(&inputs, "macros.nc", &inputs::macros(100_000))?;
-    let small = Input::write(&inputs, "small.nc", SMALL)?;
+/// Measures.
+pub(super) fn rows(gcheck: &Path, inputs: &Path) -> anyhow::Result<Vec<Row>> {
+    let surfacing = Input::write(inputs, "surfacing.nc", &inputs::surfacing(1_000_000))?;
+    let drilling = Input::write(inputs, "drilling.nc", &inputs::drilling(100_000))?;
+    let macros = Input::write(inputs, "macros.nc", &inputs::macros(100_000))?;
+    let small = Input::write(inputs, "small.nc", SMALL)?;
 
     // A command that fails fast must not look like a fast one.
-    ensure!(
-        small.gets_a_verdict(&gcheck)?,
-        "`gcheck check` gives no JSON, so its budgets cannot be measured"
-    );
+    ensure!(small.gets_a_verdict(gcheck)?, "`gcheck check` gives no JSON, so its budgets cannot be measured");
 
     let mut rows = Vec::new();
     for (name, input, limit) in [
@@ -50,7 +51,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         // As the budget of 20 ms for the paths of 2,000 such lines, fifty times: every tenth line forks.
         ("check, 100,000 lines of macros", &macros, 1.00),
     ] {
-        let usages = input.check(&gcheck, RUNS)?;
+        let usages = input.check(gcheck, RUNS)?;
         let measured = least(&usages, |usage| usage.cpu);
         rows.push(Row { name: name.to_owned(), measured, limit: Limit::AtMost(limit), unit: "s CPU" });
         // The fixed cost of a process says nothing about the file when the file is small.
@@ -64,7 +65,13 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
             });
         }
     }
-    let mut starts: Vec<f64> = small.check(&gcheck, STARTS)?.iter().map(|usage| usage.wall * 1e3).collect();
+    rows.push(Row {
+        name: "plot, a page of 1,000,000 moves".into(),
+        measured: surfacing.plot(gcheck, RUNS)?,
+        limit: Limit::AtMost(5.0),
+        unit: "s",
+    });
+    let mut starts: Vec<f64> = small.check(gcheck, STARTS)?.iter().map(|usage| usage.wall * 1e3).collect();
     starts.sort_by(f64::total_cmp);
     let measured = starts.get(starts.len() / 2).copied();
     rows.push(Row {
@@ -73,7 +80,8 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         limit: Limit::AtMost(15.0),
         unit: "ms",
     });
-    rows.extend(peer::rows(&gcheck, &inputs)?);
+    rows.extend(many_files::rows(gcheck, inputs)?);
+    rows.extend(peer::rows(gcheck, inputs)?);
     Ok(rows)
 }
 
@@ -95,9 +103,9 @@ impl Input {
         Ok(Self { path, bytes: text.len() as f64 })
     }
 
-    fn arguments(&self) -> [&str; 7] {
+    fn arguments(&self) -> [&str; 8] {
         let path = self.path.to_str().unwrap_or_default();
-        ["check", "--isolated", "--control", CONTROL, "--output-format", "json", path]
+        ["check", "--isolated", "--no-cache", "--control", CONTROL, "--output-format", "json", path]
     }
 
     /// Does the command print a report?
@@ -105,6 +113,24 @@ impl Input {
         let output = Command::new(gcheck).args(self.arguments()).output()?;
         Ok(serde_json::from_slice::<Value>(&output.stdout)
             .is_ok_and(|report| report.get("findings").is_some()))
+    }
+
+    /// Seconds that pass until the program is a page, the least of several times; nothing if it does not become one.
+    fn plot(&self, gcheck: &Path, runs: usize) -> anyhow::Result<Option<f64>> {
+        let page = self.path.with_extension("html");
+        let (path, out) = (self.path.to_str().unwrap_or_default(), page.to_str().unwrap_or_default());
+        let arguments = ["plot", "--isolated", "--control", CONTROL, path, "-o", out];
+        let mut usages = Vec::new();
+        for _ in 0..runs {
+            let usage = measure(gcheck, &arguments)?;
+            if usage.code != 0 {
+                eprintln!("gcheck {} ends with {}", arguments.join(" "), usage.code);
+                return Ok(None);
+            }
+            usages.push(usage);
+        }
+        fs::remove_file(&page)?;
+        Ok(least(&usages, |usage| usage.wall))
     }
 
     /// Checks the program several times; nothing if the command does not get as far as a verdict.

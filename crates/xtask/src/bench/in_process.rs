@@ -1,4 +1,4 @@
-//! Throughput of the front end, and the analysis of all paths, called directly: tokens, blocks, trees, flow.
+//! Throughput of the front end and the formatter, and the analysis of all paths, called directly: tokens, blocks, trees, formatted text, flow.
 //!
 //! Knows: which functions the path of the data runs through. Must not know: the command line.
 
@@ -6,8 +6,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use gcheck_engine::{FlowObserver, Machine, Model, NoLibrary, Options, Program, flow};
+use gcheck_format::{Style, formatted};
 use gcheck_program::{Dialect, Loaded, lower};
-use gcheck_syntax::{count_tokens, cut, parse};
+use gcheck_syntax::{SourceText, count_tokens, cut, parse};
 use gcheck_testkit::inputs;
 
 use super::row::{Limit, Row};
@@ -51,6 +52,21 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
         throughput("tokens and blocks, surfacing", &surfacing, 120.0, &blocks),
         throughput("tokens and blocks, macros", &macros, 30.0, &blocks),
     ];
+    let style = Style::of(&control);
+    let format = |source: &SourceText| black_box(formatted(source, &dialect, &style));
+    // Nothing to do, an edit for each word, and what takes longest to read.
+    let packed = SourceText::from(surfacing.replace(' ', "").as_str());
+    let (formatted_already, dense) =
+        (SourceText::from(surfacing.as_str()), SourceText::from(macros.as_str()));
+    for (name, source) in [
+        ("fmt, surfacing that is formatted already", &formatted_already),
+        ("fmt, surfacing without blanks", &packed),
+        ("fmt, macros", &dense),
+    ] {
+        rows.push(throughput(name, source.text(), 60.0, &|_| {
+            format(source);
+        }));
+    }
     // A dense chunk of macros may take what leaves one millisecond of the five that a keystroke may take in a large file.
     let trees =
         [("tree of one chunk, surfacing", &surfacing, 0.6), ("tree of one chunk, macros", &macros, 4.0)];

@@ -63,9 +63,9 @@ pub(super) fn rows(gcheck: &Path, folder: &Path) -> anyhow::Result<Vec<Row>> {
 }
 
 /// A verdict on all paths.
-const CHECK: [&str; 3] = ["check", "--output-format", "json"];
+const CHECK: &[&str] = &["check", "--no-cache", "--output-format", "json"];
 /// Every move as the interpreter prints it.
-const RUN: [&str; 3] = ["run", "--output-format", "canonical"];
+const RUN: &[&str] = &["run", "--output-format", "canonical"];
 
 /// The installed interpreter.
 fn find() -> Option<PathBuf> {

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use gcheck_rules::{RuleMeta, all};
+use gcheck_rules::{RuleMeta, RuleSet, all};
 
 use super::{Generated, markdown, registry};
 
@@ -29,12 +29,16 @@ fn page(rule: &RuleMeta) -> String {
     let _ = writeln!(text, "# {}\n", rule.id);
     let row = vec![
         rule.severity.name().to_owned(),
-        yes_no(rule.recommended),
+        sets(rule),
+        mended_by(rule),
         rule.group.to_owned(),
         rule.tier.name().to_owned(),
         rule.since.to_owned(),
     ];
-    text.push_str(&markdown::table(&["severity", "on by default", "group", "sees", "since"], &[row]));
+    text.push_str(&markdown::table(
+        &["severity", "in the sets", "mended by", "group", "sees", "since"],
+        &[row],
+    ));
     if !rule.aliases.is_empty() {
         let _ = writeln!(text, "\nFormer names, still accepted: {}.", markdown::codes(rule.aliases));
     }
@@ -82,13 +86,20 @@ fn with_plainsides(docs: &str) -> String {
 fn index(rules: &[&RuleMeta]) -> String {
     let mut text = markdown::header(&format!("the rules under {}", registry::RULES));
     let default = rules.iter().filter(|rule| rule.recommended).count();
+    let mending = rules.iter().filter(|rule| !rule.mends.option().is_empty()).count();
     let _ = writeln!(
         text,
-        "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`).",
+        "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`); {mending} can mend what they find.",
         rules.len()
     );
     text.push_str("`error` means that the control alarms or the move is certainly wrong, `warning` a likely crash, scrap or trap, ");
     text.push_str("`info` worth knowing, `hint` style.\nWhat rests on facts that are only assumed is never more than a warning.\n");
+    text.push_str(SETS);
+    for set in RuleSet::ALL {
+        let count = rules.iter().filter(|rule| rule.is_in(set)).count();
+        let _ = writeln!(text, "* `{}` ({count} rules): {}.", set.name(), set.summary());
+    }
+    text.push_str(MENDING);
     let mut groups: Vec<&str> = rules.iter().map(|rule| rule.group).collect();
     groups.dedup();
     for group in groups {
@@ -98,16 +109,36 @@ fn index(rules: &[&RuleMeta]) -> String {
             .filter(|rule| rule.group == group)
             .map(|rule| {
                 let link = format!("[{id}]({id}.md)", id = rule.id);
-                vec![link, rule.severity.name().to_owned(), yes_no(rule.recommended), rule.summary.to_owned()]
+                let severity = rule.severity.name().to_owned();
+                vec![link, severity, sets(rule), mended_by(rule), rule.summary.to_owned()]
             })
             .collect();
-        text.push_str(&markdown::table(&["rule", "severity", "default", "reports"], &rows));
+        text.push_str(&markdown::table(&["rule", "severity", "in the sets", "mended by", "reports"], &rows));
     }
     text
 }
 
-fn yes_no(yes: bool) -> String {
-    if yes { "yes" } else { "no" }.to_owned()
+const SETS: &str = "
+Further sets are chosen on the command line (`--select strict`, `--extend-select restart-safe`) or in `gcheck.toml` (`[rules]`, `select = [\"recommended\", \"restart-safe\"]`):
+
+";
+
+const MENDING: &str = "
+Mended by `--fix` is what changes no move; `--unsafe-fixes` mends as well what may change one, or what only the programmer can decide.
+";
+
+/// The sets as a page shows them: `strict` holds all that is recommended, and is not repeated there.
+fn sets(rule: &RuleMeta) -> String {
+    let sets = rule.sets();
+    let is_told = |set: &&&str| !(rule.recommended && **set == RuleSet::Strict.name());
+    sets.iter().filter(is_told).copied().collect::<Vec<_>>().join(", ")
+}
+
+fn mended_by(rule: &RuleMeta) -> String {
+    match rule.mends.option() {
+        "" => String::new(),
+        option => format!("`{option}`"),
+    }
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ declare_rule! {
         summary: "arc with a centre and a radius",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcCentreAndRadius) },
     }
@@ -49,6 +50,7 @@ impl PathRule for ArcCentreAndRadius {
                 .label("one of the two is enough")
                 .also(cx.word_range(is_centre), "the centre is given here")
                 .help("take out the centre or the radius")
+                .fix_if(cx.taking_away('R', "take the radius out"))
                 .at_most(limit(cx.model.semantics().confidence)),
         );
     }

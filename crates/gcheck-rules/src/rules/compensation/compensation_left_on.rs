@@ -42,6 +42,7 @@ declare_rule! {
         summary: "cutter compensation left on",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(CompensationLeftOn { told: None }) },
     }
@@ -96,6 +97,7 @@ impl CompensationLeftOn {
         } else {
             finding.at_most(Severity::Warning)
         };
+        let finding = finding.fix_if(cx.block_before(cx.cancel_of(Effect::CompensationOff).as_deref()));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
     }
 }
@@ -198,6 +200,7 @@ mod tests {
               here: the next tool begins with it
               there: `G41` set here
               help: leave the contour on a straight move with `G40` before the tool goes away
+              fix (unsafe): put `G40` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

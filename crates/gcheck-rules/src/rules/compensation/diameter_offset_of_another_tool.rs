@@ -39,6 +39,7 @@ declare_rule! {
         summary: "cutter compensation offset of another tool",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::FINISH),
@@ -74,16 +75,17 @@ impl PathRule for DiameterOffsetOfAnotherTool {
             let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
             let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
             let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
-            let finding = cx.finding(&META, range.unwrap_or_else(|| cx.range()), message);
-            match cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
+            let finding = cx.finding(&META, range.clone().unwrap_or_else(|| cx.range()), message);
+            let finding = match cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
                 Some(range) => finding.also(range, format!("tool {tool} comes into the spindle here")),
                 None => finding,
-            }
+            };
+            (finding, range)
         });
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (finding, scheme) in self.pairs.take_odd() {
+        for (finding, scheme) in self.pairs.take_odd('D') {
             report.add(
                 finding
                     .label(scheme.label("diameter offset"))

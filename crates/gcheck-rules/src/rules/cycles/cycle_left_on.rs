@@ -55,6 +55,7 @@ declare_rule! {
         summary: "canned cycle still on at a tool change or the end",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -102,6 +103,7 @@ impl CycleLeftOn {
             .finding(&META, harm.range(cx), format!("canned cycle is still on {} (`{name}`)", harm.words()))
             .label("the next block with a position drills a hole")
             .help("end the cycle with `G80` before")
+            .fix_if(cx.block_before(cx.cancel_of(Effect::CycleCancel).as_deref()))
             .at_most(if harm == Harm::End { Severity::Info } else { Severity::Warning });
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }
@@ -210,6 +212,7 @@ mod tests {
               here: the next block with a position drills a hole
               there: `G81` set here
               help: end the cycle with `G80` before
+              fix (unsafe): put `G80` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

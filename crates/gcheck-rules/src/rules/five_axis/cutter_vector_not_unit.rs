@@ -43,6 +43,7 @@ declare_rule! {
         summary: "direction of 3D cutter compensation that is no unit vector",
         severity: Error,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CHANGES, make: || Box::new(CutterVectorNotUnit) },
     }

@@ -43,6 +43,7 @@ declare_rule! {
         summary: "5-axis length compensation left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -106,7 +107,8 @@ impl FiveAxisLengthLeftOn {
         let finding = cx
             .finding(&META, range, format!("5-axis length compensation is still on {place} (`{name}`)"))
             .label("the length is along the tilted tool here")
-            .help(format!("end it with `{cancel}` and a move of Z away from the part before this block"));
+            .help(format!("end it with `{cancel}` and a move of Z away from the part before this block"))
+            .fix_if(cx.block_before(Some(&cancel)));
         let finding = if end_resets {
             finding.note("the end of the program switches it off on this control").at_most(Severity::Info)
         } else {

@@ -54,6 +54,7 @@ declare_rule! {
         summary: "cylindrical mapping left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -129,7 +130,8 @@ impl CylinderLeftOn {
                 Place::Boundary(_) => format!("a word for {linear} still turns {rotary}"),
                 Place::Reference => format!("{rotary} turns away from the drawing"),
             })
-            .help(format!("end mapping before, with `{name}` alone in its block"));
+            .help(format!("end mapping before, with `{name}` alone in its block"))
+            .fix_if(cx.block_before(Some(&name)));
         let finding = cx.resting_on(finding, Fact::Mode(Role::Cylinder), &format!("`{name}`"));
         let Some(finding) = limited(cx, place, &name, finding) else { return };
         self.told = set_by;
@@ -286,6 +288,7 @@ mod tests {
               here: a word for Y still turns A
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
         expect![[r#"
@@ -293,6 +296,7 @@ mod tests {
               here: A turns away from the drawing
               there: `G107` set here
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
         expect![[r#"
@@ -302,6 +306,7 @@ mod tests {
               note: setting 56 decides whether the end of the program ends `G107`
               assuming: setting 56 (M30 restores default G codes) is on
               help: end mapping before, with `G107` alone in its block
+              fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));
     }

@@ -26,6 +26,7 @@ declare_rule! {
         summary: "code written twice in a block",
         severity: Error,
         tier: Block,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }
@@ -60,18 +61,10 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
     };
     // A mode that is set already stays as it is.
     if code.group().modal && code.group().exclusive {
-        finding.fix(Fix::safe(format!("take the second `{text}` away"), with_blank(cx, second), ""))
+        finding.fix(Fix::safe(format!("take the second `{text}` away"), cx.with_blanks(second), ""))
     } else {
         finding
     }
-}
-
-/// The word with the blanks in front of it.
-fn with_blank(cx: &BlockCx<'_>, word: &Word) -> std::ops::Range<u32> {
-    let range = word.range();
-    let before = cx.slice(0..range.start);
-    let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
-    cx.in_file(range.start - blanks as u32..range.end)
 }
 
 #[cfg(test)]

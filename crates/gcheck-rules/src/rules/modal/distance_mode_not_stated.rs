@@ -35,6 +35,8 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict, RestartSafe],
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),
@@ -96,7 +98,8 @@ impl DistanceModeNotStated {
                 format!("moves before positions or increments are stated (`{absolute}`, `{incremental}`)"),
             )
             .label("counts from wherever the last program left the mode")
-            .help(format!("state `{absolute}` at the head of the program"));
+            .help(format!("state `{absolute}` at the head of the program"))
+            .fix_if(cx.block_before(Some(&absolute)));
         // Every program's end brings the positions back: only a program that was stopped leaves increments.
         let is_safe = cx.at_end().any(|code| is_default(code.effect()));
         report.add(if is_safe { finding.at_most(Severity::Hint) } else { finding });

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
+use gcheck_program::BlockFlags;
 
 use super::distance_mode_not_stated::is_home;
 use crate::boundary::{Boundary, LeftOn};
@@ -12,8 +13,8 @@ use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
-    /// Increments (`G91`) were left on: the first move of the next tool, or the first move after a subprogram, goes by increments
-    /// although the work before it was in positions; or the program ends in increments and begins without stating positions.
+    /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference return whose
+    /// block switched them on, goes by increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
     ///
     /// ## Why it matters
     /// The tool goes by the coordinates of its target instead of to them: through the part, or against the end of travel.
@@ -33,6 +34,14 @@ declare_rule! {
     /// G91 G28 Z0.
     /// M30
     /// ```
+    /// ```nc,reported,haas-mill
+    /// G90 G54 G0 X0. Y0.
+    /// G1 X10. F100.
+    /// G91 G28 Z0.
+    /// G0 X5. Y5.
+    /// G90
+    /// M30
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,fanuc-mill
     /// T1 M6
@@ -48,6 +57,7 @@ declare_rule! {
         summary: "increments left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS).union(Watch::ENDS),
@@ -62,6 +72,8 @@ struct IncrementalLeftOn {
     was_absolute: bool,
     /// A tool change with no move since, and what had set the mode then.
     change: Option<(Range<u32>, Option<At>)>,
+    /// A reference return that switched from positions to increments, with no move since.
+    at_return: Option<At>,
     /// A block of a subprogram that switched from positions to increments, and how deep in calls it stands.
     in_subprogram: Option<(At, usize)>,
     /// The program moved before it stated the mode.
@@ -82,6 +94,12 @@ impl PathRule for IncrementalLeftOn {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let switches_on = cx.has_effect(|effect| effect == Effect::Incremental);
+        let was_absolute = cx.state().is_incremental(cx.model) == Some(false);
+        // `G91 G28 Z0.`: the increments were for the return alone.
+        if switches_on && was_absolute && cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_)))
+        {
+            self.at_return = Some(cx.origin().at);
+        }
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
             self.in_subprogram = Some((cx.origin().at, cx.depth()));
         }
@@ -120,6 +138,7 @@ impl IncrementalLeftOn {
         self.has_moved = true;
         let is_incremental = cx.state().is_incremental(cx.model) == Some(true);
         let (change, was_absolute) = (self.change.take(), self.was_absolute);
+        let at_return = self.at_return.take();
         self.was_absolute = cx.state().is_incremental(cx.model) == Some(false);
         if !is_incremental || set_by.is_none() {
             return;
@@ -130,6 +149,12 @@ impl IncrementalLeftOn {
         {
             let finding = tell(cx, cx.range(), "the first move after the tool change goes by increments");
             let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
+        } else if at_return == set_by && !cx.origin().flags.contains(BlockFlags::EXPRESSION) {
+            // Who computes a way from where the axes stand wants increments.
+            let finding =
+                tell(cx, cx.range(), "the first move after the reference return goes by increments");
+            let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram
             && set_by == Some(at)
@@ -165,6 +190,7 @@ fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
     cx.finding(&META, range, format!("{what} (`{incremental}`)"))
         .help(format!("state `{absolute}` before the move"))
+        .fix_if(cx.block_before(Some(&absolute)))
 }
 
 #[cfg(test)]
@@ -245,6 +271,7 @@ mod tests {
               there: tool changed here
               there: increments set here
               help: state `G90` before the move
+              fix (unsafe): put `G90` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -1,7 +1,7 @@
 //! A tool's part of the program that cannot be started from its tool change.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{Event, Role};
+use gcheck_engine::{At, Event, Fact, Role};
 
 use crate::boundary::Boundary;
 use crate::memory::{Remembers, remembers};
@@ -9,8 +9,8 @@ use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// What a tool does relies on modes that were set before its tool change: positions or increments, work offset, feed, speed,
-    /// spindle.
+    /// What a tool does relies on modes that were set before its tool change: plane, positions or increments, units, work offset,
+    /// tool length, feed, speed, spindle, coolant.
     ///
     /// ## Why it matters
     /// After a broken tool the operator starts again at the tool change. What an earlier part of the program set is not set
@@ -34,7 +34,7 @@ declare_rule! {
     /// S1000 M3
     /// G1 X10. F100.
     /// T2 M6
-    /// G90 G54 S2000 M3
+    /// G17 G21 G90 G54 S2000 M3
     /// G1 X20. F150.
     /// M30
     /// ```
@@ -43,10 +43,11 @@ declare_rule! {
         severity: Hint,
         tier: Path,
         recommended: false,
+        sets: [RestartSafe],
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CHANGES).union(Watch::CUTS),
-            make: || Box::new(ToolSectionNotRestartSafe { section: None, sections: 0 }),
+            make: || Box::new(ToolSectionNotRestartSafe { section: None, sections: 0, has_coolant: false }),
         },
     }
 }
@@ -64,17 +65,23 @@ remembers!(Section: finding);
 /// What a section needs to be told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needed {
+    Plane,
     Distance,
+    Units,
     WorkOffset,
+    Length,
     Feed,
     Speed,
     Spindle,
+    Coolant,
 }
 
 #[derive(Clone, PartialEq)]
 struct ToolSectionNotRestartSafe {
     section: Option<Section>,
     sections: usize,
+    /// Some coolant is on.
+    has_coolant: bool,
 }
 
 remembers!(ToolSectionNotRestartSafe: section);
@@ -106,6 +113,9 @@ impl PathRule for ToolSectionNotRestartSafe {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if let Event::Coolant { on, .. } = event {
+            self.has_coolant = *on;
+        }
         let Some(section) = &mut self.section else { return };
         let stated = match event {
             Event::FeedRate(_) => Some(Needed::Feed),
@@ -114,6 +124,7 @@ impl PathRule for ToolSectionNotRestartSafe {
                 (*spindle != gcheck_engine::Spindle::Stopped).then_some(Needed::Spindle)
             }
             Event::WorkOffset { .. } => Some(Needed::WorkOffset),
+            Event::Coolant { on: true, .. } => Some(Needed::Coolant),
             _ => None,
         };
         section.stated.extend(stated);
@@ -121,25 +132,45 @@ impl PathRule for ToolSectionNotRestartSafe {
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         let Some(section) = self.section.take() else { return };
-        let set_now = |role: Role| {
-            let set_by = cx.trace().set_by(gcheck_engine::Fact::Mode(role));
-            set_by
-                .and_then(|at| cx.range_of(at))
-                .is_some_and(|range| range.start >= section.finding.range.start)
-        };
+        let start = section.finding.range.start;
+        let in_section = |at: At| cx.range_of(at).is_some_and(|range| range.start >= start);
+        let set_now = |role: Role| cx.trace().set_by(Fact::Mode(role)).is_some_and(in_section);
         let mut missing = Vec::new();
+        let by_turret = cx.model.semantics().tools.change_by_t;
         for (needed, role, word) in [
+            (Needed::Plane, Some(Role::Plane), cx.code_name(Role::Plane)),
+            (Needed::Units, Some(Role::Units), cx.code_name(Role::Units)),
+            (Needed::Length, Some(Role::Length), cx.code_name(Role::Length)),
             (Needed::Distance, Some(Role::Distance), cx.cancel_of(Effect::Absolute)),
             (Needed::WorkOffset, Some(Role::WorkOffset), cx.cancel_of(Effect::WorkOffset(1))),
             (Needed::Feed, None, Some("F".to_owned())),
             (Needed::Speed, None, Some("S".to_owned())),
             (Needed::Spindle, None, cx.cancel_of(Effect::SpindleClockwise)),
+            (Needed::Coolant, None, cx.cancel_of(Effect::FloodOn)),
         ] {
             let Some(word) = word else { continue };
             let is_stated = section.stated.contains(&needed) || role.is_some_and(set_now);
             let is_needed = match needed {
                 // Turrets find the part by the tool's own offset.
-                Needed::WorkOffset => !cx.model.semantics().tools.change_by_t,
+                Needed::WorkOffset => !by_turret,
+                // What the program never states is a matter of its head.
+                Needed::Plane | Needed::Units => {
+                    // Turning knows one plane.
+                    let is_known = match needed {
+                        Needed::Plane => by_turret,
+                        _ => cx.scene.machine.units_are_told,
+                    };
+                    !is_known && role.is_some_and(|role| cx.trace().set_by(Fact::Mode(role)).is_some())
+                }
+                // A length left over from the tool before; none at all has a rule of its own.
+                Needed::Length => {
+                    let is_off = |effect| matches!(effect, Effect::LengthOff | Effect::None);
+                    !by_turret
+                        && cx.state().effect(Role::Length, cx.model).is_some_and(|effect| !is_off(effect))
+                        && cx.trace().set_by(Fact::Length).is_some_and(|at| !in_section(at))
+                }
+                // On since an earlier part of the program, or off for all that anybody knows.
+                Needed::Coolant => self.has_coolant,
                 // Increments with letters of their own leave nothing to state.
                 Needed::Distance => cx.model.semantics().increments.is_empty(),
                 Needed::Feed | Needed::Speed | Needed::Spindle => true,
@@ -165,7 +196,9 @@ impl PathRule for ToolSectionNotRestartSafe {
 
 fn of_role(role: Role) -> Option<Needed> {
     match role {
+        Role::Plane => Some(Needed::Plane),
         Role::Distance => Some(Needed::Distance),
+        Role::Units => Some(Needed::Units),
         Role::WorkOffset => Some(Needed::WorkOffset),
         _ => None,
     }
@@ -186,7 +219,7 @@ mod tests {
             "G20 G90 G54\nT1 M6\nS500 M3\nG1 X1. F5.\nT2 M6\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T2 M6
-                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G90`, `G54`, `F`, `S`, `M3`)
+                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G20`, `G90`, `G54`, `F`, `S`, `M3`)
             "#]],
         );
     }
@@ -204,7 +237,7 @@ mod tests {
             "G21\nT0101\nG97 S500 M3\nG1 X1. F.1\nT0202\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T0202
-                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`F`, `S`, `M3`)
+                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G21`, `F`, `S`, `M3`)
             "#]],
         );
     }

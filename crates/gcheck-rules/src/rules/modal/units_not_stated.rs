@@ -29,6 +29,7 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict],
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),

@@ -1,11 +1,11 @@
 //! A dwell of many minutes.
 
-use gcheck_controls::{DwellWord, Effect, Letter, Unpointed};
+use gcheck_controls::{DwellWord, Effect, Letter, Motion, Unpointed};
 use gcheck_engine::Event;
 
 use super::dwell_unit_unsure::other_reading;
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A dwell lasts five minutes or more.
@@ -16,9 +16,12 @@ declare_rule! {
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
+    /// G1 X1 F100
     /// G4 P2000
     /// M2
     /// ```
+    /// In a program that cuts nothing, such as one that warms the spindle up, it is information.
+    ///
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
     /// G4 P2
@@ -75,11 +78,22 @@ impl PathRule for DwellVeryLong {
             .finding(&META, cx.word_range(is_time), format!("dwell of {}", duration(seconds)))
             .label(format!("{seconds:.0} seconds on this control"))
             .help("check whether the value was meant in milliseconds");
+        let finding = if may_cut(cx) { finding } else { finding.at_most(Severity::Info) };
         report.add(match other_reading(cx, seconds) {
             Some(other) => finding.note(of_another_control(other)),
             None => finding,
         });
     }
+}
+
+/// May the program cut anything? What it calls may.
+fn may_cut(cx: &PathCx<'_>) -> bool {
+    let control = cx.scene.control();
+    let codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    let cuts = [Motion::Feed, Motion::Arc, Motion::Thread, Motion::Cycle, Motion::Operation, Motion::Curve];
+    cx.survey.has_computed_codes
+        || !cx.survey.calls.is_empty()
+        || codes.into_iter().any(|code| cuts.contains(&code.motion()))
 }
 
 /// Does the time exceed what the code that reads it takes?
@@ -154,12 +168,25 @@ mod tests {
         check_rule(
             &RULE,
             "linuxcnc",
-            "G4 P2000\nG4 P299\nG4 P#1\n#2=500\nG4 P#2\nM2\n",
+            "G1 X1 F9 G4 P2000\nG4 P299\nG4 P#1\n#2=500\nG4 P#2\nM2\n",
             &expect![[r#"
-                1 | G4 P2000
-                  |    ^^^^^ warning[dwell-very-long] dwell of 33 minutes
+                1 | G1 X1 F9 G4 P2000
+                  |             ^^^^^ warning[dwell-very-long] dwell of 33 minutes
                 5 | G4 P#2
                   |    ^^^ warning[dwell-very-long] dwell of 8.3 minutes
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_that_cuts_nothing_warms_the_spindle_up() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "O1\nG97 S500 M3\nG4 P1200000\nM5\nM30\n",
+            &expect![[r#"
+                3 | G4 P1200000
+                  |    ^^^^^^^^ info[dwell-very-long] dwell of 20 minutes
             "#]],
         );
     }
@@ -182,9 +209,9 @@ mod tests {
         check_rule(
             &RULE,
             "generic-mill",
-            "G4 X10000\nG4 X500.\nM30\n",
+            "G1 X1. F9.\nG4 X10000\nG4 X500.\nM30\n",
             &expect![[r#"
-            2 | G4 X500.
+            3 | G4 X500.
               |    ^^^^^ warning[dwell-very-long] dwell of 8.3 minutes
         "#]],
         );
@@ -195,9 +222,9 @@ mod tests {
         check_rule(
             &RULE,
             "generic-mill",
-            "G4 X99999.\nG4 X100000.\nM30\n",
+            "G1 X1. F9.\nG4 X99999.\nG4 X100000.\nM30\n",
             &expect![[r#"
-            1 | G4 X99999.
+            2 | G4 X99999.
               |    ^^^^^^^ warning[dwell-very-long] dwell of 28 hours
         "#]],
         );
@@ -208,9 +235,9 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G4 P1000\nG4 P1000.\nM30\n",
+            "G1 X1. F9.\nG4 P1000\nG4 P1000.\nM30\n",
             &expect![[r#"
-            2 | G4 P1000.
+            3 | G4 P1000.
               |    ^^^^^^ warning[dwell-very-long] dwell of 17 minutes
         "#]],
         );

@@ -36,6 +36,7 @@ declare_rule! {
         summary: "rotation left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(RotationLeftOn) },
     }
@@ -64,7 +65,8 @@ fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
     report.add(
         finding
             .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
-            .help(format!("switch the rotation off with `{cancel}` before the program ends")),
+            .help(format!("switch the rotation off with `{cancel}` before the program ends"))
+            .fix_if(cx.block_before(Some(&cancel))),
     );
 }
 
@@ -113,6 +115,7 @@ mod tests {
               there: `G68` set here
               assuming: the end of the program keeps it, as the control's book leaves to a parameter
               help: switch the rotation off with `G69` before the program ends
+              fix (unsafe): put `G69` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -30,6 +30,7 @@ declare_rule! {
         summary: "scaling left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(ScalingLeftOn) },
     }
@@ -58,7 +59,8 @@ fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
     report.add(
         finding
             .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
-            .help(format!("switch scaling off with `{cancel}` before the program ends")),
+            .help(format!("switch scaling off with `{cancel}` before the program ends"))
+            .fix_if(cx.block_before(Some(&cancel))),
     );
 }
 

@@ -35,6 +35,7 @@ declare_rule! {
         summary: "tilted plane, dynamic offset or tool centre point control left on",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(ToolTiltLeftOn { told: [None; 3] }) },
     }
@@ -92,7 +93,8 @@ impl ToolTiltLeftOn {
             let finding = cx
                 .finding(&META, cx.boundary_range(place), message)
                 .label("coordinates do not run along the machine's axes here")
-                .help(format!("switch it off with `{cancel}` before the tool goes away"));
+                .help(format!("switch it off with `{cancel}` before the tool goes away"))
+                .fix_if(cx.block_before(Some(&cancel)));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }
     }

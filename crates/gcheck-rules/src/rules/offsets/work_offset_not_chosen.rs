@@ -37,6 +37,8 @@ declare_rule! {
         severity: Info,
         tier: Path,
         recommended: false,
+        sets: [Strict],
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNotChosen { is_done: false }) },
     }
@@ -71,11 +73,15 @@ impl PathRule for WorkOffsetNotChosen {
             return;
         }
         let (name, last) = (first.number(), "the last program or the operator");
+        // Some controls take no other offset under cutter compensation.
+        let is_compensated = cx.state().effect(Role::Compensation, cx.model) != Some(Effect::CompensationOff);
+        let fix = if is_compensated { None } else { cx.block_before(Some(&name.to_string())) };
         let later = if cx.file_uses(chooses) { "; the program chooses one only later" } else { "" };
         report.add(
             cx.finding(&META, cx.range(), format!("cut before a work offset is chosen (`{name}`)"))
                 .label(format!("the part lies where {last} left it{later}"))
-                .help(format!("choose the work offset at the head of the program: `{name}`")),
+                .help(format!("choose the work offset at the head of the program: `{name}`"))
+                .fix_if(fix),
         );
     }
 }

@@ -1,9 +1,12 @@
 //! A sequence number that stands twice in a program.
 
+use std::collections::BTreeSet;
+
+use gcheck_controls::Ends;
 use gcheck_program::Label;
 
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// The same sequence number stands at two blocks of one program. Told once for the file.
@@ -33,6 +36,7 @@ declare_rule! {
         summary: "sequence number stands twice in a program",
         severity: Hint,
         tier: Program,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -53,7 +57,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some([(_, _, first), (_, _, second)]) = first else { return };
     // A jump to the number makes it a matter of its own.
     if !cx.survey.jumps.iter().any(|j| j.target == Some(second.number)) {
-        report.add(finding(first, second, count));
+        let again = labels.windows(2).filter(same).filter_map(|pair| pair.last()).map(|(_, _, label)| *label);
+        report.add(finding(first, second, count).fix_if(without_numbers(cx, again)));
     }
 }
 
@@ -67,6 +72,29 @@ fn finding(first: &Label, second: &Label, count: usize) -> Finding {
     .also(first.range.clone(), "first used here")
     .help("renumber the blocks, or leave the numbers out where nothing goes to them");
     if count > 1 { finding.note(format!("{count} blocks of the file repeat a number")) } else { finding }
+}
+
+/// Numbers that one fix takes away; of more, the rest is left to the next run.
+const MOST_NUMBERS: usize = 10_000;
+
+/// The repeated numbers taken away: only where every jump is known, and none goes to one of them.
+fn without_numbers<'l>(cx: &FileCx<'_>, again: impl Iterator<Item = &'l Label>) -> Option<Fix> {
+    let targets: Option<BTreeSet<u32>> = cx.survey.jumps.iter().map(|jump| jump.target).collect();
+    let targets = targets?;
+    // What other programs return to or call is not known.
+    if !cx.survey.calls.is_empty() || cx.survey.ends.iter().any(|end| end.ends == Ends::Subprogram) {
+        return None;
+    }
+    let again = again.filter(|label| !targets.contains(&label.number)).take(MOST_NUMBERS);
+    let edits: Vec<Edit> = again
+        .map(|label| {
+            let (base, text) = cx.text.around(label.range.end);
+            let rest = text.get((label.range.end - base) as usize..).unwrap_or_default();
+            let blanks = rest.len() - rest.trim_start_matches([' ', '\t']).len();
+            Edit { range: label.range.start..label.range.end + blanks as u32, text: String::new() }
+        })
+        .collect();
+    (!edits.is_empty()).then(|| Fix { title: "take the repeated numbers away".to_owned(), safe: true, edits })
 }
 
 #[cfg(test)]

@@ -2,11 +2,13 @@
 
 use std::ops::Range;
 
+use gcheck_controls::{CodeNumber, Effect, Ends};
 use gcheck_program::OKeyword;
 
+use crate::mending::line_end;
 use crate::meta::declare_rule;
 use crate::sections::Section;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A program has no block that ends it: no `M30` or `M2`, and no `M99` for a subprogram.
@@ -46,6 +48,7 @@ declare_rule! {
         summary: "program does not end",
         severity: Warning,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -80,7 +83,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         // A loop by GOTO has its end elsewhere or wants none.
         let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
         if !jumps_at_end {
-            report.add(finding(cx, section, is_last.then(|| last.clone())));
+            let fix = if is_last { end(cx, last) } else { None };
+            report.add(finding(cx, section, is_last.then(|| last.clone())).fix_if(fix));
         }
     }
 }
@@ -110,12 +114,42 @@ fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> 
         .help("end the program with `M30`, a subprogram with `M99`; see that the file is complete")
 }
 
+/// An end of the program on the line below the last block.
+fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
+    let ends = cx
+        .control()
+        .codes()
+        .filter(|code| code.effect() == Effect::ProgramEnd && code.entry().ends == Some(Ends::Program));
+    // `M30` where it does no more than that: it comes back to the head.
+    let codes: Vec<CodeNumber> = ends.map(gcheck_controls::Code::number).collect();
+    let code = codes.iter().find(|code| **code == CodeNumber::m(30)).or(codes.first())?;
+    let (base, text) = cx.text.around(last.end);
+    let rest = text.get((last.end - base) as usize..)?;
+    let line_end = line_end(rest);
+    let behind = last.end + gcheck_syntax::line_len(rest.as_bytes()) as u32;
+    let is_open = !text.get(..(behind - base) as usize)?.ends_with(['\n', '\r']);
+    let before = if is_open { line_end } else { "" };
+    let title = format!("end the program with `{code}`");
+    Some(Fix::risky(title, behind..behind, format!("{before}{code}{line_end}")))
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    #[test]
+    fn the_fix_ends_the_program_below_its_last_block() {
+        let mended = |control: &str, program: &str| {
+            let found = findings(&Selection::only(&RULE), control, program, &World::default());
+            found.iter().map(|finding| fixed(program, finding)).collect::<String>()
+        };
+        assert_eq!(mended("haas-lathe", "%\r\nO1\r\nG0 X1.\r\n%\r\n"), "%\r\nO1\r\nG0 X1.\r\nM30\r\n%\r\n");
+        assert_eq!(mended("haas-mill", "O1\nG0 X1. (END)"), "O1\nG0 X1. (END)\nM30\n");
+    }
 
     #[test]
     fn each_program_of_a_file_needs_its_end() {

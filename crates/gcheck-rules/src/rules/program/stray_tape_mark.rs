@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `%` stands inside the program, shares its line with code, or has code behind it.
@@ -23,6 +23,13 @@ declare_rule! {
     /// M99
     /// %
     /// ```
+    /// ```nc,reported,haas-mill
+    /// %
+    /// O00001
+    /// G0 X1. %
+    /// M30
+    /// %
+    /// ```
     /// ## Not reported
     /// A comment beside the mark, and blank lines or notes behind the closing one.
     /// ```nc,quiet,haas-mill
@@ -36,6 +43,7 @@ declare_rule! {
         summary: "tape mark cuts off code",
         severity: Info,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -45,7 +53,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for mark in &cx.survey.tape_marks {
         if !crate::sections::is_tape_mark_line(cx, mark) {
             let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
-            report.add(inside(at..at + 1));
+            let before = cx.slice(mark.start..at);
+            let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
+            report.add(inside(at..at + 1).fix(Fix::risky("remove the `%`", at - blanks as u32..at + 1, "")));
         }
     }
     let Some(closing) = cx.survey.tape_marks.last() else { return };

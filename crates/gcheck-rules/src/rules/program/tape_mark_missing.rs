@@ -2,8 +2,9 @@
 
 use std::ops::Range;
 
+use crate::mending::line_end;
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// The file has one `%` line where a pair is usual.
@@ -33,6 +34,7 @@ declare_rule! {
         summary: "one of the two tape marks is missing",
         severity: Info,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -41,7 +43,8 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
     if crate::sections::is_tape_mark_line(cx, mark) {
-        report.add(finding(mark.clone(), mark.start < first.start));
+        let opens = mark.start < first.start;
+        report.add(finding(mark.clone(), opens).fix(pair(cx, opens)));
     }
 }
 
@@ -51,6 +54,19 @@ fn finding(mark: Range<u32>, opens: bool) -> Finding {
     Finding::new(&META, mark, format!("{missing} tape mark `%` is missing")).label(label).help(format!(
         "put a line with `%` at the {place} of the file; see that nothing else is missing there"
     ))
+}
+
+/// The other mark, on a line of its own.
+fn pair(cx: &FileCx<'_>, opens: bool) -> Fix {
+    let end = cx.text.len();
+    let (_, text) = cx.text.around(if opens { end } else { 0 });
+    if !opens {
+        let head = if text.starts_with('\u{FEFF}') { '\u{FEFF}'.len_utf8() as u32 } else { 0 };
+        return Fix::risky("put `%` at the beginning", head..head, format!("%{}", line_end(text)));
+    }
+    let line_end = line_end(text);
+    let before = if text.ends_with(['\n', '\r']) { "" } else { line_end };
+    Fix::risky("put `%` at the end", end..end, format!("{before}%{line_end}"))
 }
 
 #[cfg(test)]
@@ -90,6 +106,7 @@ mod tests {
             closing tape mark `%` is missing
               here: opens the tape
               help: put a line with `%` at the end of the file; see that nothing else is missing there
+              fix (unsafe): put `%` at the end
         "#]]
         .assert_eq(&words(&found[0]));
     }

@@ -199,7 +199,7 @@ fn stop_code(cx: &PathCx<'_>, at: At) -> String {
 }
 
 /// A move with the tool in the work, as far as a program shows it.
-pub(super) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
+pub(crate) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
     if cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip)) {
         return false;
     }

@@ -22,6 +22,7 @@ declare_rule! {
         summary: "gcheck comment is not understood",
         severity: Warning,
         tier: Program,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Suppressions { check },
     }
@@ -32,7 +33,8 @@ fn check(suppressions: &Suppressions, report: &mut Report<'_>) {
         report.add(
             Finding::new(&META, malformed.range.clone(), malformed.message.clone())
                 .label("silences nothing")
-                .help("write `(gcheck: ignore RULE - reason)`; `gcheck rules` lists the rules"),
+                .help("write `(gcheck: ignore RULE - reason)`; `gcheck rules` lists the rules")
+                .fix_if(malformed.meant.clone()),
         );
     }
 }

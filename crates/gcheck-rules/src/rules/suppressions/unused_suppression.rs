@@ -25,6 +25,7 @@ declare_rule! {
         summary: "suppression silences nothing",
         severity: Warning,
         tier: Program,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Suppressions { check },
     }

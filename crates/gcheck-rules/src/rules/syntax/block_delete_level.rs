@@ -6,7 +6,7 @@ use gcheck_controls::Confidence;
 use gcheck_program::BlockFlags;
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, limit};
+use crate::{BlockCx, Finding, Fix, Report, Run, limit};
 
 declare_rule! {
     /// A block-delete sign carries a level (`/2`) or stands inside the block, and the control has no such form.
@@ -32,6 +32,7 @@ declare_rule! {
         summary: "form of block delete that the control does not have",
         severity: Error,
         tier: Block,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::BLOCK_DELETE, check },
     }
@@ -84,10 +85,12 @@ fn inside_finding(cx: &BlockCx<'_>, range: Range<u32>) -> Finding {
 }
 
 fn level_finding(cx: &BlockCx<'_>, range: Range<u32>) -> Finding {
+    let slash = range.clone();
     Finding::new(&META, range, "block delete with a level")
         .label("the digit names a switch")
         .note("this control has one block-delete switch and no levels")
         .help("write `/` alone")
+        .fix(Fix::risky("write `/` alone", slash, "/"))
         .at_most(limit(confidence(cx)))
 }
 
@@ -136,6 +139,7 @@ mod tests {
               here: the digit names a switch
               note: this control has one block-delete switch and no levels
               help: write `/` alone
+              fix (unsafe): write `/` alone
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -36,6 +36,7 @@ declare_rule! {
         summary: "letter O instead of a zero",
         severity: Error,
         tier: Block,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::ERROR.union(BlockFlags::PROGRAM_NUMBER), check },
     }

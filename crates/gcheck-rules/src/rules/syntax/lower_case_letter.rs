@@ -2,8 +2,10 @@
 
 use std::ops::Range;
 
+use gcheck_program::{BlockFlags, StatementKind};
+
 use crate::meta::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// Code is written in lower-case letters, which not every control of this kind reads.
@@ -29,6 +31,7 @@ declare_rule! {
         summary: "lower-case letters in code",
         severity: Info,
         tier: Program,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -38,8 +41,40 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(block) = &cx.survey.lower_case else { return };
     if let Some(at) = first_letter(cx.slice(block.clone())) {
         let start = block.start + at as u32;
-        report.add(finding(start..start + 1));
+        report.add(finding(start..start + 1).fix_if(capitals(cx)));
     }
+}
+
+/// Letters that one fix writes as capitals; of more, the rest is left to the next run.
+const MOST_LETTERS: usize = 10_000;
+
+/// All code in capitals. Blocks with a mistake in form are left alone: what is code in them is not certain.
+fn capitals(cx: &FileCx<'_>) -> Option<Fix> {
+    let mut edits = Vec::new();
+    cx.each_block(|block| {
+        let flags = block.block().flags;
+        // What a block prints is text.
+        let prints = block.statements().any(|statement| matches!(statement.kind, StatementKind::Print));
+        if edits.len() >= MOST_LETTERS
+            || !flags.contains(BlockFlags::LOWER_CASE)
+            || flags.contains(BlockFlags::ERROR)
+            || prints
+        {
+            return;
+        }
+        let start = block.block_range().start;
+        let mut in_comment = false;
+        for (at, byte) in block.block_text().bytes().enumerate() {
+            in_comment = byte == b'(' || in_comment && byte != b')';
+            if !in_comment && byte.is_ascii_lowercase() {
+                let at = start + at as u32;
+                let text = char::from(byte.to_ascii_uppercase()).to_string();
+                edits.push(Edit { range: at..at + 1, text });
+            }
+        }
+    });
+    let title = "write code in capitals".to_owned();
+    (!edits.is_empty()).then_some(Fix { title, safe: true, edits })
 }
 
 /// The first lower-case letter outside comments.
@@ -67,7 +102,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
 
     #[test]
     fn once_a_file_and_not_in_comments() {
@@ -80,6 +116,18 @@ mod tests {
               |        ^ info[lower-case-letter] code in lower-case letters
         "#]],
         );
+    }
+
+    #[test]
+    fn the_fix_leaves_comments_and_printed_text() {
+        let program = "g0 x1. (start)\nDPRNT[abc#1[53]]\ng1 x#1 y[sin[#2]]\n";
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        expect![[r#"
+            G0 X1. (start)
+            DPRNT[abc#1[53]]
+            G1 X#1 Y[SIN[#2]]
+        "#]]
+        .assert_eq(&found.iter().map(|f| fixed(program, f)).collect::<String>());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A number has a second decimal point, or another number is glued to a value.
@@ -18,6 +18,9 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// G1 X[#1 + 1]5 F10
     /// ```
+    /// ```nc,reported,haas-mill
+    /// G1 X1..5 F10.
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G1 X1.25 F10.
@@ -26,6 +29,7 @@ declare_rule! {
         summary: "malformed number",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::MalformedNumber, check },
     }
@@ -48,7 +52,8 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             format!("number `{number}{extra}` has two decimal points"),
         )
         .label("which of them is meant?")
-        .help("remove one of the points");
+        .help("remove one of the points")
+        .fix_if(with_one_point(cx, error, number, extra));
     }
     Finding::new(
         &META,
@@ -57,6 +62,14 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     )
     .label("belongs to no address")
     .help("add the letter before the number, or remove the number")
+}
+
+/// Two points side by side, or one more at the end: with either gone the number is the same.
+fn with_one_point(cx: &BlockCx<'_>, error: &SyntaxError, number: &str, extra: &str) -> Option<Fix> {
+    let is_doubled = number.ends_with('.') && extra.starts_with('.') || extra == ".";
+    let rest = extra.strip_prefix('.').filter(|rest| is_doubled && !rest.contains('.'))?;
+    let title = format!("write `{number}{rest}`");
+    Some(Fix::risky(title, cx.in_file(error.range.start..error.range.start + 1), ""))
 }
 
 #[cfg(test)]

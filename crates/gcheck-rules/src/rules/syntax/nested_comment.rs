@@ -28,6 +28,7 @@ declare_rule! {
         summary: "parenthesis inside a comment",
         severity: Error,
         tier: Token,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::NestedComment, check },
     }

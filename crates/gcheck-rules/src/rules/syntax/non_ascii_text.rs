@@ -31,6 +31,7 @@ declare_rule! {
         summary: "character outside ASCII in code",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::Unexpected, check },
     }

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "`GOTO`, `DO` or `END` without its number",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::MissingNumber, check },
     }

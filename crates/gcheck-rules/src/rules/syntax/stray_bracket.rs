@@ -3,7 +3,7 @@
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `]` stands where no `[` is open.
@@ -26,6 +26,7 @@ declare_rule! {
         summary: "`]` without `[`",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::StrayBracket, check },
     }
@@ -39,6 +40,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "bracket `]` closes nothing")
         .label("every `[` before it is closed already")
         .help("remove the `]`, or add the `[` where the expression begins")
+        .fix(Fix::risky("remove the `]`", cx.in_file(error.range.clone()), ""))
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `)` stands where no comment is open.
@@ -28,6 +28,7 @@ declare_rule! {
         summary: "`)` without `(`",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::StrayParenthesis, check },
     }
@@ -42,6 +43,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         .label("no `(` before it")
         .note("a comment stands between `(` and `)` on one line")
         .help("add the `(` where the comment begins, or remove the `)`")
+        .fix(Fix::risky("remove the `)`", cx.in_file(cx.with_blanks_before(error.range.clone())), ""))
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ declare_rule! {
         summary: "comment is not closed",
         severity: Error,
         tier: Token,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::UnclosedComment, check },
     }

@@ -30,6 +30,7 @@ declare_rule! {
         summary: "`WHILE` without `DO`",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::WhileWithoutDo, check },
     }

@@ -29,6 +29,7 @@ declare_rule! {
         summary: "zero instead of the letter O of a program number",
         severity: Error,
         tier: Token,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::ValueWithoutAddress, check },
     }

@@ -52,6 +52,7 @@ declare_rule! {
         summary: "length offset of another tool",
         severity: Warning,
         tier: Path,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::FINISH),
@@ -92,22 +93,29 @@ impl PathRule for LengthOffsetOfAnotherTool {
             let change = changed.filter(|_| !by_t).and_then(|at| Some((at, cx.range_of(at)?)));
             match (given, change) {
                 // Given for the tool before, and never since.
-                (Some((at, given)), Some((change, range))) if is_before(at, change) => cx
-                    .finding(&META, cx.range(), message)
-                    .also(given, "the offset comes from here")
-                    .also(range, format!("tool {tool} comes into the spindle here")),
-                (Some((_, given)), Some((_, range))) => cx
-                    .finding(&META, given, message)
-                    .also(range, format!("tool {tool} comes into the spindle here")),
+                (Some((at, given)), Some((change, range))) if is_before(at, change) => {
+                    let finding = cx
+                        .finding(&META, cx.range(), message)
+                        .also(given, "the offset comes from here")
+                        .also(range, format!("tool {tool} comes into the spindle here"));
+                    (finding, None)
+                }
+                (Some((_, given)), Some((_, range))) => {
+                    let finding = cx
+                        .finding(&META, given.clone(), message)
+                        .also(range, format!("tool {tool} comes into the spindle here"));
+                    (finding, Some(given))
+                }
                 (given, _) => {
-                    cx.finding(&META, given.map_or_else(|| cx.range(), |(_, range)| range), message)
+                    let place = given.map_or_else(|| cx.range(), |(_, range)| range);
+                    (cx.finding(&META, place, message), None)
                 }
             }
         });
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (finding, scheme) in self.pairs.take_odd() {
+        for (finding, scheme) in self.pairs.take_odd('H') {
             report.add(
                 finding
                     .label(scheme.label("length offset"))
@@ -199,6 +207,7 @@ mod tests {
               there: tool 2 comes into the spindle here
               note: the program's other tool has the length offset of the tool's own number (H = T)
               help: use offset 2, or tell why not in a suppression
+              fix (unsafe): write `H2`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -1,22 +1,31 @@
 //! A tool change when no tool was called.
 
 use gcheck_controls::{Effect, Letter};
-use gcheck_engine::Fact;
+use gcheck_engine::{At, Fact};
 
+use crate::boundary::is_before;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A tool change (`M6`) with no tool called (`T`) in its block or before it.
+    /// A tool change (`M6`) with no tool called (`T`) in its block or before it, or none since the last change.
     ///
     /// ## Why it matters
-    /// The control takes the tool that the last program, or the operator, called, or stops with an alarm.
+    /// The control takes the tool that the last program, or the operator, called, or stops with an alarm; behind another
+    /// change the tool in the spindle stays, and works with the next one's speeds and length.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// M6
     /// G43 H1 Z1.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// M6
+    /// G43 H2 Z1.
     /// M30
     /// ```
     /// ## Not reported
@@ -26,21 +35,31 @@ declare_rule! {
     /// G43 H1 Z1.
     /// M30
     /// ```
+    /// The next tool is called while this one works.
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// T2
+    /// G43 H1 Z1.
+    /// M6
+    /// G43 H2 Z1.
+    /// M30
+    /// ```
     rule "tool-change-without-t" in "tool" {
         summary: "tool change without a called tool",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ToolChangeWithoutT { is_done: false }) },
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ToolChangeWithoutT { last: None }) },
     }
 }
 
 #[derive(Clone, PartialEq)]
 struct ToolChangeWithoutT {
-    is_done: bool,
+    /// The last tool change.
+    last: Option<At>,
 }
 
-remembers!(ToolChangeWithoutT);
+remembers!(ToolChangeWithoutT: last);
 
 impl PathRule for ToolChangeWithoutT {
     fn memory(&mut self) -> Remembers<'_> {
@@ -49,16 +68,36 @@ impl PathRule for ToolChangeWithoutT {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_change = cx.has_effect(|effect| effect == Effect::ToolChange);
-        if self.is_done || !is_change || !cx.model.semantics().tools.change_needs_t {
+        if !is_change || !cx.model.semantics().tools.change_needs_t {
             return;
         }
-        self.is_done = true;
-        let is_called =
-            cx.origin().letters.contains(Letter::of('T')) || cx.trace().set_by(Fact::Selected).is_some();
-        if is_called || cx.is_called_only() || cx.is_behind_unknown_program() {
+        let last = self.last.replace(cx.origin().at);
+        let called = cx.trace().set_by(Fact::Selected);
+        if cx.origin().letters.contains(Letter::of('T'))
+            || cx.is_called_only()
+            || cx.is_behind_unknown_program()
+        {
             return;
         }
         let range = cx.effect_range(|effect| effect == Effect::ToolChange);
+        if let (Some(called), Some(last)) = (called, last) {
+            // A loop brings the change of its last turn along.
+            if is_before(last, cx.origin().at) && (called == last || is_before(called, last)) {
+                report.add(
+                    cx.finding(
+                        &META,
+                        range,
+                        "tool change, and no tool was called since the last one (`M6` without `T`)",
+                    )
+                    .label("the tool in the spindle stays there")
+                    .help("name the tool: `T2 M6`"),
+                );
+            }
+            return;
+        }
+        if called.is_some() || last.is_some() {
+            return;
+        }
         report.add(
             cx.finding(&META, range, "tool change, and no tool was called (`M6` without `T`)")
                 .label("takes the tool that was called before the program, if any")
@@ -85,6 +124,19 @@ mod tests {
             2 | M6
               | ^^ warning[tool-change-without-t] tool change, and no tool was called (`M6` without `T`)
         "#]],
+        );
+    }
+
+    #[test]
+    fn every_change_needs_a_call_of_its_own() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nT1 M6\nG43 H1 Z1.\nM6\nG43 H2 Z1.\nT3\nM6\nM30\n",
+            &expect![[r#"
+                4 | M6
+                  | ^^ warning[tool-change-without-t] tool change, and no tool was called since the last one (`M6` without `T`)
+            "#]],
         );
     }
 

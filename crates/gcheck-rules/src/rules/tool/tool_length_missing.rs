@@ -1,15 +1,17 @@
 //! A tool that works without its length.
 
-use gcheck_controls::{Effect, Letter};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
+use crate::boundary::is_before;
 use crate::five_axis::is_along_tool;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// After a tool change a block moves along Z in work coordinates with no tool length compensation in effect.
+    /// After a tool change a block moves along Z in work coordinates with no tool length compensation in effect, with an offset
+    /// number of zero, or with the length of the tool before.
     ///
     /// ## Why it matters
     /// The control takes the spindle's nose for the tool's tip and drives the tool into the part by its whole length.
@@ -97,7 +99,11 @@ impl ToolLengthMissing {
         // The tool's first work: told here, or not at all.
         self.changed = None;
         let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
-        let Some(code) = cx.state().mode(Role::Length).only().filter(|code| is_off(*code)) else { return };
+        let Some(code) = cx.state().mode(Role::Length).only() else { return };
+        if !is_off(code) {
+            self.judge_what_is_on(cx, at, code, report);
+            return;
+        }
         if cx.trace().set_by(Fact::Tool) != Some(at) {
             return;
         }
@@ -152,6 +158,47 @@ impl ToolLengthMissing {
     }
 }
 
+impl ToolLengthMissing {
+    /// Length compensation is on: with no length at all, or with the one that the tool before had.
+    fn judge_what_is_on(&mut self, cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'_>) {
+        if cx.model.effect(code) != Effect::LengthPlus || cx.trace().set_by(Fact::Tool) != Some(at) {
+            return;
+        }
+        let Some(set) = cx.trace().set_by(Fact::Length) else { return };
+        let name = cx.name_of(code);
+        let is_h = |word: &gcheck_program::Word| word.letter == Letter::of('H');
+        let given = cx.find_word(set, is_h);
+        let number = Abstract::known(cx.state().h());
+        let is_zero = number == Some(0.0);
+        // Where it never comes, the tool works with the other one's offset: that is told by the numbers.
+        let is_followed_by_its_own = cx.is_near(|effect| effect == Effect::LengthPlus);
+        // In a block that moves Z as well it is told without regard to the tool.
+        let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
+        if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
+            let finding = cx
+                .finding(
+                    &META,
+                    given.unwrap_or_else(|| cx.letter_range('Z')),
+                    "the tool has no length (offset number zero, `H0`)",
+                )
+                .label("the control takes the spindle's nose for the tool's tip");
+            report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
+        } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
+            let mut finding = cx
+                .finding(
+                    &META,
+                    cx.letter_range('Z'),
+                    format!("the tool moves with the length of the tool before (no `{name}` since the tool change)"),
+                )
+                .label("the tip is off by the difference of the two lengths");
+            if let Some(given) = given {
+                finding = finding.also(given, "the length comes from here");
+            }
+            report.add(finding.help(format!("give the length with the first move along Z: `{name} H1 Z…`")));
+        }
+    }
+}
+
 /// Moves in machine coordinates, to a reference point or to a probe's touch.
 fn needs_no_length(cx: &PathCx<'_>) -> bool {
     cx.has_effect(|effect| {
@@ -190,6 +237,39 @@ mod tests {
                   | ^^^ warning[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
             "#]],
         );
+    }
+
+    #[test]
+    fn an_approach_with_the_length_of_the_tool_before() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nT1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG0 X0. Z2.\nG43 H2 Z1.\nG1 Z0.\nM30\n",
+            &expect![[r#"
+                6 | G0 X0. Z2.
+                  |        ^^^ warning[tool-length-missing] the tool moves with the length of the tool before (no `G43` since the tool change)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nT1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG0 X0. Y2.\nG43 H2 Z1.\nG1 Z0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn an_offset_of_zero_is_no_length() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nT1 M6\nG43 H0\nG1 Z0. F5.\nM30\n",
+            &expect![[r#"
+                3 | G43 H0
+                  |     ^^ warning[tool-length-missing] the tool has no length (offset number zero, `H0`)
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "O1\nT1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "decimal point on an address that takes whole numbers",
         severity: Error,
         tier: Block,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::POINT_ON_INTEGER, check },
     }

@@ -34,6 +34,7 @@ declare_rule! {
         summary: "no decimal point where the control counts smallest steps",
         severity: Warning,
         tier: Program,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }

@@ -3,7 +3,7 @@
 use gcheck_program::{BlockFlags, Word};
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
+use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
 
 declare_rule! {
     /// A word that takes no minus sign has one.
@@ -27,6 +27,7 @@ declare_rule! {
         summary: "minus sign on a word that takes none",
         severity: Error,
         tier: Block,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::NEGATIVE, check },
     }
@@ -52,8 +53,18 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .label(facts.is)
         .note(format!("`{}` takes no minus sign  [{}]", word.letter, facts.source))
         .help("take the sign away, or correct the address")
+        .fix_if(unsigned(cx, word))
         // The sign is a matter of the address, whatever code reads it.
         .at_most(limit(cx.control().letter(word.letter).map_or(facts.confidence, |entry| entry.confidence)))
+}
+
+/// The word without its sign: a number as it stands, no expression.
+fn unsigned(cx: &BlockCx<'_>, word: &Word) -> Option<Fix> {
+    let text = cx.text(word);
+    let (letter, number) = text.split_once('-')?;
+    let is_number = number.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let written = format!("{letter}{number}");
+    is_number.then(|| Fix::risky(format!("write `{text}` as `{written}`"), cx.range(word), written))
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use gcheck_controls::{Handling, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::meta::declare_rule;
-use crate::{BlockCx, Finding, Report, Run, Severity, limit};
+use crate::{BlockCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
     /// An address stands twice in one block.
@@ -17,6 +17,10 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// G1 X1. Y2. X3. F100.
     /// ```
+    /// The same value twice is mended by taking the second away.
+    /// ```nc,reported,fanuc-mill
+    /// G1 X1. Y2. X1. F100.
+    /// ```
     /// ## Not reported
     /// Arguments of a macro: a second `I` has a meaning of its own.
     /// ```nc,quiet,fanuc-mill
@@ -26,6 +30,7 @@ declare_rule! {
         summary: "address stands twice in a block",
         severity: Error,
         tier: Block,
+        mends: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::REPEATED, check },
     }
@@ -62,11 +67,17 @@ fn finding(cx: &BlockCx<'_>, first: &Word, second: &Word) -> Finding {
             ("takes the last one", Severity::Warning)
         }
     };
+    // With one value for both, nothing is lost with the second.
+    let is_same = first.number().is_some() && cx.text(first).eq_ignore_ascii_case(cx.text(second));
+    let fix = is_same.then(|| {
+        Fix::safe(format!("take the second `{}` away", cx.text(second)), cx.with_blanks(second), "")
+    });
     Finding::new(&META, cx.range(second), format!("two `{letter}` words in one block"))
         .label(format!("`{letter}` again"))
         .also(cx.range(first), format!("`{letter}` stands here already"))
         .note(format!("an address may stand once in a block; this control {does}  [{}]", rules.source))
         .help("keep one of the two, or begin a new block before the second")
+        .fix_if(fix)
         .at_most(severity)
         .at_most(limit(rules.confidence))
 }

@@ -28,6 +28,7 @@ declare_rule! {
         summary: "word that no code reads",
         severity: Error,
         tier: Block,
+        mends: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::UNREAD_WORD, check },
     }
@@ -80,6 +81,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
         .label(general)
         .note(format!("this control {does}  [{}]", rules.source))
         .help(format!("take `{letter}` away, or add the code that it belongs to"))
+        .fix(cx.taking_away(word))
         .at_most(severity)
         .at_most(limit(rules.confidence))
 }

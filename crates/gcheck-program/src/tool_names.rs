@@ -5,9 +5,9 @@
 
 use std::collections::BTreeMap;
 
-use gcheck_controls::{Effect, Letter};
-use gcheck_engine::Model;
-use gcheck_program::{Block, BlockFlags, BlockTable};
+use gcheck_controls::{Control, Effect, Letter, LetterSet};
+
+use crate::block::{Block, BlockFlags, BlockTable, Word};
 
 /// Remarks longer than this are cut: they are names, not instructions.
 const LONGEST: usize = 100;
@@ -27,8 +27,8 @@ enum Place {
 
 /// Names of tools by number, gathered block by block.
 #[derive(Debug)]
-pub(crate) struct ToolNames<'m> {
-    model: &'m Model<'m>,
+pub struct ToolNames<'c> {
+    control: &'c Control,
     names: BTreeMap<u32, (Place, String)>,
     /// The remark of the block before, when it has nothing else.
     above: Option<String>,
@@ -36,18 +36,19 @@ pub(crate) struct ToolNames<'m> {
     called: Option<u32>,
 }
 
-impl<'m> ToolNames<'m> {
-    pub(super) fn new(model: &'m Model<'m>) -> Self {
-        Self { model, names: BTreeMap::new(), above: None, called: None }
+impl<'c> ToolNames<'c> {
+    /// Knows no names yet.
+    pub fn new(control: &'c Control) -> Self {
+        Self { control, names: BTreeMap::new(), above: None, called: None }
     }
 
     /// What a tool is called.
-    pub(crate) fn get(&self, tool: u32) -> Option<&str> {
+    pub fn get(&self, tool: u32) -> Option<&str> {
         self.names.get(&tool).map(|(_, name)| name.as_str())
     }
 
-    /// Looks at the blocks of a chunk.
-    pub(super) fn look(&mut self, table: &BlockTable, text: &str) {
+    /// Looks at the blocks of the next chunk, with its text.
+    pub fn look(&mut self, table: &BlockTable, text: &str) {
         let interesting =
             |block: &Block| block.flags.contains(BlockFlags::COMMENT) || block.letters.intersects(LETTERS);
         for (_, block) in table.blocks() {
@@ -71,14 +72,13 @@ impl<'m> ToolNames<'m> {
         let mut changes = false;
         let mut has_arguments = false;
         for word in words {
-            let effect = self.model.effect(word.code);
+            let effect = self.control.code_at(word.code).map_or(Effect::None, gcheck_controls::Code::effect);
             changes |= effect == Effect::ToolChange;
             has_arguments |= matches!(effect, Effect::MacroCall | Effect::MacroModal);
         }
-        let tools = &self.model.semantics().tools;
+        let tools = &self.control.semantics().tools;
         let t = words.iter().find(|word| word.letter == Letter::of('T')).filter(|_| !has_arguments);
-        let t =
-            t.and_then(gcheck_program::Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
+        let t = t.and_then(Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
         changes |= t.is_some() && tools.change_by_t;
         self.called = t.or(self.called);
         if let Some((tool, name)) = remark.and_then(entry) {
@@ -111,10 +111,10 @@ impl<'m> ToolNames<'m> {
     }
 }
 
-const LETTERS: gcheck_controls::LetterSet = gcheck_controls::LetterSet::of("TM");
+const LETTERS: LetterSet = LetterSet::of("TM");
 
-/// The text of a block's first comment.
-fn remark(block: &str) -> Option<&str> {
+/// The text of a block's first comment, without what encloses it; `None` without one, or when it is empty.
+pub fn remark(block: &str) -> Option<&str> {
     let at = block.find(['(', ';'])?;
     let rest = block.get(at + 1..)?;
     let inner = if block.as_bytes().get(at) == Some(&b'(') { rest.split(')').next()? } else { rest };
@@ -142,15 +142,12 @@ fn entry(remark: &str) -> Option<(u32, &str)> {
 
 #[cfg(test)]
 mod tests {
-    use gcheck_engine::Model;
-    use gcheck_program::{Dialect, Loaded};
-
     use super::ToolNames;
+    use crate::{Dialect, Loaded};
 
     fn check(control: &str, program: &str, expected: &[(u32, &str)]) {
         let control = gcheck_controls::load(control).unwrap();
-        let model = Model::new(&control);
-        let mut names = ToolNames::new(&model);
+        let mut names = ToolNames::new(&control);
         let _ = Loaded::new(program, &Dialect::new(&control), |_, table, part| names.look(table, part));
         let found: Vec<(u32, &str)> =
             names.names.iter().map(|(tool, (_, name))| (*tool, name.as_str())).collect();

@@ -1,0 +1,470 @@
+//! What an editor offers to do at a place.
+//!
+//! Knows: which changes are offered where. Must not know: how editors ask, how each change is made.
+
+mod arcs;
+mod cycles;
+mod fixes;
+mod lines;
+mod points;
+mod suppress;
+
+use std::ops::Range;
+
+use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
+use gcheck_rules::Edit;
+
+/// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
+/// selected, because editors ask at every move of the cursor.
+const LARGE: u32 = 256 << 10;
+
+/// Something that can be done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CodeAction {
+    /// What it does, imperative.
+    pub title: String,
+    /// What kind of change it is.
+    pub kind: ActionKind,
+    /// Edits of the document, which do not overlap; empty for [`ActionKind::Explain`].
+    pub edits: Vec<Edit>,
+    /// The rule whose finding it answers.
+    pub rule: Option<&'static str>,
+    /// Bytes of the finding that it answers.
+    pub finding: Option<Range<u32>>,
+    /// The first choice for its finding.
+    pub is_preferred: bool,
+    /// An address to open, of [`ActionKind::Explain`].
+    pub link: Option<String>,
+}
+
+/// Kinds of actions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ActionKind {
+    /// Mends a finding, or all findings of its rule.
+    Fix,
+    /// Mends everything in the file whose fix changes no move.
+    FixAll,
+    /// Silences a finding by a comment.
+    Suppress,
+    /// Opens a page.
+    Explain,
+    /// Changes how something is written at the place.
+    Rewrite,
+    /// Changes the whole file.
+    Source,
+}
+
+impl CodeAction {
+    /// A change that answers no finding.
+    fn change(title: impl Into<String>, kind: ActionKind, edits: Vec<Edit>) -> Self {
+        Self { title: title.into(), kind, edits, rule: None, finding: None, is_preferred: false, link: None }
+    }
+}
+
+/// What can be done in a range, as findings of `analysis` and the text suggest.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn code_actions(
+    database: &mut Database,
+    document: DocumentId,
+    range: Range<u32>,
+    analysis: Option<&Analysis>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Vec<CodeAction>, Cancelled> {
+    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let range =
+        range.start.min(snapshot.len())..range.end.clamp(range.start.min(snapshot.len()), snapshot.len());
+    let is_whole = snapshot.len() <= LARGE || range == (0..snapshot.len());
+    let mut actions = Vec::new();
+    if let Some(analysis) = analysis {
+        fixes::offer(&snapshot, analysis, &range, &mut actions);
+    }
+    arcs::offer(database, document, &snapshot, range.start, stop, &mut actions)?;
+    cycles::offer(database, document, &snapshot, range.start, stop, &mut actions)?;
+    lines::offer_block_skip(&snapshot, &range, &mut actions);
+    if is_whole {
+        points::offer(&snapshot, &mut actions);
+        lines::offer_renumber(&snapshot, &mut actions);
+    }
+    Ok(actions)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::{ActionKind, code_actions};
+    use crate::fixture::{Fixture, applied};
+
+    /// The actions at the cursor of some kinds, and the text after each.
+    fn check(control: &str, text: &str, kinds: &[ActionKind], expected: &Expect) {
+        let mut fixture = Fixture::new(control, text);
+        let analysis = fixture.analysis();
+        let at = fixture.offset..fixture.offset;
+        let actions =
+            code_actions(&mut fixture.database, fixture.document, at, Some(&analysis), &|| false).unwrap();
+        let mut out = String::new();
+        for action in actions.iter().filter(|action| kinds.contains(&action.kind)) {
+            let preferred = if action.is_preferred { " (preferred)" } else { "" };
+            out.push_str(&format!("# {:?}: {}{preferred}\n", action.kind, action.title));
+            out.push_str(&action.link.clone().map(|link| link + "\n").unwrap_or_default());
+            if !action.edits.is_empty() {
+                out.push_str(&applied(&fixture.snapshot().text(), &action.edits));
+            }
+        }
+        expected.assert_eq(&out);
+    }
+
+    #[test]
+    fn fixes_of_a_finding_of_its_rule_and_of_the_file() {
+        let text = "%\nO1\nG21 G90 G54 G0 X1.\nG1 X5$0 F100.\nG1 X6\nM30\n%\n";
+        check(
+            "haas-mill",
+            text,
+            &[ActionKind::Fix, ActionKind::FixAll],
+            &expect![[r#"
+            # Fix: write a decimal point behind `X5` (may change moves)
+            %
+            O1
+            G21 G90 G54 G0 X1.
+            G1 X5. F100.
+            G1 X6
+            M30
+            %
+            # Fix: mend all 2 of `missing-decimal-point` in this file
+            %
+            O1
+            G21 G90 G54 G0 X1.
+            G1 X5. F100.
+            G1 X6.
+            M30
+            %
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_finding_is_silenced_or_explained() {
+        let text = "%\nO1\nG21 G90 G54 G0 X1.\nG1 X5$0.\nM30\n%\n";
+        check(
+            "haas-mill",
+            text,
+            &[ActionKind::Suppress, ActionKind::Explain],
+            &expect![[r#"
+            # Suppress: silence `feed-missing` on this line
+            %
+            O1
+            G21 G90 G54 G0 X1.
+            G1 X5. (gcheck: ignore feed-missing - say why)
+            M30
+            %
+            # Suppress: silence `feed-missing` in this file
+            %
+            O1
+            (gcheck: ignore-file feed-missing - say why)
+            G21 G90 G54 G0 X1.
+            G1 X5.
+            M30
+            %
+            # Explain: explain `feed-missing`
+            https://github.com/gcheck/gcheck/blob/main/docs/rules/feed-missing.md
+        "#]],
+        );
+        let text = "G21 G90 G54 G0 X1\nG1 X5$0 ; cut\nM2\n";
+        check(
+            "linuxcnc",
+            text,
+            &[ActionKind::Suppress],
+            &expect![[r#"
+            # Suppress: silence `feed-missing` on this line
+            G21 G90 G54 G0 X1
+            (gcheck: ignore feed-missing - say why)
+            G1 X5 ; cut
+            M2
+            # Suppress: silence `feed-missing` in this file
+            (gcheck: ignore-file feed-missing - say why)
+            G21 G90 G54 G0 X1
+            G1 X5 ; cut
+            M2
+        "#]],
+        );
+    }
+
+    #[test]
+    fn decimal_points_in_the_file() {
+        let text = "O1\nG21 G90 G54 G0 X1000 Y0$0\nG4 P500\nG1 Z-1. F200\nG65 P9010 A1\nM30\n";
+        check(
+            "fanuc-mill",
+            text,
+            &[ActionKind::Source],
+            &expect![[r#"
+                # Source: write 1 number with decimal points, as the control counts them
+                O1
+                G21 G90 G54 G0 X1. Y0
+                G4 P500
+                G1 Z-1. F200
+                G65 P9010 A1
+                M30
+                # Source: write decimal points behind 1 number without one (changes what they count)
+                O1
+                G21 G90 G54 G0 X1000. Y0
+                G4 P500
+                G1 Z-1. F200
+                G65 P9010 A1
+                M30
+            "#]],
+        );
+    }
+
+    #[test]
+    fn arcs_by_radius_and_by_centre() {
+        check(
+            "haas-mill",
+            "O1\nG21 G90 G54 G0 X0. Y0.\nG2 X10. Y10. R$010. F100.\nM30\n",
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: write this arc with its centre
+            O1
+            G21 G90 G54 G0 X0. Y0.
+            G2 X10. Y10. I10. J0. F100.
+            M30
+            # Rewrite: put block skip on this block
+            O1
+            G21 G90 G54 G0 X0. Y0.
+            /G2 X10. Y10. R10. F100.
+            M30
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG21 G90 G54 G0 X0. Y0.\nG2 X10. Y10. I$010. J0. F100.\nM30\n",
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: write this arc with its radius
+            O1
+            G21 G90 G54 G0 X0. Y0.
+            G2 X10. Y10. R10. F100.
+            M30
+            # Rewrite: put block skip on this block
+            O1
+            G21 G90 G54 G0 X0. Y0.
+            /G2 X10. Y10. I10. J0. F100.
+            M30
+        "#]],
+        );
+        check(
+            "haas-lathe",
+            "O1\nG20 G54 G18 G0 X1. Z0.\nG3 X1.5 Z-.25 R.2$05 F.01\nM30\n",
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+                # Rewrite: write this arc with its centre
+                O1
+                G20 G54 G18 G0 X1. Z0.
+                G3 X1.5 Z-.25 I0. K-0.25 F.01
+                M30
+                # Rewrite: put block skip on this block
+                O1
+                G20 G54 G18 G0 X1. Z0.
+                /G3 X1.5 Z-.25 R.25 F.01
+                M30
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "G21 G90 G90.1 G0 X0 Y0\nG3 X10 Y10 I$00 J10 F100\nM2\n",
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: write this arc with its radius
+            G21 G90 G90.1 G0 X0 Y0
+            G3 X10 Y10 R10. F100
+            M2
+            # Rewrite: put block skip on this block
+            G21 G90 G90.1 G0 X0 Y0
+            /G3 X10 Y10 I0 J10 F100
+            M2
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_full_circle_has_no_radius() {
+        check(
+            "haas-mill",
+            "O1\nG21 G90 G54 G0 X0. Y0.\nG2 I$010. F100.\nM30\n",
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: put block skip on this block
+            O1
+            G21 G90 G54 G0 X0. Y0.
+            /G2 I10. F100.
+            M30
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_cycle_becomes_plain_moves() {
+        let text = "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nN5 G99 G83$0 X1. Y2. Z-6. R2. Q3. F100.\nX5.\nG80\nG0 Z50.\nM30\n";
+        check(
+            "haas-mill",
+            text,
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: write this cycle as 19 plain moves
+            O1
+            G21 G90 G54 G0 X0. Y0. Z10.
+            N5 G99 G0 X1. Y2.
+            G0 Z2.
+            G1 Z-1. F100.
+            G0 Z2.
+            G0 Z1.54
+            G1 Z-4.
+            G0 Z2.
+            G0 Z-1.46
+            G1 Z-6.
+            G0 Z2.
+            G0 X5.
+            G1 Z-1.
+            G0 Z2.
+            G0 Z1.54
+            G1 Z-4.
+            G0 Z2.
+            G0 Z-1.46
+            G1 Z-6.
+            G0 Z2.
+            G80
+            G0 Z50.
+            M30
+            # Rewrite: put block skip on this block
+            O1
+            G21 G90 G54 G0 X0. Y0. Z10.
+            /N5 G99 G83 X1. Y2. Z-6. R2. Q3. F100.
+            X5.
+            G80
+            G0 Z50.
+            M30
+        "#]],
+        );
+        let text = "G21 G90 G0 X0 Y0 Z10\nG98 G82 X1 Y2 Z-6 R2 P0.5 F100$0\nG80\nG0 Z50\nM2\n";
+        check(
+            "linuxcnc",
+            text,
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+                # Rewrite: write this cycle as 5 plain moves
+                G21 G90 G0 X0 Y0 Z10
+                G98 G0 X1. Y2.
+                G0 Z2.
+                G1 Z-6. F100.
+                G4 P0.5
+                G0 Z10.
+                G80
+                G0 Z50
+                M2
+                # Rewrite: put block skip on this block
+                G21 G90 G0 X0 Y0 Z10
+                /G98 G82 X1 Y2 Z-6 R2 P0.5 F100
+                G80
+                G0 Z50
+                M2
+            "#]],
+        );
+    }
+
+    #[test]
+    fn what_is_written_otherwise_moves_as_before() {
+        let moves = |control: &str, text: &str| {
+            let snapshot = Fixture::new(control, text).snapshot();
+            let mut moves: Vec<String> = Vec::new();
+            let rounded = |position: &gcheck_engine::Position| {
+                position.values().map(|value| (value * 1_000.0).round() / 1_000.0 + 0.0)
+            };
+            crate::running::run_through(&snapshot, 10_000, &mut |step| match step.event {
+                gcheck_engine::Event::Travel(travel) if travel.from != travel.to => {
+                    moves.push(format!("{:?} {:?}", travel.kind, rounded(&travel.to)));
+                }
+                gcheck_engine::Event::Arc(arc) => {
+                    moves.push(format!("arc {:.2} {:?}", arc.sweep, rounded(&arc.to)));
+                }
+                gcheck_engine::Event::Dwell(time) => moves.push(format!("dwell {}", time.0)),
+                _ => {}
+            });
+            moves
+        };
+        for (control, text) in [
+            (
+                "haas-mill",
+                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG98 G73$0 X1. Y2. Z-6. R2. Q3. F100.\nX5. Y7.\nG80\nG0 Z50.\nM30\n",
+            ),
+            (
+                "fanuc-mill",
+                "O1\nG21 G90 G54 G0 X0. Y0. Z10.\nG99 G81$0 X1. Y2. Z-6. R2. F100.\nY7.\nG0 Z50.\nM30\n",
+            ),
+            ("linuxcnc", "G20 G90 G0 X0 Y0 Z1\nG98 G82$0 X1 Y2 Z-.6 R.2 P.5 F10 L1\nX3\nG80\nG0 Z5\nM2\n"),
+            ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R1.1 F10.\nM30\n"),
+            ("haas-mill", "O1\nG20 G90 G54 G0 X0. Y0.\nG3$0 X1.234 Y.777 R-1.1 F10.\nM30\n"),
+            ("fanuc-mill", "O1\nG21 G18 G90 G54 G0 X0. Z0.\nG2$0 X10. Z10. K10. I0. F10.\nM30\n"),
+        ] {
+            let mut fixture = Fixture::new(control, text);
+            let at = fixture.offset..fixture.offset;
+            let actions = code_actions(&mut fixture.database, fixture.document, at, None, &|| false).unwrap();
+            let before = fixture.snapshot().text();
+            let action = actions.iter().find(|action| action.title.starts_with("write this"));
+            let after = applied(&before, &action.unwrap_or_else(|| panic!("nothing offered: {text}")).edits);
+            assert_eq!(moves(control, &before), moves(control, &after), "{before}\nbecame\n{after}");
+        }
+    }
+
+    #[test]
+    fn a_cycle_that_is_more_than_moves_stays() {
+        let text =
+            "O1\nG21 G90 G54 S500 M3 G0 X0. Y0. Z10.\nG84$0 X1. Y2. Z-6. R2. F500.\nG80\nG0 Z50.\nM30\n";
+        check(
+            "haas-mill",
+            text,
+            &[ActionKind::Rewrite],
+            &expect![[r#"
+            # Rewrite: put block skip on this block
+            O1
+            G21 G90 G54 S500 M3 G0 X0. Y0. Z10.
+            /G84 X1. Y2. Z-6. R2. F500.
+            G80
+            G0 Z50.
+            M30
+        "#]],
+        );
+    }
+
+    #[test]
+    fn lines_with_and_without_block_skip() {
+        let text = "O1\nN10 G0 X1.\n\n/N20 X2.\n(NOTE)\nM30\n";
+        let mut fixture = Fixture::new("haas-mill", text);
+        let mut toggled = |range: std::ops::Range<u32>, text: &str| {
+            let actions =
+                code_actions(&mut fixture.database, fixture.document, range, None, &|| false).unwrap();
+            let action = actions.into_iter().find(|action| action.title.contains("block skip")).unwrap();
+            applied(text, &action.edits)
+        };
+        assert_eq!(toggled(4..25, text), "O1\n/N10 G0 X1.\n\n/N20 X2.\n(NOTE)\nM30\n");
+        assert_eq!(toggled(16..18, text), "O1\nN10 G0 X1.\n\nN20 X2.\n(NOTE)\nM30\n");
+    }
+
+    #[test]
+    fn numbers_in_tens() {
+        let text = "O1\nN1 G0 X1.$0\nN2 X2.\nGOTO 1\nM30\n";
+        check(
+            "haas-mill",
+            text,
+            &[ActionKind::Source],
+            &expect![[r#"
+            # Source: number blocks in tens, with what jumps to them
+            O1
+            N10 G0 X1.
+            N20 X2.
+            GOTO 10
+            M30
+        "#]],
+        );
+    }
+}

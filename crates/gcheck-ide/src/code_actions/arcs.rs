@@ -1,0 +1,172 @@
+//! Arcs by radius and by centre, one written as the other.
+//!
+//! Knows: which words say an arc's shape. Must not know: how arcs are computed (the engine does).
+
+use gcheck_controls::{Effect, LetterSet};
+use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
+use gcheck_engine::{ArcMove, At, Event, Look, Role, Transform};
+use gcheck_program::{BlockFlags, Word};
+use gcheck_rules::Edit;
+
+use super::points::pointed;
+use super::{ActionKind, CodeAction};
+use crate::pieces::touches;
+use crate::reading::Reading;
+use crate::state_at::look_at;
+
+/// Offers to write the arc at a place the other way.
+pub(super) fn offer(
+    database: &mut Database,
+    document: DocumentId,
+    snapshot: &Snapshot,
+    offset: u32,
+    stop: &dyn Fn() -> bool,
+    actions: &mut Vec<CodeAction>,
+) -> Result<(), Cancelled> {
+    let Some(place) = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset)) else {
+        return Ok(());
+    };
+    let block = place.block();
+    let shaped = LetterSet::of("IJKR");
+    if !block.letters.intersects(shaped)
+        || block.flags.intersects(BlockFlags::ERROR | BlockFlags::STATEMENT | BlockFlags::EXPRESSION)
+    {
+        return Ok(());
+    }
+    look_at(database, document, place.number, stop, &mut |state, look| {
+        actions.extend(rewritten(snapshot, &place, state, look));
+    })
+}
+
+fn rewritten(
+    snapshot: &Snapshot,
+    place: &BlockPlace,
+    state: &StateAt,
+    look: &mut Look<'_, '_>,
+) -> Option<CodeAction> {
+    let model = look.model();
+    let before = &state.before;
+    let trial = look.execute(At { file: 0, block: place.number }, before);
+    let mut moves = trial.events.iter().filter(|event| {
+        matches!(event, Event::Arc(_) | Event::Travel(_) | Event::Curve(_) | Event::RigidTap { .. })
+    });
+    let Some(Event::Arc(arc)) = moves.next().filter(|_| trial.fault.is_none()) else { return None };
+    let after = trial.after.as_ref()?;
+    // Where programmed and work coordinates are not one, the words of the arc are not those of its event.
+    let is_plain = *after.transform() == Transform::NONE
+        && [(Role::Compensation, Effect::CompensationOff), (Role::Polar, Effect::PolarOff)].into_iter().all(
+            |(role, off)| {
+                let mode = after.mode(role).only();
+                mode.is_some_and(|code| !code.is_some() || model.effect(code) == off)
+            },
+        );
+    if moves.next().is_some() || arc.expanded || !is_plain || arc.turns.abs() > 1 {
+        return None;
+    }
+    let reading = Reading::new(snapshot, model);
+    let words = place.table.words(place.block());
+    let written = |letters: LetterSet| -> Vec<&Word> {
+        words.iter().filter(|word| letters.contains(word.letter) && !word.letter.is_corner()).collect()
+    };
+    let (first, second, _) = arc.plane.axes();
+    let centre_letters: Option<[char; 2]> =
+        ['I', 'J', 'K'].get(first).zip(['I', 'J', 'K'].get(second)).map(|(a, b)| [*a, *b]);
+    let centre_letters = centre_letters?;
+    let in_program = 1.0 / reading.units(after).in_mm();
+    let shape = Shape::of(arc)?;
+    let radius_words = written(LetterSet::of("R"));
+    let centre_words = written(LetterSet::of("IJK"));
+    let decimals = least_decimals(snapshot, &reading, after);
+    match (radius_words.as_slice(), centre_words.as_slice()) {
+        ([radius], []) => {
+            let is_absolute = after.effect(Role::ArcCentre, model) == Some(Effect::ArcCentreAbsolute);
+            let values = if is_absolute {
+                shape.centre
+            } else {
+                [shape.centre[0] - shape.start[0], shape.centre[1] - shape.start[1]]
+            };
+            let values = values.map(|value| rounded(value * in_program, decimals));
+            // Rounded words must still be the arc that the control accepts.
+            let exact = if is_absolute { [0.0; 2] } else { shape.start };
+            let centre = [exact[0] + values[0] / in_program, exact[1] + values[1] / in_program];
+            let reach = |point: [f64; 2]| (point[0] - centre[0]).hypot(point[1] - centre[1]);
+            let rules = &model.semantics().arcs;
+            let difference = (reach(shape.start) - reach(shape.end)).abs();
+            if difference > rules.radius_difference.max(rules.relative * shape.radius) {
+                return None;
+            }
+            let mut texts: Vec<String> = centre_letters
+                .iter()
+                .zip(values)
+                .map(|(letter, value)| format!("{letter}{}", pointed(value)))
+                .collect();
+            texts.sort();
+            let range = place.in_file(radius.range());
+            let edit = Edit { range, text: texts.join(" ") };
+            Some(CodeAction::change("write this arc with its centre", ActionKind::Rewrite, vec![edit]))
+        }
+        ([], [first, rest @ ..]) => {
+            let sweep = arc.sweep.abs();
+            // A full circle has no radius form, and near a half circle a radius does not hold the centre.
+            let half = (sweep - std::f64::consts::PI).abs();
+            if sweep > 2.0 * std::f64::consts::PI - 0.01 || half < 0.01 || sweep < 0.01 {
+                return None;
+            }
+            let radius = rounded(shape.radius * in_program, decimals);
+            let radius = if sweep > std::f64::consts::PI { -radius } else { radius };
+            let mut edits =
+                vec![Edit { range: place.in_file(first.range()), text: format!("R{}", pointed(radius)) }];
+            for word in rest {
+                let mut range = place.in_file(word.range());
+                // The blank in front goes with its word.
+                if snapshot.slice(range.start.saturating_sub(1)..range.start) == " " {
+                    range.start -= 1;
+                }
+                edits.push(Edit { range, text: String::new() });
+            }
+            Some(CodeAction::change("write this arc with its radius", ActionKind::Rewrite, edits))
+        }
+        _ => None,
+    }
+}
+
+/// An arc in its plane, millimetres.
+struct Shape {
+    start: [f64; 2],
+    end: [f64; 2],
+    centre: [f64; 2],
+    radius: f64,
+}
+
+impl Shape {
+    /// `None` when anything of it is unknown.
+    fn of(arc: &ArcMove) -> Option<Self> {
+        let local = |position: &gcheck_engine::Position| {
+            let [first, second, _] = arc.plane.to_local(position.xyz());
+            [first.0, second.0]
+        };
+        let (start, end, centre) = (local(&arc.from), local(&arc.to), [arc.centre.0.0, arc.centre.1.0]);
+        let radius = (start[0] - centre[0]).hypot(start[1] - centre[1]);
+        let is_known = start.iter().chain(&end).chain(&centre).all(|value| value.is_finite());
+        is_known.then_some(Self { start, end, centre, radius })
+    }
+}
+
+/// Decimals that the control resolves.
+fn least_decimals(
+    snapshot: &Snapshot,
+    reading: &Reading<'_>,
+    state: &gcheck_engine::State<gcheck_engine::Abstract>,
+) -> i32 {
+    let numbers = snapshot.control().numbers();
+    let least = match reading.units(state) {
+        gcheck_engine::Units::Inch => numbers.least_inch,
+        gcheck_engine::Units::Mm => numbers.least_mm,
+    };
+    (-least.log10()).round().clamp(0.0, 6.0) as i32
+}
+
+fn rounded(value: f64, decimals: i32) -> f64 {
+    let scale = 10_f64.powi(decimals);
+    (value * scale).round() / scale + 0.0
+}

@@ -1,0 +1,97 @@
+//! Fixes of findings, alone and together; silencing and explaining them.
+//!
+//! Knows: which findings lie at a place, which fixes may be made together. Must not know: how a fix comes about.
+
+use std::ops::Range;
+
+use gcheck_db::{Analysis, Snapshot};
+use gcheck_rules::{Edit, Finding, Fix};
+
+use super::{ActionKind, CodeAction, suppress};
+
+/// Findings that are answered at one place.
+const MOST_FINDINGS: usize = 20;
+
+/// Offers what answers the findings in a range.
+pub(super) fn offer(
+    snapshot: &Snapshot,
+    analysis: &Analysis,
+    range: &Range<u32>,
+    actions: &mut Vec<CodeAction>,
+) {
+    let touches = |finding: &&Finding| finding.range.start <= range.end && range.start <= finding.range.end;
+    let here: Vec<&Finding> = analysis.findings.iter().filter(touches).take(MOST_FINDINGS).collect();
+    let answer = |finding: &Finding, action: CodeAction| CodeAction {
+        rule: Some(finding.rule.id),
+        finding: Some(finding.range.clone()),
+        ..action
+    };
+    let mut told: Vec<&str> = Vec::new();
+    for finding in &here {
+        for (index, fix) in finding.fixes.iter().enumerate() {
+            let note = if fix.safe { "" } else { " (may change moves)" };
+            let mut action =
+                CodeAction::change(format!("{}{note}", fix.title), ActionKind::Fix, fix.edits.clone());
+            action.is_preferred = index == 0 && fix.safe;
+            actions.push(answer(finding, action));
+        }
+        if told.contains(&finding.rule.id) {
+            continue;
+        }
+        told.push(finding.rule.id);
+        let of_rule = analysis.findings.iter().filter(|other| other.rule.id == finding.rule.id);
+        let (edits, count) = together(of_rule.filter_map(|other| other.fixes.first()));
+        if count > 1 {
+            let title = format!("mend all {count} of `{}` in this file", finding.rule.id);
+            actions.push(answer(finding, CodeAction::change(title, ActionKind::Fix, edits)));
+        }
+    }
+    for finding in &here {
+        for action in suppress::of(snapshot, finding) {
+            actions.push(answer(finding, action));
+        }
+        let title = format!("explain `{}`", finding.rule.id);
+        let mut action = CodeAction::change(title, ActionKind::Explain, Vec::new());
+        action.link = Some(finding.rule.page());
+        actions.push(answer(finding, action));
+    }
+    let safe = analysis.findings.iter().filter_map(|finding| finding.fixes.iter().find(|fix| fix.safe));
+    let (edits, count) = together(safe);
+    if count > 0 {
+        let title = format!("mend everything whose fix changes no move ({count})");
+        actions.push(CodeAction::change(title, ActionKind::FixAll, edits));
+    }
+}
+
+/// The edits of fixes that neither overlap nor touch each other, the first come first, and how many fixes these are. What is
+/// left over is found again behind the others.
+fn together<'f>(fixes: impl Iterator<Item = &'f Fix>) -> (Vec<Edit>, usize) {
+    let mut taken: Vec<Edit> = Vec::new();
+    let mut count = 0;
+    for fix in fixes {
+        let clashes = |edit: &Edit| {
+            // Findings come in text order: what clashes stands near the end.
+            taken
+                .iter()
+                .rev()
+                .take(64)
+                .any(|other| edit.range.start <= other.range.end && other.range.start <= edit.range.end)
+        };
+        if fix.edits.is_empty() || fix.edits.iter().any(clashes) {
+            continue;
+        }
+        taken.extend(fix.edits.iter().cloned());
+        count += 1;
+    }
+    taken.sort_by_key(|edit| edit.range.start);
+    // A fix far behind its finding may still lie on another.
+    let mut end = None;
+    taken.retain(|edit| {
+        let is_clear = end.is_none_or(|end| edit.range.start > end);
+        if is_clear {
+            end = Some(edit.range.end);
+        }
+        is_clear
+    });
+    (taken, count)
+}

@@ -1,0 +1,80 @@
+//! Changes of whole lines: block skip on and off, sequence numbers in steps.
+//!
+//! Knows: which lines such changes leave alone. Must not know: what the lines do.
+
+use std::ops::Range;
+
+use gcheck_db::Snapshot;
+use gcheck_format::{Numbering, renumber};
+use gcheck_rules::Edit;
+
+use super::{ActionKind, CodeAction};
+use crate::formatting::own_edit;
+use crate::things::code_end;
+
+/// Lines that are changed together.
+const MOST_LINES: u32 = 100_000;
+/// Numbers in tens leave room for blocks that come later.
+const NUMBERING: Numbering = Numbering { start: 10, step: 10 };
+
+/// Offers to put `/` in front of the blocks of a range, or to take it away where all have it.
+pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions: &mut Vec<CodeAction>) {
+    let first = snapshot.line_at(range.start);
+    let mut last = snapshot.line_at(range.end);
+    if last > first && snapshot.line_range(last).start == range.end {
+        last -= 1;
+    }
+    if last - first > MOST_LINES {
+        return;
+    }
+    let end = code_end(snapshot);
+    let mut lines: Vec<(u32, bool)> = Vec::new();
+    for line in first..=last {
+        let range = snapshot.line_range(line);
+        let text = snapshot.slice(range.clone());
+        let trimmed = text.trim_start_matches([' ', '\t', '\u{FEFF}']);
+        // Programs, tape marks and comments are no blocks to be skipped.
+        if range.start >= end
+            || trimmed.trim().is_empty()
+            || trimmed.starts_with(['%', '(', ';', 'O', 'o', ':'])
+        {
+            continue;
+        }
+        lines.push((range.start + (text.len() - trimmed.len()) as u32, trimmed.starts_with('/')));
+    }
+    if lines.is_empty() {
+        return;
+    }
+    let all = lines.iter().all(|(_, is_skipped)| *is_skipped);
+    let count = lines.len();
+    let plural = if count == 1 { "this block" } else { "these blocks" };
+    let (title, edits): (_, Vec<Edit>) = if all {
+        let edits = lines.iter().map(|(at, _)| {
+            // A level belongs to its slash.
+            let behind = snapshot.slice(at + 1..at + 2);
+            let len = if behind.starts_with(|c: char| c.is_ascii_digit()) { 2 } else { 1 };
+            Edit { range: *at..at + len, text: String::new() }
+        });
+        (format!("take block skip off {plural}"), edits.collect())
+    } else {
+        let bare = lines.iter().filter(|(_, is_skipped)| !is_skipped);
+        let edits = bare.map(|(at, _)| Edit { range: *at..*at, text: "/".to_owned() });
+        (format!("put block skip on {plural}"), edits.collect())
+    };
+    actions.push(CodeAction::change(title, ActionKind::Rewrite, edits));
+}
+
+/// Offers to number the blocks anew, with all that names them.
+pub(super) fn offer_renumber(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
+    if snapshot.survey().labels.is_empty() {
+        return;
+    }
+    // What stands in the way is for who asks to renumber, not for who looks at what can be done.
+    if let Ok(edits) = renumber(&snapshot.text(), &snapshot.dialect(), &NUMBERING)
+        && !edits.is_empty()
+    {
+        let edits = edits.into_iter().map(own_edit).collect();
+        let title = "number blocks in tens, with what jumps to them";
+        actions.push(CodeAction::change(title, ActionKind::Source, edits));
+    }
+}

@@ -1,0 +1,81 @@
+//! Comments that silence a finding.
+//!
+//! Knows: where such a comment may stand. Must not know: how comments silence (the rules do).
+
+use gcheck_db::Snapshot;
+use gcheck_rules::{Edit, Finding};
+
+use super::{ActionKind, CodeAction};
+use crate::pieces::pieces;
+use gcheck_syntax::SyntaxKind;
+
+/// Stands for the reason, which only a person can give.
+const REASON: &str = "say why";
+
+/// A comment for the line of a finding, and one for the file.
+pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
+    let rule = finding.rule.id;
+    let mut actions = Vec::new();
+    let line = snapshot.line_at(finding.range.start);
+    if let Some(edit) = on_line(snapshot, line, &format!("(gcheck: ignore {rule} - {REASON})")) {
+        let title = format!("silence `{rule}` on this line");
+        actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
+    }
+    let at = head(snapshot);
+    let edit = Edit {
+        range: at..at,
+        text: format!("(gcheck: ignore-file {rule} - {REASON}){}", line_end(snapshot)),
+    };
+    let title = format!("silence `{rule}` in this file");
+    actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
+    actions
+}
+
+/// Behind the line, or on a line of its own above it where nothing more can stand there.
+fn on_line(snapshot: &Snapshot, line: u32, comment: &str) -> Option<Edit> {
+    let range = snapshot.line_range(line);
+    let text = snapshot.slice(range.clone());
+    // What stands at a mark of the tape is not a block, and above it the tape may not have begun.
+    if text.trim_start().starts_with('%') {
+        return None;
+    }
+    let tokens = pieces(snapshot, &text, range.start);
+    let is_open = tokens
+        .iter()
+        .any(|piece| matches!(piece.kind, SyntaxKind::LINE_COMMENT | SyntaxKind::BROKEN_COMMENT));
+    let length = text.chars().count() + comment.len() + 1;
+    let is_long = snapshot.control().limits().line_length.is_some_and(|most| length > most as usize);
+    if is_open || is_long {
+        let text = format!("{comment}{}", line_end(snapshot));
+        return Some(Edit { range: range.start..range.start, text });
+    }
+    let end = range.start + text.trim_end().len() as u32;
+    Some(Edit { range: end..range.end, text: format!(" {comment}") })
+}
+
+/// Where the first line behind the tape mark and the program's number begins.
+fn head(snapshot: &Snapshot) -> u32 {
+    let behind = |offset: u32| {
+        let line = snapshot.line_at(offset) + 1;
+        if line < snapshot.line_count() { snapshot.line_range(line).start } else { 0 }
+    };
+    let survey = snapshot.survey();
+    let first = survey.first_block.as_ref().map_or(u32::MAX, |first| first.start);
+    let number = survey.programs.first().filter(|program| program.range.start <= first);
+    let mark = survey.tape_marks.first().filter(|mark| mark.start < first);
+    match (number, mark) {
+        (Some(number), _) => behind(number.range.start),
+        (None, Some(mark)) => behind(mark.start),
+        (None, None) => 0,
+    }
+}
+
+/// The end of a line as the file has it.
+pub(super) fn line_end(snapshot: &Snapshot) -> &'static str {
+    let first = snapshot.line_range(0).end;
+    match &*snapshot.slice(first..first + 2) {
+        "\r\n" => "\r\n",
+        ending if ending.starts_with('\r') => "\r",
+        _ => "\n",
+    }
+}

@@ -1,0 +1,245 @@
+//! Figures above each tool section: time, extents.
+//!
+//! Knows: what of a run's statistics stands above a section. Must not know: how figures are computed.
+
+use std::ops::Range;
+
+use gcheck_db::Snapshot;
+use gcheck_engine::{Axis, Model, Units};
+use gcheck_geometry::Bounds;
+use gcheck_toolpath::{Section, Statistics, Values, View};
+
+use crate::figures::{clock, coordinate, plain, unit};
+use crate::parts::{ToolPart, parts};
+use crate::running::{LINEAR, run_through, timing, view, work_at_start};
+
+/// What one run of a document amounts to. It takes a while: whoever shows it keeps it, and shows it until the next is there.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RunFigures {
+    /// Tool sections of this document in the order in which they began.
+    pub sections: Vec<SectionFigures>,
+    /// Time of the whole run in seconds, called programs included.
+    pub seconds: f64,
+    /// Where cutting moves of the whole run went, as text; empty when nothing was cut.
+    pub extents: String,
+    /// How the run ended, in a few words, where it did not reach the program's end.
+    pub stopped: Option<String>,
+}
+
+/// What one tool section amounts to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SectionFigures {
+    /// Line of this document where it begins, from 0.
+    pub line: u32,
+    /// The tool; `None` unknown.
+    pub tool: Option<u32>,
+    /// Time in seconds.
+    pub seconds: f64,
+    /// Where cutting moves went, as text; empty when nothing was cut.
+    pub extents: String,
+    /// More for a tooltip, one fact a line: ways, feeds, speeds.
+    pub details: String,
+}
+
+/// A line above a place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CodeLens {
+    /// Bytes of the line that it stands above.
+    pub range: Range<u32>,
+    /// Its text.
+    pub title: String,
+    /// More.
+    pub tooltip: String,
+}
+
+/// Runs the document for its figures, at most so many blocks.
+pub fn figures(snapshot: &Snapshot, fuel: u64) -> RunFigures {
+    let model = Model::new(snapshot.control());
+    let view = view(snapshot, &model);
+    let mut statistics = Statistics::new(view, timing(snapshot), work_at_start(snapshot).number);
+    let stopped = run_through(snapshot, fuel, &mut |step| statistics.add(step));
+    let units = statistics.units();
+    let total = statistics.total();
+    // Sections that began in a called program belong to lines of other files.
+    let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
+    RunFigures {
+        sections: own
+            .map(|section| SectionFigures {
+                line: section.line - 1,
+                tool: section.tool,
+                seconds: section.times.total().0,
+                extents: extents(&section.cut, view, units),
+                details: details(section, units),
+            })
+            .collect(),
+        seconds: total.times.total().0,
+        extents: extents(&total.cut, view, units),
+        stopped,
+    }
+}
+
+/// `X 0 to 50, Z -5 to 2 mm`.
+fn extents(bounds: &Bounds, view: View, units: Units) -> String {
+    let shown = |axis: Axis, value: f64| coordinate(axis, value, units, view.has_diameters());
+    let axes = LINEAR.into_iter().filter(|axis| view.shows(*axis));
+    let texts: Vec<String> = axes
+        .filter_map(|axis| {
+            let (low, high) = bounds.range(axis.index())?;
+            let (low, high) = (shown(axis, low), shown(axis, high));
+            Some(if low == high {
+                format!("{} {low}", axis.name())
+            } else {
+                format!("{} {low} to {high}", axis.name())
+            })
+        })
+        .collect();
+    if texts.is_empty() { String::new() } else { format!("{} {}", texts.join(", "), unit(units)) }
+}
+
+fn details(section: &Section, units: Units) -> String {
+    let length = |mm: f64| format!("{} {}", plain(mm / units.in_mm(), 1), unit(units));
+    let mut lines = vec![
+        format!("cutting {} in {}", length(section.cutting.0), clock(section.times.cutting.0)),
+        format!("rapid {} in {}", length(section.rapid.0), clock(section.times.rapid.0)),
+    ];
+    if section.times.dwell.0 > 0.0 {
+        lines.push(format!("dwell {}", clock(section.times.dwell.0)));
+    }
+    if section.holes > 0 {
+        lines.push(format!("{} holes", section.holes));
+    }
+    let scale = 1.0 / units.in_mm();
+    let feeds = [
+        (&section.feeds.per_minute, scale, format!("{}/min", unit(units))),
+        (&section.feeds.per_revolution, scale, format!("{}/rev", unit(units))),
+        (&section.speeds, 1.0, "rpm".to_owned()),
+    ];
+    for (values, scale, unit) in feeds {
+        lines.extend(range(values, scale).map(|range| format!("{range} {unit}")));
+    }
+    let unaccounted = section.unaccounted;
+    if unaccounted.points + unaccounted.feeds + unaccounted.speeds > 0 {
+        lines.push("some moves are not in the time: their ends, feed or speed are not known".to_owned());
+    }
+    lines.join("\n")
+}
+
+fn range(values: &Values, scale: f64) -> Option<String> {
+    let (low, high) = values.range()?;
+    let (low, high) = (plain(low * scale, 4), plain(high * scale, 4));
+    Some(if low == high { low } else { format!("{low} to {high}") })
+}
+
+/// The lenses of a document whose run gave these figures: one above the first block, one above each tool section. A section
+/// that has moved since the run is found again by its tool.
+pub fn code_lenses(snapshot: &Snapshot, figures: &RunFigures) -> Vec<CodeLens> {
+    let mut lenses = Vec::new();
+    let Some(first) = snapshot.survey().first_block.clone() else { return lenses };
+    let line = |offset: u32| snapshot.line_range(snapshot.line_at(offset));
+    let tools = figures.sections.iter().filter(|section| section.tool.is_some()).count();
+    let mut title = format!("{} in all", clock(figures.seconds));
+    if tools > 1 {
+        title = format!("{title}, {tools} tool sections");
+    }
+    if let Some(stopped) = &figures.stopped {
+        title = format!("{title} ({stopped})");
+    }
+    lenses.push(CodeLens { range: line(first.start), title, tooltip: figures.extents.clone() });
+    // A section is run again in a loop or by a call: its turns count together.
+    let mut left: Vec<&SectionFigures> = figures.sections.iter().collect();
+    for part in parts(snapshot).tools {
+        let at = snapshot.line_at(part.change.start);
+        let nearest = left
+            .iter()
+            .filter(|section| section.tool == part.tool)
+            .min_by_key(|section| section.line.abs_diff(at))
+            .map(|section| section.line);
+        let Some(nearest) = nearest else { continue };
+        let (own, rest): (Vec<_>, Vec<_>) =
+            left.into_iter().partition(|section| section.tool == part.tool && section.line == nearest);
+        left = rest;
+        lenses.extend(lens(&part, &own, line(part.change.start)));
+    }
+    lenses
+}
+
+fn lens(part: &ToolPart, turns: &[&SectionFigures], range: Range<u32>) -> Option<CodeLens> {
+    let first = turns.first()?;
+    let seconds: f64 = turns.iter().map(|section| section.seconds).sum();
+    let mut title = match part.tool {
+        Some(tool) => format!("T{tool}"),
+        None => "tool".to_owned(),
+    };
+    for text in [part.name.as_str(), &clock(seconds), &first.extents] {
+        if !text.is_empty() {
+            title = format!("{title} · {text}");
+        }
+    }
+    if turns.len() > 1 {
+        title = format!("{title} · {} times", turns.len());
+    }
+    Some(CodeLens { range, title, tooltip: first.details.clone() })
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::{code_lenses, figures};
+    use crate::fixture::{Fixture, shown};
+
+    fn check(control: &str, text: &str, expected: &Expect) {
+        let snapshot = Fixture::new(control, text).snapshot();
+        let lenses = code_lenses(&snapshot, &figures(&snapshot, 100_000)).into_iter();
+        let lines = lenses.map(|lens| {
+            format!(
+                "{}\n  {}\n  {}\n",
+                shown(&snapshot, &lens.range),
+                lens.title,
+                lens.tooltip.replace('\n', " | ")
+            )
+        });
+        expected.assert_eq(&lines.collect::<String>());
+    }
+
+    #[test]
+    fn time_and_extents_of_each_tool() {
+        let text = "%\nO1\nG21 G90 G54\nT1 M6 (END MILL)\nS1000 M3\nG0 X0. Y0.\nZ2.\nG1 Z-1. F100.\nX50.\nG0 Z50.\nT2 M6\nG0 X10. Y5.\nM30\n%\n";
+        check(
+            "haas-mill",
+            text,
+            &expect![[r#"
+            2: O1
+              0:42 in all, 2 tool sections
+              X 0 to 50, Y 0, Z -1 to 2 mm
+            4: T1 M6 (END MILL)
+              T1 · END MILL · 0:37 · X 0 to 50, Y 0, Z -1 to 2 mm
+              cutting 53 mm in 0:32 | rapid 51 mm in 0:00 | 100 mm/min | 1000 rpm | some moves are not in the time: their ends, feed or speed are not known
+            11: T2 M6
+              T2 · 0:05
+              cutting 0 mm in 0:00 | rapid 40.3 mm in 0:00
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_lathe_in_diameters_and_a_run_that_stops() {
+        check(
+            "haas-lathe",
+            "O1\nG20 G54 T0101 (ROUGH)\nG97 S500 M3\nG0 X2. Z.1\nG1 Z-1. F.01\nG1 X1. Q\n",
+            &expect![[r#"
+            1: O1
+              0:18 in all (the control would stop in line 6)
+              X 2, Z -1 to 0.1 inch
+            2: G20 G54 T0101 (ROUGH)
+              T1 · ROUGH · 0:18 · X 2, Z -1 to 0.1 inch
+              cutting 1.1 inch in 0:13 | rapid 0 inch in 0:00 | 0.01 inch/rev | 500 rpm | some moves are not in the time: their ends, feed or speed are not known
+        "#]],
+        );
+    }
+
+    #[test]
+    fn no_figures_without_blocks() {
+        check("haas-mill", "", &expect![[""]]);
+    }
+}

@@ -1,0 +1,814 @@
+//! What may be typed at a place.
+//!
+//! Knows: which kinds of things can stand where. Must not know: how editors match and sort beyond what an item says.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use gcheck_controls::{Code, CodeIx, Control, Letter, Motion, WordKind};
+use gcheck_db::{Cancelled, Database, DocumentId, Snapshot};
+use gcheck_engine::{Abstract, Look, Role, State};
+use gcheck_program::{OKeyword, remark};
+use gcheck_rules::Edit;
+use gcheck_syntax::SyntaxKind;
+
+use crate::document_symbols::o_name;
+use crate::figures::value;
+use crate::parts::parts;
+use crate::state_at::look_at;
+use crate::things::{parameter_names, program_around};
+use crate::typing::Typing;
+use crate::{Workspace, describe};
+
+/// Characters that open the list without being asked.
+pub const TRIGGERS: &[&str] = &["G", "M", "#", "<", "[", "(", ":", "=", " "];
+
+/// Items of one kind that are offered.
+const MOST: usize = 1_000;
+/// Bytes of a file that is searched for names while somebody types.
+const LARGE: u32 = 1 << 20;
+
+/// One thing that may be typed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Completion {
+    /// Shown in the list.
+    pub label: String,
+    /// Shown behind the label, in a few words.
+    pub detail: String,
+    /// Markdown.
+    pub documentation: Option<String>,
+    /// What it is.
+    pub kind: CompletionKind,
+    /// What is written, in the place of what stands there.
+    pub edit: Edit,
+    /// The text of the edit is a snippet: `$1`, `${2:0.1}` and `$0` are places for the cursor; `$`, `}` and `\` are escaped.
+    pub is_snippet: bool,
+    /// What editors compare with what was typed.
+    pub filter: String,
+    /// Items are shown in the order of this text.
+    pub sort: String,
+}
+
+/// What a completion is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum CompletionKind {
+    /// A G or M code.
+    Code,
+    /// A word of the block's code, or a tool.
+    Word,
+    /// A numbered or named variable.
+    Variable,
+    /// A function of expressions.
+    Function,
+    /// A keyword of macro statements, or a directive of ours.
+    Keyword,
+    /// A sequence number.
+    Label,
+    /// A program or subroutine.
+    Program,
+    /// A cycle with places for its words.
+    Snippet,
+    /// A rule.
+    Rule,
+    /// A control.
+    Control,
+}
+
+/// What may be typed at `offset`, the most fitting first.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn completion(
+    database: &mut Database,
+    workspace: &Workspace,
+    document: DocumentId,
+    offset: u32,
+    stop: &dyn Fn() -> bool,
+) -> Result<Vec<Completion>, Cancelled> {
+    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let typing = Typing::new(&snapshot, offset);
+    let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
+    if let Some(comment) = typing.comment() {
+        items.directives(comment);
+        return Ok(items.list);
+    }
+    let (prefix, from) = typing.prefix();
+    items.from = from;
+    let first = prefix.chars().next().map(|c| c.to_ascii_uppercase());
+    let last = typing.last_before(from).map(|piece| piece.kind);
+    match first {
+        Some('#') => {
+            items.variables();
+            items.parameters();
+            // Values of variables cost an execution: only where they are asked for.
+            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
+                items.values(state, look);
+            })?;
+        }
+        _ if typing.in_brackets() || last == Some(SyntaxKind::EQUALS) => {
+            items.functions();
+            items.variables();
+            items.parameters();
+        }
+        _ if last == Some(SyntaxKind::GOTO_KW) => items.labels(),
+        Some('G' | 'M')
+            if prefix.get(1..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit() || b == b'.')) =>
+        {
+            let mut active = Active::default();
+            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
+                active = Active::of(state, look);
+            })?;
+            items.codes(&active, first);
+            items.keywords();
+        }
+        Some('O') => items.o_words(workspace),
+        Some('T') if prefix.get(1..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit())) => {
+            items.tools()
+        }
+        Some(letter) if items.named(workspace, prefix, letter) => {}
+        Some(_) => {
+            items.words();
+            items.keywords();
+        }
+        None => {
+            let mut active = Active::default();
+            with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
+                active = Active::of(state, look);
+            })?;
+            items.words();
+            items.codes(&active, None);
+            items.keywords();
+        }
+    }
+    Ok(items.list)
+}
+
+/// Shows the state that holds where the block at the cursor is typed.
+fn with_state(
+    database: &mut Database,
+    snapshot: &Snapshot,
+    document: DocumentId,
+    typing: &Typing<'_>,
+    stop: &dyn Fn() -> bool,
+    with: &mut dyn FnMut(&State<Abstract>, &mut Look<'_, '_>),
+) -> Result<(), Cancelled> {
+    let Some(place) = snapshot.block_at(typing.offset) else { return Ok(()) };
+    let is_typed = place.range().end >= typing.start;
+    look_at(database, document, place.number, stop, &mut |state, look| match &state.after {
+        Some(after) if !is_typed => with(after, look),
+        _ => with(&state.before, look),
+    })
+}
+
+/// The codes that are in effect, or may be.
+#[derive(Default)]
+struct Active {
+    codes: Vec<CodeIx>,
+}
+
+impl Active {
+    fn of(state: &State<Abstract>, look: &Look<'_, '_>) -> Self {
+        let all = Role::ALL.into_iter().flat_map(|role| state.mode(role).alternatives().to_vec());
+        Self { codes: all.filter(|code| look.model().control().code_at(*code).is_some()).collect() }
+    }
+
+    /// Why a code cannot stand here, as far as the codes in effect say it.
+    fn objection(&self, control: &Control, code: Code<'_>) -> Option<String> {
+        let entry = code.entry();
+        let names = |list: &[String], other: Code<'_>| {
+            list.iter().any(|item| match item.strip_prefix('@') {
+                Some(group) => other.group().id == group,
+                None => *item == other.entry().code,
+            })
+        };
+        let active = || self.codes.iter().filter_map(|code| control.code_at(*code));
+        // Of a code that ends another nobody says that the other forbids it.
+        if let Some(other) = active()
+            .find(|other| names(&other.entry().forbids, code) && !entry.cancels.contains(&other.entry().code))
+        {
+            return Some(format!("not while `{}` is active", other.entry().code));
+        }
+        if self.codes.is_empty() {
+            return None;
+        }
+        let missing =
+            entry.requires.iter().find(|needed| !active().any(|other| other.entry().code == **needed));
+        missing.map(|needed| format!("needs `{needed}`"))
+    }
+}
+
+struct Items<'t, 's> {
+    typing: &'t Typing<'s>,
+    /// Where what is replaced begins.
+    from: u32,
+    list: Vec<Completion>,
+}
+
+impl Items<'_, '_> {
+    fn control(&self) -> &Control {
+        self.typing.snapshot.control()
+    }
+
+    fn replaced(&self) -> Range<u32> {
+        self.from..self.typing.offset
+    }
+
+    fn add(&mut self, kind: CompletionKind, label: &str, detail: &str, rank: u32) -> &mut Completion {
+        let edit = Edit { range: self.replaced(), text: label.to_owned() };
+        self.list.push(Completion {
+            label: label.to_owned(),
+            detail: detail.to_owned(),
+            documentation: None,
+            kind,
+            edit,
+            is_snippet: false,
+            filter: label.to_owned(),
+            sort: format!("{rank:08}{label}"),
+        });
+        #[expect(clippy::expect_used, reason = "one was pushed right above")]
+        self.list.last_mut().expect("pushed above")
+    }
+
+    // ---- our own directives ----
+
+    fn directives(&mut self, comment: &str) {
+        let Some((_, directive)) = comment.split_once("gcheck:") else { return };
+        let directive = directive.trim_start();
+        let typed = directive.rsplit([' ', '\t', ',', '=']).next().unwrap_or_default();
+        self.from = self.typing.offset - typed.len() as u32;
+        if directive.trim_start_matches("control").trim_start().starts_with('=')
+            && directive.starts_with("control")
+        {
+            for name in gcheck_controls::names() {
+                let title = gcheck_controls::load(name).map(|control| control.title().to_owned());
+                self.add(CompletionKind::Control, name, &title.unwrap_or_default(), 0);
+            }
+            return;
+        }
+        let Some((verb, rest)) = directive.split_once([' ', '\t']) else {
+            for (verb, detail) in [
+                ("ignore", "silence a rule on this line, or on the next"),
+                ("ignore-file", "silence a rule in this file"),
+                ("off", "silence a rule from here on"),
+                ("on", "end of `off`"),
+                ("control=", "the control that reads this program"),
+            ] {
+                self.add(CompletionKind::Keyword, verb, detail, 0);
+            }
+            return;
+        };
+        // Behind the dash stands a reason in words.
+        if !matches!(verb, "ignore" | "ignore-file" | "off" | "on") || rest.contains(" - ") {
+            return;
+        }
+        for rule in gcheck_rules::all() {
+            self.add(CompletionKind::Rule, rule.meta.id, rule.meta.summary, 0);
+        }
+    }
+
+    // ---- codes and words ----
+
+    /// G and M codes, those that can stand here first, and cycles with their words.
+    fn codes(&mut self, active: &Active, letter: Option<char>) {
+        let survey = self.typing.snapshot.survey();
+        let style = Spelling::of(self.typing, letter);
+        let in_block = self.typing.codes();
+        let control = self.typing.snapshot.control();
+        for code in control.codes() {
+            let number = code.number();
+            if letter.is_some_and(|letter| number.letter() != letter as u8) {
+                continue;
+            }
+            let entry = code.entry();
+            let objection = active.objection(control, code).or_else(|| {
+                let (_, other) = in_block.iter().find(|(_, other)| {
+                    other.group_ix() == code.group_ix() && other.group().exclusive
+                        || entry.conflicts.contains(&other.entry().code)
+                })?;
+                Some(format!("not beside `{}`", other.entry().code))
+            });
+            let is_used =
+                survey.codes.iter().any(|(used, at)| *used == number && at.end != self.typing.offset);
+            let rank = match (&objection, is_used) {
+                (None, true) => 100_000,
+                (None, false) => 200_000,
+                (Some(_), _) => 300_000,
+            };
+            let rank = rank + u32::from(number.tenths()) + if number.letter() == b'M' { 10_000 } else { 0 };
+            let text = style.code(&entry.code);
+            let detail = match &objection {
+                Some(objection) => format!("{} ({objection})", entry.title),
+                None => entry.title.clone(),
+            };
+            let item = self.add(CompletionKind::Code, &text, &detail, rank);
+            item.documentation = Some(describe::code(control, code));
+            // `G1` finds `G01`.
+            item.filter.clone_from(&text);
+            if matches!(code.motion(), Motion::Cycle | Motion::Operation) && in_block.is_empty() {
+                self.cycle(code, &style, rank);
+            }
+        }
+    }
+
+    /// A cycle as its example writes it, with places for the numbers.
+    fn cycle(&mut self, code: Code<'_>, style: &Spelling, rank: u32) {
+        let entry = code.entry();
+        let mut text = String::new();
+        let mut places = 0;
+        for word in entry.example.split_whitespace() {
+            let Some(letter) = word.chars().next().filter(char::is_ascii_alphabetic) else { return };
+            if !text.is_empty() {
+                text.push(' ');
+            }
+            if matches!(letter, 'G' | 'M') {
+                text.push_str(&style.code(word));
+                continue;
+            }
+            let Some(number) = word.get(1..) else { return };
+            if number.is_empty() || !number.bytes().all(|b| b.is_ascii_digit() || matches!(b, b'.' | b'-')) {
+                return;
+            }
+            places += 1;
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{}${{{places}:{number}}}", style.letter(letter));
+        }
+        if places == 0 {
+            return;
+        }
+        let label = format!("{} …", style.code(&entry.code));
+        let item =
+            self.add(CompletionKind::Snippet, &label, &format!("{} with its words", entry.title), rank + 1);
+        item.edit.text = text;
+        item.is_snippet = true;
+        item.filter = style.code(&entry.code);
+        item.documentation = Some(entry.summary.clone());
+    }
+
+    /// Words that the codes of the block read and that are not there yet.
+    fn words(&mut self) {
+        let present = self.typing.letters();
+        let style = Spelling::of(self.typing, self.typing.prefix().0.chars().next());
+        let mut offered: Vec<Letter> = Vec::new();
+        let mut rank = 0;
+        for (_, code) in self.typing.codes().into_iter().rev() {
+            for word in &code.entry().words {
+                let Some(letter) = Letter::parse(&word.letter) else { continue };
+                if present.contains(&letter) || offered.contains(&letter) {
+                    continue;
+                }
+                offered.push(letter);
+                rank += 1;
+                let needed = match word.need {
+                    gcheck_controls::Need::Required => 0,
+                    gcheck_controls::Need::Modal => 1_000,
+                    _ => 2_000,
+                };
+                let text = if style.lower { word.letter.to_ascii_lowercase() } else { word.letter.clone() };
+                let detail = format!("{} ({})", word.is, describe::needs(word));
+                self.add(CompletionKind::Word, &text, &detail, needed + rank);
+            }
+        }
+    }
+
+    /// Labels, programs or subroutines for a word that names one (`M97 P`, `M98 P`); false for a word that names none.
+    fn named(&mut self, workspace: &Workspace, prefix: &str, letter: char) -> bool {
+        let digits = prefix.get(1..).unwrap_or_default();
+        let entry = Letter::new(letter as u8).and_then(|letter| self.typing.entry(letter));
+        let Some((_, entry)) = entry.filter(|_| digits.bytes().all(|b| b.is_ascii_digit())) else {
+            return false;
+        };
+        let kind = entry.kind;
+        self.from += 1;
+        match kind {
+            WordKind::Label => self.labels(),
+            WordKind::Program => self.programs(workspace),
+            _ => {
+                self.from -= 1;
+                return false;
+            }
+        }
+        true
+    }
+
+    // ---- what the program names ----
+
+    /// Sequence numbers of the program.
+    fn labels(&mut self) {
+        let snapshot = self.typing.snapshot;
+        let program = program_around(snapshot, self.typing.offset);
+        let labels = snapshot.survey().labels.iter();
+        let inside = labels.filter(|label| program.contains(&label.range.start)).take(MOST);
+        for label in inside {
+            let line = snapshot.line_text(snapshot.line_at(label.range.start)).into_owned();
+            self.add(
+                CompletionKind::Label,
+                &label.number.to_string(),
+                line.trim(),
+                label.number.min(9_999_999),
+            );
+        }
+    }
+
+    /// Programs of all files.
+    fn programs(&mut self, workspace: &Workspace) {
+        let mut known = Vec::new();
+        for file in &workspace.files {
+            for program in &file.snapshot.survey().programs {
+                let Some(number) = program.number.filter(|number| !known.contains(number)) else { continue };
+                if known.len() >= MOST {
+                    return;
+                }
+                known.push(number);
+                let line = file.snapshot.line_text(file.snapshot.line_at(program.range.start)).into_owned();
+                let comment = remark(&line).map(|remark| format!("{remark}, ")).unwrap_or_default();
+                let detail = format!("{comment}{}", file.name);
+                self.add(CompletionKind::Program, &number.to_string(), &detail, number.min(9_999_999));
+            }
+        }
+    }
+
+    /// Subroutines and labels of O-words, where the control has them.
+    fn o_words(&mut self, workspace: &Workspace) {
+        if !self.control().syntax().o_words {
+            return;
+        }
+        let mut known = Vec::new();
+        for file in &workspace.files {
+            let subs = file.snapshot.survey().o_words.iter().filter(|word| word.keyword == OKeyword::Sub);
+            for sub in subs.take(MOST) {
+                if known.contains(&sub.label) {
+                    continue;
+                }
+                known.push(sub.label.clone());
+                let label = format!("{} call", o_name(&sub.label));
+                self.add(CompletionKind::Program, &label, &file.name, 0);
+            }
+        }
+    }
+
+    fn tools(&mut self) {
+        let snapshot = self.typing.snapshot;
+        if snapshot.len() > LARGE {
+            return;
+        }
+        let mut known = Vec::new();
+        for tool in parts(snapshot).tools {
+            let Some(number) = tool.tool.filter(|number| !known.contains(number)) else { continue };
+            known.push(number);
+            let text = if tool.is_named {
+                snapshot.slice(tool.word.clone()).trim().to_owned()
+            } else {
+                format!("T{number}")
+            };
+            self.add(CompletionKind::Word, &text, &tool.name, number.min(9_999_999));
+        }
+    }
+
+    /// Numbered variables that the program sets, then the control's own.
+    fn variables(&mut self) {
+        let snapshot = self.typing.snapshot;
+        let control = snapshot.control();
+        for (number, range) in snapshot.survey().assigned.iter().take(MOST) {
+            let line = snapshot.line_text(snapshot.line_at(range.start)).into_owned();
+            self.add(CompletionKind::Variable, &format!("#{number}"), line.trim(), (*number).min(999_999));
+        }
+        for entry in control.variables() {
+            let Some([first, last]) = entry.range else { continue };
+            // Of a row of common variables none is worth naming.
+            if last - first > 64 {
+                continue;
+            }
+            let label = format!("#{first}");
+            let range = if last > first { format!(" (to #{last})") } else { String::new() };
+            let detail = format!("{}{range}", entry.title);
+            let item = self.add(CompletionKind::Variable, &label, &detail, 1_000_000 + first.min(999_999));
+            item.documentation = Some(describe::variable(entry));
+        }
+    }
+
+    /// Named parameters of the program, then the control's own.
+    fn parameters(&mut self) {
+        let snapshot = self.typing.snapshot;
+        if !snapshot.control().syntax().named_parameters {
+            return;
+        }
+        if snapshot.len() <= LARGE {
+            for name in parameter_names(snapshot).into_iter().take(MOST) {
+                self.add(CompletionKind::Variable, &format!("#<{name}>"), "named parameter", 0);
+            }
+        }
+        for entry in snapshot.control().variables() {
+            let Some(name) = &entry.name else { continue };
+            let item = self.add(CompletionKind::Variable, &format!("#<{name}>"), &entry.title, 2_000_000);
+            item.documentation = Some(describe::variable(entry));
+        }
+    }
+
+    /// What the variables on the list hold here.
+    fn values(&mut self, state: &State<Abstract>, look: &mut Look<'_, '_>) {
+        for item in &mut self.list {
+            let number = item.label.strip_prefix('#').and_then(|number| number.parse().ok());
+            let name = item.label.strip_prefix("#<").and_then(|name| name.strip_suffix('>'));
+            let held = match (number, name) {
+                (Some(number), _) => look.variable(number, state),
+                (None, Some(name)) => look.parameter(name, state),
+                (None, None) => None,
+            };
+            if let Some(held) = held.filter(|held| *held != gcheck_engine::AbstractValue::Unknown) {
+                item.detail = format!("= {}; {}", value(&held), item.detail);
+            }
+        }
+    }
+
+    // ---- macro statements ----
+
+    fn functions(&mut self) {
+        let control = self.typing.snapshot.control();
+        for function in control.functions() {
+            let item = self.add(CompletionKind::Function, &function.name, &function.title, 3_000_000);
+            item.edit.text = format!("{}[$0]", function.name);
+            item.is_snippet = true;
+        }
+    }
+
+    fn keywords(&mut self) {
+        let syntax = *self.typing.snapshot.control().syntax();
+        // A statement begins its block.
+        let begins = self.typing.codes().is_empty() && self.typing.letters().is_empty();
+        if !begins || !syntax.macro_statements {
+            return;
+        }
+        for (label, text, detail) in [
+            ("IF … GOTO", "IF [$1] GOTO $0", "jump when a condition holds"),
+            ("IF … THEN", "IF [$1] THEN $0", "one statement when a condition holds"),
+            ("WHILE … DO", "WHILE [$1] DO${2:1}\n$0\nEND${2:1}", "loop while a condition holds"),
+            ("GOTO", "GOTO $0", "jump to a sequence number"),
+        ] {
+            let item = self.add(CompletionKind::Keyword, label, detail, 900_000);
+            text.clone_into(&mut item.edit.text);
+            item.is_snippet = true;
+            item.filter = label.split(' ').next().unwrap_or(label).to_owned();
+        }
+    }
+}
+
+/// How the program spells its codes.
+struct Spelling {
+    lower: bool,
+    /// `G01`, not `G1`.
+    padded: bool,
+}
+
+impl Spelling {
+    fn of(typing: &Typing<'_>, typed: Option<char>) -> Self {
+        let snapshot = typing.snapshot;
+        let typed_lower = typing.prefix().0.chars().next().is_some_and(|c| c.is_ascii_lowercase());
+        let single = snapshot.survey().codes.iter().filter(|(number, _)| number.tenths() < 100);
+        let (mut padded, mut bare) = (0, 0);
+        for (_, range) in single.filter(|(_, range)| !range.contains(&typing.offset)) {
+            if range.end - range.start > 2 { padded += 1 } else { bare += 1 }
+        }
+        Self {
+            lower: typed_lower && typed.is_some() && typing.control().syntax().lower_case,
+            padded: padded > bare,
+        }
+    }
+
+    fn letter(&self, letter: char) -> char {
+        if self.lower { letter.to_ascii_lowercase() } else { letter }
+    }
+
+    fn code(&self, code: &str) -> String {
+        let (letter, number) = code.split_at_checked(1).unwrap_or((code, ""));
+        let pad = if self.padded && number.len() == 1 { "0" } else { "" };
+        let text = format!("{letter}{pad}{number}");
+        if self.lower { text.to_ascii_lowercase() } else { text }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::completion;
+    use crate::fixture::Fixture;
+
+    /// The first items, and what the document's line becomes with each.
+    fn check(control: &str, text: &str, most: usize, expected: &Expect) {
+        let mut fixture = Fixture::new(control, text);
+        let mut items =
+            completion(&mut fixture.database, &fixture.workspace, fixture.document, fixture.offset, &|| {
+                false
+            })
+            .unwrap();
+        items.sort_by(|a, b| a.sort.cmp(&b.sort));
+        let line = |item: &super::Completion| {
+            let start = &fixture.snapshot().line_range(fixture.snapshot().line_at(fixture.offset)).start;
+            let kept = fixture.snapshot().slice(*start..item.edit.range.start).into_owned();
+            format!(
+                "{:?} {} | {} | {kept}{}\n",
+                item.kind,
+                item.label,
+                item.detail,
+                item.edit.text.replace('\n', "⏎")
+            )
+        };
+        expected.assert_eq(&items.iter().take(most).map(line).collect::<String>());
+    }
+
+    #[test]
+    fn codes_that_can_stand_here_come_first() {
+        check(
+            "haas-mill",
+            "%\nO1\nG00 G90 X1.\nG83 Z-1. R1. Q1. F9.\nG0$0\nM30\n",
+            12,
+            &expect![[r#"
+            Code G00 | rapid positioning | G00
+            Code G83 | peck drilling | G83
+            Snippet G83 … | peck drilling with its words | G98 G83 X${1:1.} Y${2:1.} Z${3:-2.} R${4:0.1} Q${5:0.25} F${6:8.}
+            Code G90 | absolute | G90
+            Code G01 | straight cut at feed | G01
+            Code G02 | clockwise arc at feed | G02
+            Code G03 | counter-clockwise arc at feed | G03
+            Code G04 | dwell | G04
+            Code G09 | exact stop, this block | G09
+            Code G10 | set offsets from the program | G10
+            Code G12 | circular pocket, clockwise | G12
+            Snippet G12 … | circular pocket, clockwise with its words | G12 I${1:0.3} K${2:1.5} Q${3:0.25} Z${4:-0.4} D${5:1} F${6:15.}
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG0 X1.\nM$0\n",
+            6,
+            &expect![[r#"
+            Code M0 | program stop | M0
+            Code M1 | optional stop | M1
+            Code M2 | program end | M2
+            Code M3 | spindle clockwise | M3
+            Code M4 | spindle counter-clockwise | M4
+            Code M5 | spindle stop | M5
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "g0 x1\ng8$0\n",
+            4,
+            &expect![[r#"
+                Code g0 | rapid move | g0
+                Code g1 | straight feed move | g1
+                Code g2 | clockwise arc | g2
+                Code g3 | counter-clockwise arc | g3
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_of_the_code() {
+        check(
+            "haas-mill",
+            "O1\nG83 X1. Z-1. $0\n",
+            6,
+            &expect![[r#"
+            Word R | R plane, where feeding begins (here or earlier, length) | G83 X1. Z-1. R
+            Word F | feed rate (here or earlier, feed rate) | G83 X1. Z-1. F
+            Word Q | depth of one peck (here or earlier, length, above 0) | G83 X1. Z-1. Q
+            Word Y | hole position (optional, length) | G83 X1. Z-1. Y
+            Word A | rotary position of the hole (optional, degrees) | G83 X1. Z-1. A
+            Word B | rotary position of the hole (optional, degrees) | G83 X1. Z-1. B
+        "#]],
+        );
+    }
+
+    #[test]
+    fn variables_with_their_values() {
+        check(
+            "haas-mill",
+            "O1\n#100=5. (DEPTH)\n#101=#100+1.\nG0 X#$0\n",
+            4,
+            &expect![[r#"
+            Variable #100 | = 5; #100=5. (DEPTH) | G0 X#100
+            Variable #101 | = 6; #101=#100+1. | G0 X#101
+            Variable #0 | = nothing (never set); null: never has a value; a word given #0 is dropped from the block | G0 X#0
+            Variable #1 | = nothing (never set); local variables, filled by the words of G65 (to #33) | G0 X#1
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<depth> = 2\n#<wide> = 3\nG0 X[#<$0]\n",
+            3,
+            &expect![[r#"
+            Variable #<depth> | = 2; named parameter | G0 X[#<depth>
+            Variable #<wide> | = 3; named parameter | G0 X[#<wide>
+            Variable #1 | = 0; arguments of a subroutine; local to it (shared with the caller of M98) (to #30) | G0 X[#1
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#101=$0\n",
+            3,
+            &expect![[r#"
+            Variable #101 | #101= | #101=#101
+            Variable #0 | null: never has a value; a word given #0 is dropped from the block | #101=#0
+            Variable #1 | local variables, filled by the words of G65 (to #33) | #101=#1
+        "#]],
+        );
+    }
+
+    #[test]
+    fn labels_programs_and_tools() {
+        check(
+            "haas-mill",
+            "O1\nN10 G0 X1. (START)\nGOTO $0\nO2\nN20 M99\n",
+            5,
+            &expect![[r#"
+            Label 10 | N10 G0 X1. (START) | GOTO 10
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nM97 P$0\nN10 G0 X1.\nM99\n",
+            5,
+            &expect![[r#"
+            Label 10 | N10 G0 X1. | M97 P10
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "//- a.nc\nO1\nM98 P$0\nM30\n//- b.nc\nO2 (SLOT)\nM99\n",
+            5,
+            &expect![[r#"
+            Program 1 | a.nc | M98 P1
+            Program 2 | SLOT, b.nc | M98 P2
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nT1 M6 (DRILL)\nT2 M6\nT$0\n",
+            5,
+            &expect![[r#"
+                Word T1 | DRILL | T1
+                Word T2 |  | T2
+            "#]],
+        );
+        check(
+            "linuxcnc",
+            "//- a.ngc\no$0\nM2\n//- probe.ngc\no<probe> sub\no<probe> endsub\n",
+            5,
+            &expect![[r#"
+            Program o<probe> call | probe.ngc | o<probe> call
+        "#]],
+        );
+    }
+
+    #[test]
+    fn directives_of_ours() {
+        check(
+            "haas-mill",
+            "G0 X1. (gcheck: $0)\n",
+            9,
+            &expect![[r#"
+            Keyword control= | the control that reads this program | G0 X1. (gcheck: control=
+            Keyword ignore | silence a rule on this line, or on the next | G0 X1. (gcheck: ignore
+            Keyword ignore-file | silence a rule in this file | G0 X1. (gcheck: ignore-file
+            Keyword off | silence a rule from here on | G0 X1. (gcheck: off
+            Keyword on | end of `off` | G0 X1. (gcheck: on
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "(gcheck: ignore feed-m$0)\n",
+            2,
+            &expect![[r#"
+            Rule address-without-value | address without a value | (gcheck: ignore address-without-value
+            Rule alarm-reached | program always ends with an alarm of its own | (gcheck: ignore alarm-reached
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "(gcheck: control=$0)\n",
+            3,
+            &expect![[r#"
+            Control fanuc-lathe | Fanuc 0i-T / 30i-T, turning centre, G code system A | (gcheck: control=fanuc-lathe
+            Control fanuc-mill | Fanuc 0i-M / 30i-M, machining centre | (gcheck: control=fanuc-mill
+            Control generic-mill | Fanuc-style mill, control unknown | (gcheck: control=generic-mill
+        "#]],
+        );
+        check("haas-mill", "(NOTE $0)\n", 3, &expect![[""]]);
+    }
+
+    #[test]
+    fn statements_begin_a_block() {
+        check(
+            "fanuc-mill",
+            "O1\nI$0\n",
+            4,
+            &expect![[r#"
+            Keyword GOTO | jump to a sequence number | GOTO $0
+            Keyword IF … GOTO | jump when a condition holds | IF [$1] GOTO $0
+            Keyword IF … THEN | one statement when a condition holds | IF [$1] THEN $0
+            Keyword WHILE … DO | loop while a condition holds | WHILE [$1] DO${2:1}⏎$0⏎END${2:1}
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,26 @@
+//! The other places of a file that name what the cursor stands at.
+//!
+//! Knows: one file at a time. Must not know: other files.
+
+use std::ops::Range;
+
+use gcheck_db::Snapshot;
+
+use crate::ReferenceKind;
+use crate::things::{namings_in, thing_at};
+
+/// A place to be marked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Highlight {
+    /// Bytes of the file.
+    pub range: Range<u32>,
+    /// Whether it is set or used there.
+    pub kind: ReferenceKind,
+}
+
+/// Places of the file that name what stands at `offset`, in text order.
+pub fn highlights(snapshot: &Snapshot, offset: u32) -> Vec<Highlight> {
+    let Some(naming) = thing_at(snapshot, offset) else { return Vec::new() };
+    let places = namings_in(snapshot, &naming.thing).into_iter();
+    places.map(|naming| Highlight { range: naming.range, kind: naming.kind }).collect()
+}

@@ -1,0 +1,870 @@
+//! What is shown for the word under the pointer.
+//!
+//! Knows: which parts of an answer a place has, and their order. Must not know: how editors draw Markdown.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use gcheck_controls::{Code, CodeIx, Control, Letter, Variable, WordEntry, WordKind};
+use gcheck_db::{Analysis, BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
+use gcheck_engine::{Abstract, AbstractValue, At, Axis, Look, Position, Role, State};
+use gcheck_program::{Value, Word, remark};
+use gcheck_rules::Finding;
+use gcheck_syntax::SyntaxKind;
+
+use crate::ReferenceKind;
+use crate::describe;
+use crate::diagnostics::remarks;
+use crate::figures::{coordinate, plain, unit, value};
+use crate::pieces::{pieces_of_line, touches};
+use crate::reading::Reading;
+use crate::state_at::look_at;
+use crate::things::{Thing, namings_in, thing_at};
+
+/// Findings that are shown together.
+const MOST_FINDINGS: usize = 5;
+/// Places that set a variable which are shown.
+const MOST_ASSIGNMENTS: usize = 5;
+
+/// What is shown for a place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hover {
+    /// Bytes that it speaks of.
+    pub range: Range<u32>,
+    /// Markdown.
+    pub markdown: String,
+}
+
+/// What is to be said of the place at `offset`: the code, word, number, variable or label there, the state before and after
+/// its block, and findings that hold there as far as `analysis` has them.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn hover(
+    database: &mut Database,
+    document: DocumentId,
+    offset: u32,
+    analysis: Option<&Analysis>,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<Hover>, Cancelled> {
+    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let Some(place) = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset)) else {
+        return Ok(None);
+    };
+    let subject = subject(&snapshot, &place, offset);
+    let all = analysis.map(|analysis| analysis.findings.as_slice()).unwrap_or_default();
+    let findings: Vec<&Finding> =
+        all.iter().filter(|finding| touches(&finding.range, offset)).take(MOST_FINDINGS).collect();
+    let mut parts = None;
+    look_at(database, document, place.number, stop, &mut |state, look| {
+        let cx = Cx { snapshot: &snapshot, place: &place, state: Some(state) };
+        parts = Some(cx.parts(&subject, Some(look), &findings));
+    })?;
+    let mut parts = parts.unwrap_or_else(|| {
+        let cx = Cx { snapshot: &snapshot, place: &place, state: None };
+        cx.parts(&subject, None, &findings)
+    });
+    parts.retain(|part| !part.trim().is_empty());
+    if parts.is_empty() {
+        return Ok(None);
+    }
+    Ok(Some(Hover { range: subject.range(), markdown: parts.join("\n\n---\n\n") }))
+}
+
+/// What stands at a place.
+enum Subject {
+    /// A G or M word that names a code.
+    Code(Range<u32>, CodeIx),
+    /// Any other word of a block.
+    Word(Range<u32>, Word),
+    /// A label, program, subroutine, variable or parameter.
+    Thing(Range<u32>, Thing),
+    /// A function of expressions.
+    Function(Range<u32>, String),
+    /// Nothing of its own: findings may hold there.
+    Nothing(Range<u32>),
+}
+
+impl Subject {
+    fn range(&self) -> Range<u32> {
+        match self {
+            Self::Code(range, _)
+            | Self::Word(range, _)
+            | Self::Thing(range, _)
+            | Self::Function(range, _)
+            | Self::Nothing(range) => range.clone(),
+        }
+    }
+}
+
+fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
+    let pieces = pieces_of_line(snapshot, offset);
+    // Where two pieces meet, the one behind the cursor is pointed at, unless it is a blank.
+    let at = pieces
+        .iter()
+        .find(|piece| {
+            piece.range.contains(&offset)
+                && !matches!(piece.kind, SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE)
+        })
+        .or_else(|| {
+            pieces.iter().rfind(|piece| piece.range.end == offset && piece.kind != SyntaxKind::WHITESPACE)
+        });
+    let Some(at) = at.filter(|piece| !piece.kind.is_comment()) else {
+        return Subject::Nothing(at.map_or(offset..offset, |piece| piece.range.clone()));
+    };
+    match at.kind {
+        SyntaxKind::FUNCTION => {
+            let name = snapshot.slice(at.range.clone()).to_ascii_uppercase();
+            return Subject::Function(at.range.clone(), name);
+        }
+        SyntaxKind::VARIABLE | SyntaxKind::NAMED_VARIABLE => {
+            if let Some(naming) = thing_at(snapshot, at.range.start + 1) {
+                return Subject::Thing(at.range.clone(), naming.thing);
+            }
+        }
+        _ => {}
+    }
+    let words = place.table.words(place.block()).iter();
+    let word = words.copied().find(|word| {
+        let range = place.in_file(word.range());
+        range.start <= at.range.start && at.range.end <= range.end
+    });
+    match word {
+        Some(word) if word.code.is_some() => Subject::Code(place.in_file(word.range()), word.code),
+        Some(word) => Subject::Word(place.in_file(word.range()), word),
+        None => match thing_at(snapshot, offset) {
+            Some(naming) => Subject::Thing(naming.range, naming.thing),
+            None => Subject::Nothing(at.range.clone()),
+        },
+    }
+}
+
+/// What a block is hovered with.
+struct Cx<'a> {
+    snapshot: &'a Snapshot,
+    place: &'a BlockPlace,
+    /// `None` where no path comes.
+    state: Option<&'a StateAt>,
+}
+
+impl Cx<'_> {
+    fn control(&self) -> &Control {
+        self.snapshot.control()
+    }
+
+    fn parts(
+        &self,
+        subject: &Subject,
+        mut look: Option<&mut Look<'_, '_>>,
+        findings: &[&Finding],
+    ) -> Vec<String> {
+        let mut parts: Vec<String> = findings.iter().map(|finding| self.finding(finding)).collect();
+        match subject {
+            Subject::Code(_, ix) => {
+                if let Some(code) = self.control().code_at(*ix) {
+                    parts.push(describe::code(self.control(), code));
+                }
+                parts.extend(look.as_deref().map(|look| self.around(look)));
+            }
+            Subject::Word(_, word) => parts.push(self.word(word, look)),
+            Subject::Thing(_, thing) => parts.push(self.thing(thing, look.take())),
+            Subject::Function(_, name) => {
+                let known = self.control().functions().iter().find(|function| function.name == *name);
+                parts.extend(known.map(|function| {
+                    let unsure = describe::unverified(function.confidence);
+                    format!("**{name}** {}\n\n*{}{unsure}*", function.title, function.source)
+                }));
+            }
+            Subject::Nothing(_) => {}
+        }
+        parts
+    }
+
+    /// A finding, and how the program comes here.
+    fn finding(&self, finding: &Finding) -> String {
+        let mut text = format!(
+            "**{}** {} [`{}`]({})",
+            finding.severity,
+            finding.message,
+            finding.rule.id,
+            finding.rule.page()
+        );
+        let line = |range: &Range<u32>| self.snapshot.line_at(range.start) + 1;
+        for label in &finding.labels {
+            let place = match &label.file {
+                Some(file) => file.to_string(),
+                None => format!("line {}", line(&label.range)),
+            };
+            let _ = write!(text, "\n- {place}: {}", label.message);
+        }
+        for remark in remarks(finding) {
+            let _ = write!(text, "\n- {}", remark.replace('\n', "\n  "));
+        }
+        if let Some(way) = self.way() {
+            let _ = write!(text, "\n- {way}");
+        }
+        text
+    }
+
+    /// How the program comes to the block.
+    fn way(&self) -> Option<String> {
+        let Some(state) = self.state else { return Some("no path comes here".to_owned()) };
+        if state.on_every_path {
+            return Some(if state.visits > 1 {
+                format!("every path comes here, {} times", state.visits)
+            } else {
+                "every path comes here".to_owned()
+            });
+        }
+        let place = |at: At| {
+            let place = self.snapshot.place(at.block).filter(|_| at.file == 0)?;
+            Some(self.snapshot.line_at(place.range().start) + 1)
+        };
+        let decisions: Vec<String> = state
+            .trace
+            .decisions()
+            .iter()
+            .filter_map(|decision| {
+                Some(format!("line {} goes on at line {}", place(decision.at)?, place(decision.to)?))
+            })
+            .collect();
+        (!decisions.is_empty()).then(|| format!("some paths come here: {}", decisions.join(", ")))
+    }
+
+    /// The state before the block, and what of it the block changes.
+    fn around(&self, look: &Look<'_, '_>) -> String {
+        let Some(state) = self.state else { return String::new() };
+        let reading = Reading::new(self.snapshot, look.model());
+        let before = reading.line(&state.before);
+        let mut text = format!("before: {}", list(&before));
+        let point = reading.point(&state.before, state.before.actual());
+        if !point.is_empty() {
+            let _ = write!(text, ", at `{point}`");
+        }
+        let Some(after) = &state.after else {
+            return text + "\n\nafter: the program does not go on behind this block";
+        };
+        let mut changes: Vec<String> =
+            reading.line(after).into_iter().filter(|item| !before.contains(item)).collect();
+        let ended = self.ended(&reading, &state.before, after);
+        changes.extend(ended);
+        let to = reading.point(after, after.actual());
+        let _ = write!(
+            text,
+            "\n\nafter: {}",
+            if changes.is_empty() { "as before".to_owned() } else { list(&changes) }
+        );
+        if to != point && !to.is_empty() {
+            let _ = write!(text, ", at `{to}`");
+        }
+        text
+    }
+
+    /// Modes that were on before and are no longer.
+    fn ended(&self, reading: &Reading<'_>, before: &State<Abstract>, after: &State<Abstract>) -> Vec<String> {
+        let left = reading.codes(after);
+        let was = reading.codes(before).into_iter();
+        // A motion that a cycle took the place of is not over.
+        was.filter(|(role, _)| *role != Role::Motion && !left.iter().any(|(other, _)| other == role))
+            .map(|(_, code)| format!("{code} off"))
+            .collect()
+    }
+
+    /// The code that gives a word its meaning: one of the block, else the cycle or motion in effect.
+    fn reader(&self, word: &Word, look: Option<&Look<'_, '_>>) -> Option<(Code<'_>, &WordEntry)> {
+        let control = self.snapshot.control();
+        let words = || self.place.table.words(self.place.block()).iter();
+        let in_block = words().filter_map(|word| control.code_at(word.code));
+        // Behind a call words are arguments, whatever motion is in effect.
+        let look = look.filter(|_| !in_block.clone().any(|code| code.entry().any_words));
+        let in_effect = look.zip(self.state).into_iter().flat_map(|(look, state)| {
+            let cycle = state.before.active_cycle(look.model());
+            let motion = state.before.mode(Role::Motion).only();
+            [cycle, motion].into_iter().flatten().filter_map(|code| control.code_at(code)).collect::<Vec<_>>()
+        });
+        in_block.chain(in_effect).find_map(|code| Some((code, describe::word_of(code, word.letter)?)))
+    }
+
+    /// A word that is no code: its meaning, what its number counts, where the axis stands.
+    fn word(&self, word: &Word, mut look: Option<&mut Look<'_, '_>>) -> String {
+        let control = self.snapshot.control();
+        let general = control.letter(word.letter);
+        let reader = self.reader(word, look.as_deref());
+        let calls = self
+            .place
+            .table
+            .words(self.place.block())
+            .iter()
+            .find_map(|word| control.code_at(word.code).filter(|code| code.entry().any_words));
+        let mut text = match (&reader, calls, general) {
+            (Some((code, entry)), _, _) => {
+                format!(
+                    "**{}** {} (`{}`), {}",
+                    word.letter,
+                    entry.is,
+                    code.entry().code,
+                    describe::needs(entry)
+                )
+            }
+            (None, Some(code), _) if argument(control, word.letter).is_some() => {
+                let number = argument(control, word.letter).unwrap_or_default();
+                format!(
+                    "**{}** argument `#{number}` of the program that `{}` calls",
+                    word.letter,
+                    code.entry().code
+                )
+            }
+            (None, _, Some(entry)) => {
+                format!("**{}** {}, {}", word.letter, entry.is, describe::kind(entry.kind))
+            }
+            (None, _, None) => format!("**{}** no address of {}", word.letter, control.title()),
+        };
+        let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
+        if let Some(counted) = self.counted(word, kind, look.as_deref_mut()) {
+            let _ = write!(text, "\n\n{counted}");
+        }
+        let target = match kind {
+            Some(WordKind::Label | WordKind::Program) => {
+                thing_at(self.snapshot, self.place.in_file(word.range()).end)
+            }
+            _ => None,
+        };
+        if let Some(naming) = target {
+            let _ = write!(text, "\n\n{}", self.thing(&naming.thing, None));
+        }
+        if let (Some(look), Some(axis), None) = (look, self.axis(word.letter), calls) {
+            text.push_str(&self.coordinate(axis, look));
+        }
+        text
+    }
+
+    /// The axis that an address moves.
+    fn axis(&self, letter: Letter) -> Option<Axis> {
+        let control = self.snapshot.control();
+        let increments = &control.semantics().increments;
+        let increment = increments.get(&letter.to_string()).and_then(|axis| Axis::of(Letter::parse(axis)?));
+        increment.or_else(|| Axis::of(letter).filter(|_| control.axes().contains(letter)))
+    }
+
+    /// What the number of a word comes to: its value and unit, where the text does not say so itself.
+    fn counted(
+        &self,
+        word: &Word,
+        kind: Option<WordKind>,
+        look: Option<&mut Look<'_, '_>>,
+    ) -> Option<String> {
+        let (look, state) = look.zip(self.state)?;
+        let written = self.snapshot.slice(self.place.in_file(word.range()));
+        let written = written.trim();
+        let reading = Reading::new(self.snapshot, look.model());
+        let units = reading.units(&state.before);
+        let unit = match kind? {
+            WordKind::Length => unit(units),
+            WordKind::Angle => "degrees",
+            WordKind::Seconds => "s",
+            WordKind::Milliseconds => "ms",
+            WordKind::Feed => {
+                return Some(format!(
+                    "`{written}` {}",
+                    reading.feed(state.after.as_ref()?)?.split_once(' ')?.1
+                ));
+            }
+            WordKind::SecondsOrMilliseconds => {
+                return Some(format!(
+                    "`{written}` is {} {}",
+                    plain(word.number()?, 6),
+                    if word.shape.point { "s" } else { "ms" }
+                ));
+            }
+            _ => return None,
+        };
+        match word.value {
+            Value::Number(number) => {
+                let is_scaled = !word.shape.point
+                    && self.snapshot.control().letter(word.letter).is_some_and(|entry| entry.scaled);
+                let counts = if is_scaled { look.counted(word.letter, number, Some(units)) } else { number };
+                let why = if is_scaled && counts.to_bits() != number.to_bits() {
+                    ": without a decimal point it counts least increments"
+                } else {
+                    ""
+                };
+                let diameter = match self.axis(word.letter) {
+                    Some(Axis::X) if reading.diameter(&state.before) && kind == Some(WordKind::Length) => {
+                        ", a diameter"
+                    }
+                    _ => "",
+                };
+                Some(format!("`{written}` is {} {unit}{diameter}{why}", plain(counts, 6)))
+            }
+            Value::Expr(expr) => {
+                let range = self.place.in_file(self.place.table.expr(expr).range.clone());
+                let at = At { file: 0, block: self.place.number };
+                let values = look.expressions(at, &state.before);
+                let (_, held) = values.into_iter().find(|(of, _)| *of == range)?;
+                Some(format!("`{written}` is {} {unit}", value(&held)))
+            }
+            Value::Missing => None,
+        }
+    }
+
+    /// Where an axis stands before and after the block.
+    fn coordinate(&self, axis: Axis, look: &Look<'_, '_>) -> String {
+        let Some(state) = self.state else { return String::new() };
+        let reading = Reading::new(self.snapshot, look.model());
+        let before = reading.places(&state.before);
+        let after = state.after.as_ref().map(|after| (after, reading.places(after)));
+        let mut text = String::new();
+        let shown = |state: &State<Abstract>, point: &Position| {
+            let (units, diameter) = (reading.units(state), reading.diameter(state));
+            point.get(axis).map(|value| coordinate(axis, value, units, diameter))
+        };
+        for (name, of) in [
+            ("work", (|places| places.work) as fn(&crate::reading::Places) -> Position),
+            ("programmed", |places| places.programmed),
+            ("machine", |places| places.machine),
+            ("tool tip", |places| places.tip),
+        ] {
+            let from = shown(&state.before, &of(&before));
+            let to = after.as_ref().and_then(|(after, places)| shown(after, &of(places)));
+            let same_as_work = name == "programmed"
+                && of(&before).raw(axis).to_bits() == before.work.raw(axis).to_bits()
+                && after.as_ref().is_none_or(|(_, places)| {
+                    places.programmed.raw(axis).to_bits() == places.work.raw(axis).to_bits()
+                });
+            if (from.is_none() && to.is_none()) || same_as_work {
+                continue;
+            }
+            let unknown = || "not known".to_owned();
+            let _ = write!(
+                text,
+                "\n| {name} | {} | {} |",
+                from.unwrap_or_else(unknown),
+                to.unwrap_or_else(unknown)
+            );
+        }
+        if text.is_empty() {
+            return text;
+        }
+        format!("\n\n| {} | before | after |\n|---|---|---|{text}", axis.name())
+    }
+
+    /// A label, program, subroutine, variable or parameter.
+    fn thing(&self, thing: &Thing, look: Option<&mut Look<'_, '_>>) -> String {
+        match thing {
+            Thing::Variable { number, .. } => {
+                let entry = match self.control().variable(*number) {
+                    Variable::Known(entry) => describe::variable(entry),
+                    Variable::Unlisted => {
+                        format!("not among the variables listed for {}", self.control().title())
+                    }
+                };
+                let held =
+                    look.zip(self.state).and_then(|(look, state)| look.variable(*number, &state.before));
+                self.variable(&format!("#{number}"), &entry, held.as_ref(), thing)
+            }
+            Thing::Parameter { name, part } => {
+                let entry = match self.control().named_parameter(name) {
+                    Some(entry) => describe::variable(entry),
+                    None if part.is_some() => "named parameter, local".to_owned(),
+                    None => "named parameter, global".to_owned(),
+                };
+                let held = look.zip(self.state).and_then(|(look, state)| look.parameter(name, &state.before));
+                self.variable(&format!("#<{name}>"), &entry, held.as_ref(), thing)
+            }
+            Thing::Label { .. } | Thing::Program(_) | Thing::Subroutine(_) | Thing::Branch { .. } => {
+                self.named_places(thing)
+            }
+        }
+    }
+
+    fn variable(&self, name: &str, entry: &str, held: Option<&AbstractValue>, thing: &Thing) -> String {
+        let mut text = format!("**{name}** {entry}");
+        if let Some(held) = held {
+            let _ = write!(text, "\n\nhere: {}", value(held));
+        }
+        // Large files are not searched while somebody waits for a hover.
+        if self.snapshot.len() > LARGE {
+            return text;
+        }
+        let own = self.place.range();
+        let set: Vec<Range<u32>> = namings_in(self.snapshot, thing)
+            .into_iter()
+            .filter(|naming| naming.kind == ReferenceKind::Write && !own.contains(&naming.range.start))
+            .map(|naming| naming.range)
+            .collect();
+        // The nearest before the place say most.
+        let before = set.partition_point(|range| range.start < own.start);
+        let from = before.saturating_sub(MOST_ASSIGNMENTS - 1);
+        for range in set.iter().skip(from).take(MOST_ASSIGNMENTS) {
+            let line = self.snapshot.line_at(range.start);
+            let _ = write!(text, "\n- set in line {}: `{}`", line + 1, self.snapshot.line_text(line).trim());
+        }
+        text
+    }
+
+    /// Where a label, program or subroutine stands, and how many places of the file name it.
+    fn named_places(&self, thing: &Thing) -> String {
+        let namings = namings_in(self.snapshot, thing);
+        let head = namings.iter().find(|naming| naming.kind == ReferenceKind::Write);
+        let uses = namings.iter().filter(|naming| naming.kind == ReferenceKind::Read).count();
+        let what = match thing {
+            Thing::Label { number, .. } => format!("**N{number}** sequence number"),
+            Thing::Program(number) => format!("**O{number}** program"),
+            Thing::Subroutine(label) => format!("**{}** subroutine", crate::document_symbols::o_name(label)),
+            Thing::Branch { label, .. } => format!("**{}** label", crate::document_symbols::o_name(label)),
+            Thing::Variable { .. } | Thing::Parameter { .. } => String::new(),
+        };
+        let place = match head {
+            Some(head) => {
+                let line = self.snapshot.line_at(head.range.start);
+                let text = self.snapshot.line_text(line).into_owned();
+                let comment = remark(&text).map(|remark| format!(" ({remark})")).unwrap_or_default();
+                format!(", line {}{comment}: `{}`", line + 1, text.trim())
+            }
+            None => ", not in this file".to_owned(),
+        };
+        let named = match uses {
+            0 => "nothing in this file names it".to_owned(),
+            1 => "named in 1 place".to_owned(),
+            _ => format!("named in {uses} places"),
+        };
+        format!("{what}{place}\n\n{named}")
+    }
+}
+
+/// Bytes of a file that is searched for a hover.
+const LARGE: u32 = 1 << 20;
+
+/// The local variable that an argument of a macro call is.
+fn argument(control: &Control, letter: Letter) -> Option<u8> {
+    control.semantics().argument_letters.get(&letter.to_string()).copied()
+}
+
+/// Items as code, in one line.
+fn list(items: &[String]) -> String {
+    items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::hover;
+    use crate::fixture::Fixture;
+
+    fn check(control: &str, text: &str, expected: &Expect) {
+        let mut fixture = Fixture::new(control, text);
+        let analysis = fixture.analysis();
+        let found =
+            hover(&mut fixture.database, fixture.document, fixture.offset, Some(&analysis), &|| false)
+                .unwrap();
+        let shown = found.map_or_else(
+            || "nothing\n".to_owned(),
+            |found| format!("[{}]\n{}\n", fixture.snapshot().slice(found.range), found.markdown),
+        );
+        expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn a_code_with_its_state() {
+        check(
+            "haas-mill",
+            "%\nO1\nG21 G90 G54 G0 X1. Y2.\nG43 H1 Z5.\nG$083 Z-10. R2. Q3. F100.\nM30\n%\n",
+            &expect![[r#"
+            [G83]
+            **G83** peck drilling
+
+            Drills in pecks and goes up to R after each to clear the chips.
+
+            - canned cycle (group 09): stays in effect
+            - better with `G17`
+            - ends `G73`, `G74`, `G76`, `G77`, `G81`, `G82`, `G84`, `G85`, `G86`, `G87`, `G88`, `G89`
+            - ended by `G80`, `G0`, `G1`
+
+            | word | meaning | |
+            |---|---|---|
+            | `X` | hole position | optional, length |
+            | `Y` | hole position | optional, length |
+            | `A` | rotary position of the hole | optional, degrees |
+            | `B` | rotary position of the hole | optional, degrees |
+            | `C` | rotary position of the hole | optional, degrees |
+            | `Z` | bottom of the hole | here or earlier, length |
+            | `R` | R plane, where feeding begins | here or earlier, length |
+            | `F` | feed rate | here or earlier, feed rate |
+            | `L` | number of repeats; 0 only stores the cycle | optional, else 1, whole number, from 0 |
+            | `Q` | depth of one peck | here or earlier, length, above 0 |
+            | `I` | first peck | optional, length, above 0 |
+            | `J` | how much each further peck is smaller | optional, length, above 0 |
+            | `K` | smallest peck | optional, length, above 0 |
+            | `P` | dwell at the bottom | optional, seconds with a decimal point, milliseconds without, from 0 |
+            | `E` | speed at which the spindle turns backwards after each hole to throw chips off, NGC | optional, spindle speed, above 0 |
+
+            Deep-hole drilling: after each peck the drill goes all the way up to R, then rapids back to just above the last depth (Setting 22).
+
+            - `Q` for equal pecks, **or** `I` first peck, less `J` each time, at least `K`. Do not mix the two. All positive.
+            - Setting 52 lifts the clearing height above R.
+            - `P` dwells at the bottom.
+
+            **Common mistake:** a negative or missing Q. Q is a distance, not a position.
+
+            Alarm 305: Q is not positive (unverified)
+
+            Alarm 306: I, J, K or Q is not positive (unverified)
+
+            Alarm 348: G93 is active (unverified)
+
+            Alarm 372: tool change with a cycle active (unverified)
+
+            ```gcode
+            T1 M6
+            G90 G54 G0 X0. Y0.
+            S3000 M3
+            G43 H1 Z1. M8
+            G98 G83 X1. Y1. Z-2. R0.1 Q0.25 F8.
+            ```
+
+            *Haas mill (classic control and NGC): HM17 p.296; Haas 96-8000 June 1999 (easymanua.ls page 182); Haas 96-8000 June 1999 (easymanua.ls page 191)*
+
+
+            ---
+
+            before: `G0` `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `spindle stopped` `H1`, at `X1 Y2 Z5`
+
+            after: `G83` `F100 mm/min`
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_coordinate() {
+        check(
+            "haas-mill",
+            "%\nO1\nG21 G90 G54 G0 X1. Y2.\nG1 X$03. F100.\nM30\n%\n",
+            &expect![[r#"
+            [X3.]
+            **X** X target (`G1`), optional, length
+
+            `X3.` is 3 mm
+
+            | X | before | after |
+            |---|---|---|
+            | work | 1 | 3 |
+        "#]],
+        );
+        check(
+            "haas-lathe",
+            "O1\nG20 G54 T0101\nG0 X2. Z.1\nG1 U$0-.5 F.01\nM30\n",
+            &expect![[r#"
+            [U-.5]
+            **U** distance in X, diameter (`G1`), optional, length
+
+            `U-.5` is -0.5 inch, a diameter
+
+            | X | before | after |
+            |---|---|---|
+            | work | 2 | 1.5 |
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_number_without_a_point() {
+        check(
+            "fanuc-mill",
+            "O1\nG21 G90 G54 G0 X$01000\nM30\n",
+            &expect![[r#"
+            [X1000]
+            **warning** decimal point missing: `X1000` [`missing-decimal-point`](https://github.com/gcheck/gcheck/blob/main/docs/rules/missing-decimal-point.md)
+            - note: a number without decimal point counts smallest steps on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
+            - note: assuming setting 3401#0 (numbers without decimal point) is least increment
+            - help: write the decimal point
+            - every path comes here
+
+            ---
+
+            **X** end point in X (`G0`), optional, length
+
+            `X1000` is 1 mm: without a decimal point it counts least increments
+
+            | X | before | after |
+            |---|---|---|
+            | work | not known | 1 |
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "G21 G0 X1$0\nM2\n",
+            &expect![[r#"
+            [X1]
+            **X** X end point (`G0`), optional, length
+
+            `X1` is 1 mm
+
+            | X | before | after |
+            |---|---|---|
+            | work | not known | 1 |
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG20 G4 P$0500\nM30\n",
+            &expect![[r#"
+            [P500]
+            **P** time: seconds with decimal point, milliseconds without (`G4`), required, seconds with a decimal point, milliseconds without, from 0
+
+            `P500` is 500 ms
+        "#]],
+        );
+    }
+
+    #[test]
+    fn variables_and_parameters() {
+        check(
+            "haas-mill",
+            "O1\n#100=2.\nIF [#500 EQ 1] GOTO 10\n#100=3.\nN10 G0 X#10$00\nM30\n",
+            &expect![[r#"
+            [#100]
+            **#100** common variables (kept over power off)
+
+            here: 2 or 3
+            - set in line 2: `#100=2.`
+            - set in line 4: `#100=3.`
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG0 X#502$01\nM30\n",
+            &expect![[r#"
+            [#5021]
+            **#5021** present position, machine coordinates (the control's own, may only be read)
+
+            here: not known
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<depth> = 2\nG21 G0 Z[#<dep$0th> * 2]\nM2\n",
+            &expect![[r#"
+            [#<depth>]
+            **#<depth>** named parameter, local
+
+            here: 2
+            - set in line 1: `#<depth> = 2`
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<depth> = 2\nG21 G0 Z$0[#<depth> * 2]\nM2\n",
+            &expect![[r#"
+            [Z[#<depth> * 2]]
+            **Z** Z end point (`G0`), optional, length
+
+            `Z[#<depth> * 2]` is 4 mm
+
+            | Z | before | after |
+            |---|---|---|
+            | work | not known | 4 |
+        "#]],
+        );
+    }
+
+    #[test]
+    fn labels_programs_and_arguments() {
+        check(
+            "haas-mill",
+            "O1\nN10 G0 X1.\nIF [#1 EQ 1] GOTO 1$00\nM30\n",
+            &expect![[r#"
+            [10]
+            **N10** sequence number, line 2: `N10 G0 X1.`
+
+            named in 1 place
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nM98 P$02\nM30\nO2 (SLOT)\nM99\n",
+            &expect![[r#"
+            [P2]
+            **P** program to call (`M98`), unless a path in parentheses names the program, program number
+
+            **O2** program, line 4 (SLOT): `O2 (SLOT)`
+
+            named in 1 place
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG65 P9010 A$01.5\nM30\n",
+            &expect![[r#"
+                [A1.5]
+                **A** argument `#1` of the program that `G65` calls
+
+                `A1.5` is 1.5 degrees
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_finding_says_how_the_program_comes_there() {
+        check(
+            "haas-mill",
+            "%\nO1\nG20 G90 G54 G0 X1.\nIF [#500 EQ 1] GOTO 10\nG1 X2$0.\nN10 M30\n%\n",
+            &expect![[r#"
+            [X2.]
+            **error** cut without a feed (`F`) [`feed-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/feed-missing.md)
+            - note: a cutting move needs a feed; every control of this family stops with an alarm without one
+            - help: give `F` in this block or before it
+            - some paths come here: line 4 goes on at line 5
+
+            ---
+
+            **X** X target (`G1`), optional, length
+
+            `X2.` is 2 inch
+
+            | X | before | after |
+            |---|---|---|
+            | work | 1 | not known |
+        "#]],
+        );
+    }
+
+    #[test]
+    fn functions_comments_and_nothing() {
+        check(
+            "haas-mill",
+            "#1=AT$0AN[1.]/[2.]\n",
+            &expect![[r#"
+            [ATAN]
+            **warning** program has no end [`program-end-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/program-end-missing.md)
+            - note: at the end of the text the control stops with an alarm or with everything still on  [general knowledge]
+            - help: end the program with `M30`, a subprogram with `M99`; see that the file is complete
+            - every path comes here
+
+            ---
+
+            **ATAN** arc tangent of one number, in degrees; ATAN[y]/[x] is a division here, not the angle of a point
+
+            *HM17 6.14.10*
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "G0 (CLE$0AR) X1.\n",
+            &expect![[r#"
+            [(CLEAR)]
+            **warning** program has no end [`program-end-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/program-end-missing.md)
+            - note: at the end of the text the control stops with an alarm or with everything still on  [general knowledge]
+            - help: end the program with `M30`, a subprogram with `M99`; see that the file is complete
+            - every path comes here
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "G0 X1.\n\n$0\n",
+            &expect![[r#"
+            nothing
+        "#]],
+        );
+    }
+}

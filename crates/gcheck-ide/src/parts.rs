@@ -1,0 +1,214 @@
+//! How a program falls into parts: programs, tool sections, operations, comments.
+//!
+//! Knows: what begins and ends a part. Must not know: which feature shows it.
+
+use std::ops::Range;
+
+use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_db::Snapshot;
+use gcheck_program::{Block, BlockFlags, BlockTable, ToolNames, Word, remark};
+
+use crate::things::code_end;
+
+/// Operations of a file that are kept: a program with a comment at every line has none that matters.
+const MOST_OPERATIONS: usize = 5_000;
+
+/// What one tool does: from its change, with the comments above it, to the next.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct ToolPart {
+    /// The tool; `None` when its number is computed or was never said.
+    pub(crate) tool: Option<u32>,
+    pub(crate) range: Range<u32>,
+    /// Bytes of the block that changes the tool.
+    pub(crate) change: Range<u32>,
+    /// Bytes of the word that names it, or of the change.
+    pub(crate) word: Range<u32>,
+    /// The block that changes the tool names it too.
+    pub(crate) is_named: bool,
+    /// What the program calls it; may be empty.
+    pub(crate) name: String,
+}
+
+/// From a comment on a line of its own to the next one.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct OperationPart {
+    pub(crate) name: String,
+    pub(crate) range: Range<u32>,
+    /// Bytes of the block with the comment.
+    pub(crate) comment: Range<u32>,
+}
+
+/// The parts of a file.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Parts {
+    pub(crate) tools: Vec<ToolPart>,
+    pub(crate) operations: Vec<OperationPart>,
+    /// Comments on lines of their own, those that follow each other together.
+    pub(crate) comments: Vec<Range<u32>>,
+}
+
+/// Finds the parts of a file.
+pub(crate) fn parts(snapshot: &Snapshot) -> Parts {
+    let control = snapshot.control();
+    let end = code_end(snapshot);
+    let mut names = ToolNames::new(control);
+    let mut finder = Finder { snapshot, called: None, comments: None, parts: Parts::default() };
+    for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
+        let Some(table) = snapshot.table(chunk.index) else { continue };
+        names.look(&table, chunk.text);
+        for (_, block) in table.blocks() {
+            if chunk.base + block.range.start >= end {
+                break;
+            }
+            finder.block(&table, block, chunk.base, chunk.text);
+        }
+    }
+    let Finder { comments, mut parts, .. } = finder;
+    parts.comments.extend(comments);
+    close(snapshot, &mut parts, end);
+    for part in &mut parts.tools {
+        if let Some(name) = part.tool.and_then(|tool| names.get(tool)) {
+            name.clone_into(&mut part.name);
+        }
+    }
+    parts
+}
+
+/// What the program calls its tools.
+pub(crate) fn tool_names(snapshot: &Snapshot) -> ToolNames<'_> {
+    let end = code_end(snapshot);
+    let mut names = ToolNames::new(snapshot.control());
+    for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
+        // Names stand in comments.
+        if chunk.text.contains(['(', ';'])
+            && let Some(table) = snapshot.table(chunk.index)
+        {
+            names.look(&table, chunk.text);
+        }
+    }
+    names
+}
+
+/// Parts end where the next one of their kind or of a larger kind begins.
+fn close(snapshot: &Snapshot, parts: &mut Parts, end: u32) {
+    let programs: Vec<u32> =
+        snapshot.survey().programs.iter().map(|program| line_start(snapshot, program.range.start)).collect();
+    let next_program =
+        |from: u32| programs.get(programs.partition_point(|start| *start <= from)).copied().unwrap_or(end);
+    let starts: Vec<u32> = parts.tools.iter().map(|tool| tool.range.start).collect();
+    for (index, tool) in parts.tools.iter_mut().enumerate() {
+        let next = starts.get(index + 1).copied().unwrap_or(end);
+        tool.range.end = next.min(next_program(tool.change.start)).max(tool.change.end);
+    }
+    // The comments above a change name the tool, not an operation of the one before.
+    let tools: Vec<(u32, u32)> =
+        parts.tools.iter().map(|tool| (tool.range.start, tool.change.start)).collect();
+    parts.operations.retain(|operation| {
+        let before = tools.partition_point(|(start, _)| *start <= operation.comment.start);
+        let heading = before.checked_sub(1).and_then(|index| tools.get(index));
+        heading.is_some_and(|(_, change)| operation.comment.start > *change)
+    });
+    parts.operations.truncate(MOST_OPERATIONS);
+    let starts: Vec<u32> = parts.operations.iter().map(|operation| operation.comment.start).collect();
+    for (index, operation) in parts.operations.iter_mut().enumerate() {
+        let next = starts.get(index + 1).copied().unwrap_or(end);
+        let tool = tools.get(tools.partition_point(|(start, _)| *start <= operation.comment.start));
+        let tool = tool.map_or(end, |(start, _)| *start);
+        let limit = next.min(tool).min(next_program(operation.comment.start));
+        operation.range.end = limit.max(operation.comment.end);
+    }
+}
+
+fn line_start(snapshot: &Snapshot, offset: u32) -> u32 {
+    snapshot.line_range(snapshot.line_at(offset)).start
+}
+
+struct Finder<'s> {
+    snapshot: &'s Snapshot,
+    /// The tool called for last, and its word.
+    called: Option<(Option<u32>, Range<u32>)>,
+    /// Comments on lines of their own right before the block under way.
+    comments: Option<Range<u32>>,
+    parts: Parts,
+}
+
+/// Addresses that a tool change may have.
+const CHANGES: LetterSet = LetterSet::of("TM");
+
+impl Finder<'_> {
+    fn block(&mut self, table: &BlockTable, block: &Block, base: u32, text: &str) {
+        let range = base + block.range.start..base + block.range.end;
+        if is_comment_alone(block) {
+            match &mut self.comments {
+                Some(comments) => comments.end = range.end,
+                None => {
+                    self.comments = Some(range.clone());
+                    let written = text.get(block.range.start as usize..block.range.end as usize);
+                    if let Some(name) = written.and_then(remark).filter(|name| is_name(name)) {
+                        self.parts.operations.push(OperationPart {
+                            name: name.to_owned(),
+                            range: range.clone(),
+                            comment: range,
+                        });
+                    }
+                }
+            }
+            return;
+        }
+        // An empty comment, or a mark of the tape, parts nothing.
+        let above = self.comments.take();
+        self.parts.comments.extend(above.clone());
+        if block.letters.intersects(CHANGES) {
+            self.tool(table.words(block), &range, base, above);
+        }
+    }
+
+    fn tool(&mut self, words: &[Word], range: &Range<u32>, base: u32, above: Option<Range<u32>>) {
+        let control = self.snapshot.control();
+        let rules = &control.semantics().tools;
+        let effects = || words.iter().filter_map(|word| control.code_at(word.code)).map(|code| code.effect());
+        // The arguments of a macro call are no tools.
+        if effects().any(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal)) {
+            return;
+        }
+        let word = words.iter().find(|word| word.letter == Letter::of('T'));
+        if let Some(word) = word {
+            let tool = word.integer().map(|tool| if rules.offset_in_t { tool / 100 } else { tool });
+            self.called = Some((tool, base + word.range().start..base + word.range().end));
+        }
+        let changes =
+            effects().any(|effect| effect == Effect::ToolChange) || word.is_some() && rules.change_by_t;
+        // `T0` empties the spindle, and `T0100` only cancels the offset of the tool that is in place.
+        let cancels = rules.offset_in_t
+            && word.and_then(Word::integer).is_some_and(|tool| tool.is_multiple_of(100) && tool > 0);
+        if !changes || cancels {
+            return;
+        }
+        let (tool, word, is_named) = match &self.called {
+            Some((tool, word)) if range.start <= word.start => (*tool, word.clone(), true),
+            Some((tool, _)) => (*tool, range.clone(), false),
+            None => (None, range.clone(), false),
+        };
+        let start = above.map_or(range.start, |above| above.start);
+        self.parts.tools.push(ToolPart {
+            tool,
+            range: start..range.end,
+            change: range.clone(),
+            word,
+            is_named,
+            name: String::new(),
+        });
+    }
+}
+
+/// A comment, perhaps with a sequence number, and nothing else.
+fn is_comment_alone(block: &Block) -> bool {
+    block.flags.contains(BlockFlags::COMMENT)
+        && !block.flags.intersects(BlockFlags::STATEMENT | BlockFlags::TAPE_MARK | BlockFlags::ERROR)
+        && block.letters.without(LetterSet::of("N")).is_empty()
+}
+
+/// Does a comment name something, other than rules of ours?
+fn is_name(comment: &str) -> bool {
+    comment.chars().any(char::is_alphanumeric) && !comment.trim_start().starts_with("gcheck:")
+}

@@ -1,0 +1,58 @@
+//! The tokens of whole lines, without a tree.
+//!
+//! Knows: how tokens come from the grammar. Must not know: what they mean.
+
+use std::ops::Range;
+
+use gcheck_db::Snapshot;
+use gcheck_program::profile;
+use gcheck_syntax::{Sink, SyntaxError, SyntaxKind, parse_into};
+
+/// A token.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Piece {
+    pub(crate) kind: SyntaxKind,
+    /// Bytes of the file.
+    pub(crate) range: Range<u32>,
+}
+
+/// The tokens of whole lines that stand at `base` in the file.
+pub(crate) fn pieces(snapshot: &Snapshot, lines: &str, base: u32) -> Vec<Piece> {
+    let mut sink = Pieces { base, list: Vec::with_capacity(lines.len() / 6) };
+    parse_into(lines, profile(snapshot.control()), &mut sink);
+    sink.list
+}
+
+/// The tokens of the line around a byte.
+pub(crate) fn pieces_of_line(snapshot: &Snapshot, offset: u32) -> Vec<Piece> {
+    let line = snapshot.line_range(snapshot.line_at(offset));
+    pieces(snapshot, &snapshot.slice(line.clone()), line.start)
+}
+
+/// Does the range hold the offset, its end included, as a cursor behind a word still stands at it?
+pub(crate) fn touches(range: &Range<u32>, offset: u32) -> bool {
+    range.start <= offset && offset <= range.end
+}
+
+struct Pieces {
+    base: u32,
+    list: Vec<Piece>,
+}
+
+impl Sink for Pieces {
+    type Checkpoint = ();
+
+    fn start_node(&mut self, _: SyntaxKind) {}
+
+    fn finish_node(&mut self) {}
+
+    fn checkpoint(&self) {}
+
+    fn start_node_at(&mut self, (): (), _: SyntaxKind) {}
+
+    fn token(&mut self, kind: SyntaxKind, range: Range<u32>) {
+        self.list.push(Piece { kind, range: range.start + self.base..range.end + self.base });
+    }
+
+    fn error(&mut self, _: SyntaxError) {}
+}

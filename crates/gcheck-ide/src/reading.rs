@@ -1,0 +1,225 @@
+//! What people read of a state: active codes, feed, speed, tool, positions.
+//!
+//! Knows: which facts of a state matter, and in which units they are read. Must not know: how states come about.
+
+use gcheck_controls::{CodeIx, Effect};
+use gcheck_db::Snapshot;
+use gcheck_engine::{
+    Abstract, AbstractValue, Axis, Domain as _, FeedMode, Model, Position, Role, Spindle, State, Truth, Units,
+};
+
+use crate::figures::{coordinate, plain, value};
+
+/// Reads the states of one document.
+pub(crate) struct Reading<'a> {
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) model: &'a Model<'a>,
+}
+
+/// Where the axes stand, in three ways.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Places {
+    /// Programmed coordinates.
+    pub(crate) programmed: Position,
+    /// Work coordinates.
+    pub(crate) work: Position,
+    /// Machine coordinates.
+    pub(crate) machine: Position,
+    /// The tool's tip in work coordinates, as far as its length is known.
+    pub(crate) tip: Position,
+}
+
+impl<'a> Reading<'a> {
+    pub(crate) fn new(snapshot: &'a Snapshot, model: &'a Model<'a>) -> Self {
+        Self { snapshot, model }
+    }
+
+    /// Units in which numbers of the program are read; millimetres when not known.
+    pub(crate) fn units(&self, state: &State<Abstract>) -> Units {
+        state.units(self.model).unwrap_or(Units::Mm)
+    }
+
+    /// Does X count diameters?
+    pub(crate) fn diameter(&self, state: &State<Abstract>) -> bool {
+        state.is_diameter(self.model).unwrap_or(self.model.semantics().diameter)
+    }
+
+    /// The codes that may be in effect for a role, by name; empty for none.
+    pub(crate) fn mode(&self, state: &State<Abstract>, role: Role) -> Vec<String> {
+        let mode = state.mode(role);
+        let name = |code: &CodeIx| self.model.control().code_at(*code).map(|code| code.entry().code.clone());
+        mode.alternatives().iter().filter_map(name).collect()
+    }
+
+    /// What is in effect, one text a role: `G90`, `G17`, `G54`; `G0 or G1` where paths differ. What is switched off is left out.
+    pub(crate) fn codes(&self, state: &State<Abstract>) -> Vec<(Role, String)> {
+        let mut codes = Vec::new();
+        for role in Role::ALL {
+            let mode = state.mode(role);
+            let only_off = mode.only().is_some_and(|code| self.is_off(code));
+            let names = self.mode(state, role);
+            if names.is_empty() || only_off {
+                continue;
+            }
+            codes.push((role, names.join(" or ")));
+        }
+        // A cycle takes the place of the motion where both are one group.
+        let has_cycle = codes.iter().any(|(role, _)| *role == Role::Cycle);
+        codes.retain(|(role, _)| !(has_cycle && *role == Role::Motion));
+        codes
+    }
+
+    /// Does a code only say that nothing of its kind is in effect?
+    fn is_off(&self, code: CodeIx) -> bool {
+        matches!(
+            self.model.effect(code),
+            Effect::CompensationOff
+                | Effect::LengthOff
+                | Effect::CycleCancel
+                | Effect::ScalingOff
+                | Effect::RotationOff
+                | Effect::MirrorOff
+                | Effect::PolarOff
+                | Effect::PolarInterpolationOff
+                | Effect::DynamicOffsetOff
+                | Effect::TiltedPlaneOff
+                | Effect::MacroModalOff
+        )
+    }
+
+    /// `F200 mm/min`; `None` when none was given.
+    pub(crate) fn feed(&self, state: &State<Abstract>) -> Option<String> {
+        let word = state.feed_word();
+        if *word == AbstractValue::Number(0.0) {
+            return None;
+        }
+        let unit = match (self.units(state), state.feed_mode(self.model)) {
+            (Units::Mm, Some(FeedMode::PerMinute)) => " mm/min",
+            (Units::Inch, Some(FeedMode::PerMinute)) => " inch/min",
+            (Units::Mm, Some(FeedMode::PerRevolution)) => " mm/rev",
+            (Units::Inch, Some(FeedMode::PerRevolution)) => " inch/rev",
+            (_, Some(FeedMode::InverseTime)) => " moves/min",
+            (_, None) => "",
+        };
+        Some(format!("F{}{unit}", number(word)?))
+    }
+
+    /// `S1200 rpm`; `None` when none was given.
+    pub(crate) fn speed(&self, state: &State<Abstract>) -> Option<String> {
+        let word = state.speed();
+        if *word == AbstractValue::Number(0.0) {
+            return None;
+        }
+        let surface = state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed);
+        let unit = match (surface, self.units(state)) {
+            (false, _) => "rpm",
+            (true, Units::Mm) => "m/min",
+            (true, Units::Inch) => "ft/min",
+        };
+        Some(format!("S{} {unit}", number(word)?))
+    }
+
+    /// `spindle clockwise`, `spindle stopped`.
+    pub(crate) fn spindle(state: &State<Abstract>) -> &'static str {
+        match state.spindle() {
+            Some(Spindle::Clockwise) => "spindle clockwise",
+            Some(Spindle::CounterClockwise) => "spindle counter-clockwise",
+            Some(Spindle::Stopped) => "spindle stopped",
+            None => "spindle turning or not",
+        }
+    }
+
+    /// `T1`, `H1`, `D1`, as far as they are known and not zero.
+    pub(crate) fn numbers(state: &State<Abstract>) -> Vec<String> {
+        let mut texts = Vec::new();
+        for (letter, value) in [('T', state.tool()), ('H', state.h()), ('D', state.d())] {
+            if let Some(number) = Abstract::known(value).filter(|number| *number != 0.0) {
+                texts.push(format!("{letter}{}", plain(number, 0)));
+            }
+        }
+        texts
+    }
+
+    /// The axes that the program names, or the machine has.
+    pub(crate) fn axes(&self) -> Vec<Axis> {
+        let machine = &self.snapshot.settings().machine.engine;
+        if let Some(axes) = &machine.axes {
+            return axes.clone();
+        }
+        let control = self.model.control();
+        let increments = &self.model.semantics().increments;
+        let used = self.snapshot.survey().letters;
+        let is_used = |axis: &Axis| {
+            let of_axis = |(letter, moved): (&String, &String)| {
+                *moved == axis.name().to_string()
+                    && gcheck_controls::Letter::parse(letter).is_some_and(|letter| used.contains(letter))
+            };
+            let is_increment = increments.contains_key(&axis.name().to_string());
+            !is_increment
+                && (matches!(axis, Axis::X | Axis::Z)
+                    || used.contains(axis.letter())
+                    || increments.iter().any(of_axis))
+        };
+        Axis::ALL.into_iter().filter(|axis| control.axes().contains(axis.letter())).filter(is_used).collect()
+    }
+
+    /// Where the axes stand.
+    pub(crate) fn places(&self, state: &State<Abstract>) -> Places {
+        let work = *state.actual();
+        Places {
+            programmed: *state.position(),
+            work,
+            machine: state.machine(self.model),
+            tip: self.tip(state, work),
+        }
+    }
+
+    /// The tip lies where the work position says while the tool's own length is in effect; else the difference away.
+    fn tip(&self, state: &State<Abstract>, work: Position) -> Position {
+        // A tool that tilts, or is shifted along itself, has its tip elsewhere.
+        let tilts = state.tool_shift().along_tool().is_some() || state.tool_shift().along_vectors().is_some();
+        let turned = self.snapshot.settings().machine.engine.kinematics.is_some()
+            && self.axes().iter().any(|axis| axis.is_rotary() && state.actual().raw(*axis) != 0.0);
+        #[expect(clippy::cast_sign_loss, reason = "tool numbers are not negative")]
+        let tool = Abstract::known(state.tool()).filter(|tool| *tool > 0.0).map(|tool| tool as u32);
+        let Some(entry) = tool.and_then(|tool| state.tables().tool(tool)).filter(|_| !tilts && !turned)
+        else {
+            return Position::UNKNOWN;
+        };
+        work + *state.length() - entry.offset
+    }
+
+    /// `X1.5 Y2 Z-3`, unknown coordinates left out.
+    pub(crate) fn point(&self, state: &State<Abstract>, point: &Position) -> String {
+        let (units, diameter) = (self.units(state), self.diameter(state));
+        let known = self.axes().into_iter().filter_map(|axis| Some((axis, point.get(axis)?)));
+        let texts: Vec<String> = known
+            .map(|(axis, value)| format!("{}{}", axis.name(), coordinate(axis, value, units, diameter)))
+            .collect();
+        texts.join(" ")
+    }
+
+    /// The state in one line, for the half of it that people look at first.
+    pub(crate) fn line(&self, state: &State<Abstract>) -> Vec<String> {
+        let mut items: Vec<String> = self.codes(state).into_iter().map(|(_, code)| code).collect();
+        items.extend(self.feed(state));
+        items.extend(self.speed(state));
+        items.push(Self::spindle(state).to_owned());
+        items.extend(Self::numbers(state));
+        match state.coolant() {
+            (Truth::True, _) => items.push("coolant on".to_owned()),
+            (_, Truth::True) => items.push("mist on".to_owned()),
+            _ => {}
+        }
+        items
+    }
+}
+
+/// A number that is known, or the range that it lies in.
+fn number(word: &AbstractValue) -> Option<String> {
+    match word {
+        AbstractValue::Number(x) => Some(plain(*x, 4)),
+        AbstractValue::Unknown | AbstractValue::Vacant => None,
+        other => Some(value(other)),
+    }
+}

@@ -1,0 +1,129 @@
+//! Where a thing is named.
+//!
+//! Knows: which places count as references. Must not know: how things are found in the text.
+
+use gcheck_db::DocumentId;
+
+use crate::things::{namings, thing_at};
+use crate::{Place, Workspace};
+
+/// A place that names a thing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reference {
+    /// The name.
+    pub place: Place,
+    /// What the place does with it.
+    pub kind: ReferenceKind,
+}
+
+/// What a place does with what it names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ReferenceKind {
+    /// Defines it: the label itself, the head of a program, an assignment.
+    Write,
+    /// Uses it.
+    Read,
+}
+
+/// All places that name the thing at `offset`, by file and text order; those that define it only with `declarations`.
+///
+/// Variables that keep their values until power off are looked for in the files that calls join with this one, those that the
+/// control keeps longer in all files.
+pub fn references(
+    workspace: &Workspace,
+    document: DocumentId,
+    offset: u32,
+    declarations: bool,
+) -> Vec<Reference> {
+    let Some(file) = workspace.file(document) else { return Vec::new() };
+    let Some(naming) = thing_at(&file.snapshot, offset) else { return Vec::new() };
+    namings(workspace, document, &naming.thing)
+        .into_iter()
+        .filter(|(_, naming)| declarations || naming.kind == ReferenceKind::Read)
+        .map(|(file, naming)| Reference { place: Place { file, range: naming.range }, kind: naming.kind })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::{ReferenceKind, references};
+    use crate::fixture::Fixture;
+
+    fn check(control: &str, text: &str, expected: &Expect) {
+        let fixture = Fixture::new(control, text);
+        let all = references(&fixture.workspace, fixture.document, fixture.offset, true);
+        let line = |place: &super::Reference| {
+            let sets = if place.kind == ReferenceKind::Write { " (set)" } else { "" };
+            format!("{}{sets}\n", fixture.shown(place.place.file, &place.place.range))
+        };
+        expected.assert_eq(&all.iter().map(line).collect::<String>());
+    }
+
+    #[test]
+    fn labels_with_their_jumps() {
+        let text =
+            "O1\nN10 G0 X0.\nIF [#1 EQ 0] GOTO 10\nGOTO 20\nM99 P10\nN20 M30\nO2\nGOTO 10\nN$010 M99\n";
+        check(
+            "haas-mill",
+            text,
+            &expect![[r#"
+            8: 10
+            9: 10 (set)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_common_variable_reaches_the_programs_that_call_each_other() {
+        let files = "//- a.nc\nO1\n#10$00=1.\nM98 P2\nM30\n//- b.nc\nO2\nG0 X#100 (#100)\nM99\n//- c.nc\nO3\n#100=5.\nM30\n";
+        check(
+            "fanuc-mill",
+            files,
+            &expect![[r#"
+            a.nc:2: 100 (set)
+            b.nc:2: 100
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_local_variable_lives_in_its_program() {
+        check(
+            "haas-mill",
+            "O1\n#1=1.\nG0 X#1$0\nM30\nO2\n#1=2.\nM99\n",
+            &expect![[r#"
+            2: 1 (set)
+            3: 1
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_variable_that_gives_the_number_of_another_is_read() {
+        check(
+            "haas-mill",
+            "O1\n#100=5\n##10$00=1.\n#[#100+1]=2.\nM30\n",
+            &expect![[r#"
+            2: 100 (set)
+            3: 100
+            4: 100
+        "#]],
+        );
+    }
+
+    #[test]
+    fn branches_of_o_words() {
+        let text = "o100 sub\no110 if [#1 GT 0]\no110 else\no110 end$0if\no100 endsub\no110 if [1]\no110 endif\nM2\n";
+        check(
+            "linuxcnc",
+            text,
+            &expect![[r#"
+            2: 110 (set)
+            3: 110
+            4: 110
+        "#]],
+        );
+    }
+}

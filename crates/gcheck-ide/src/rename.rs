@@ -1,0 +1,656 @@
+//! Giving a thing another name wherever it is named.
+//!
+//! Knows: when that is safe. Must not know: how things are found in the text.
+
+use std::ops::Range;
+
+use gcheck_controls::{Effect, Ends, ReturnTo, VariableKind, WordKind};
+use gcheck_db::{DocumentId, Snapshot};
+use gcheck_program::OLabel;
+use gcheck_rules::Edit;
+
+use crate::things::{
+    Naming, Thing, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of, namings,
+    parameter_key, stem_matches, subs, thing_at,
+};
+use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
+
+/// What can be renamed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RenameTarget {
+    /// Bytes of the name at the cursor.
+    pub range: Range<u32>,
+    /// The name as it stands.
+    pub name: String,
+}
+
+/// Why something cannot be renamed: one sentence for people.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RenameRefused(pub String);
+
+type Checked<T = ()> = Result<T, RenameRefused>;
+
+fn refuse<T>(reason: impl Into<String>) -> Checked<T> {
+    Err(RenameRefused(reason.into()))
+}
+
+/// What would be renamed at `offset`.
+///
+/// # Errors
+/// [`RenameRefused`] when there is nothing with a name, or renaming it cannot be safe.
+pub fn prepare_rename(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<RenameTarget> {
+    let (file, naming) = find(workspace, document, offset)?;
+    check_thing(workspace, file, &naming.thing)?;
+    Ok(RenameTarget { name: file.snapshot.slice(naming.range.clone()).into_owned(), range: naming.range })
+}
+
+/// The edits that give the thing at `offset` a new name: a number with or without its address, or a name.
+///
+/// # Errors
+/// [`RenameRefused`] as for [`prepare_rename`], and when the name is taken, is no such name, or is beyond the control's
+/// limit.
+pub fn rename(
+    workspace: &Workspace,
+    document: DocumentId,
+    offset: u32,
+    new_name: &str,
+) -> Checked<Vec<FileEdits>> {
+    let (file, naming) = find(workspace, document, offset)?;
+    check_thing(workspace, file, &naming.thing)?;
+    let new = NewName::read(&naming.thing, new_name)?;
+    check_new(workspace, file, &naming.thing, &new)?;
+    let mut all: Vec<FileEdits> = Vec::new();
+    for (id, place) in namings(workspace, document, &naming.thing) {
+        let Some(file) = workspace.file(id) else { continue };
+        let text = new.written(&file.snapshot.slice(place.range.clone()), &file.snapshot, &place);
+        let edit = Edit { range: place.range, text };
+        match all.iter_mut().find(|edits| edits.file == id) {
+            Some(edits) => edits.edits.push(edit),
+            None => all.push(FileEdits { file: id, edits: vec![edit] }),
+        }
+    }
+    Ok(all)
+}
+
+fn find(workspace: &Workspace, document: DocumentId, offset: u32) -> Checked<(&WorkspaceFile, Naming)> {
+    let nothing = || RenameRefused("there is nothing here that has a name".to_owned());
+    let file = workspace.file(document).ok_or_else(nothing)?;
+    let naming = thing_at(&file.snapshot, offset).ok_or_else(nothing)?;
+    Ok((file, naming))
+}
+
+/// A name that can be written.
+enum NewName {
+    Number(u32),
+    Name(String),
+}
+
+impl NewName {
+    fn read(thing: &Thing, text: &str) -> Checked<Self> {
+        let text = text.trim();
+        let (sigil, is_number) = match thing {
+            Thing::Label { .. } => (&['N', 'n'][..], true),
+            Thing::Program(_) => (&['O', 'o', ':'][..], true),
+            Thing::Variable { .. } => (&['#'][..], true),
+            Thing::Subroutine(label) | Thing::Branch { label, .. } => {
+                (&['O', 'o'][..], matches!(label, OLabel::Number(_)))
+            }
+            Thing::Parameter { .. } => (&['#'][..], false),
+        };
+        if is_number {
+            let digits = text.strip_prefix(sigil).unwrap_or(text).trim();
+            let number = digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok()).flatten();
+            return match number {
+                Some(number) => Ok(Self::Number(number)),
+                None => refuse(format!("`{text}` is no whole number")),
+            };
+        }
+        let bare = text.strip_prefix(sigil).filter(|rest| rest.trim_start().starts_with('<')).unwrap_or(text);
+        let bare = bare.trim().trim_start_matches('<').trim_end_matches('>').trim();
+        let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
+        if bare.is_empty() || !bare.chars().all(is_name) {
+            return refuse(format!("`{text}` is no name: letters, digits, `_`, `-` and `.` are"));
+        }
+        Ok(Self::Name(bare.to_owned()))
+    }
+
+    /// As it is written in the place of an old name: numbers as wide as that was, where it had leading zeros.
+    fn written(&self, old: &str, snapshot: &Snapshot, place: &Naming) -> String {
+        match self {
+            Self::Name(name) => name.clone(),
+            Self::Number(number) => {
+                let before = snapshot.slice(place.range.start.saturating_sub(1)..place.range.start);
+                // Repeats in front of a program number leave it four digits.
+                let is_packed = before.starts_with(|c: char| c.is_ascii_digit());
+                if is_packed || old.starts_with('0') && old.len() > 1 {
+                    format!("{number:0width$}", width = old.len())
+                } else {
+                    number.to_string()
+                }
+            }
+        }
+    }
+}
+
+/// Can the thing be renamed at all?
+fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Checked {
+    match thing {
+        Thing::Label { number, program } => check_label(workspace, file, *number, program),
+        Thing::Program(_) | Thing::Subroutine(_) => {
+            check_calls(workspace)?;
+            let heads = namings(workspace, file.id, thing);
+            let heads = heads.iter().filter(|(_, naming)| naming.kind == ReferenceKind::Write).count();
+            let name = shown(thing);
+            match heads {
+                0 => return refuse(format!("{name} stands in no file of this workspace")),
+                1 => {}
+                _ => {
+                    return refuse(format!(
+                        "{name} stands more than once: which one is called is not certain"
+                    ));
+                }
+            }
+            named_by_file(workspace, file, thing)
+        }
+        Thing::Branch { .. } => {
+            let words = &file.snapshot.survey().o_words;
+            if words.iter().any(|word| word.label == OLabel::Computed) {
+                return refuse(
+                    "an O-word of this file computes its label, so which block it means is not certain",
+                );
+            }
+            Ok(())
+        }
+        Thing::Variable { number, part } => check_variable(workspace, file, *number, part.as_ref()),
+        Thing::Parameter { name, .. } => {
+            if file.snapshot.control().named_parameter(name).is_some() || name.contains('[') {
+                return refuse(format!("`#<{name}>` is the control's own"));
+            }
+            Ok(())
+        }
+    }
+}
+
+fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program: &Range<u32>) -> Checked {
+    let survey = file.snapshot.survey();
+    let inside = |range: &Range<u32>| program.contains(&range.start);
+    if survey.jumps.iter().any(|jump| jump.target.is_none() && inside(&jump.range)) {
+        return refuse("a jump of this program computes its target, so which block it means is not certain");
+    }
+    let labels = survey.labels.iter().filter(|label| label.number == number && inside(&label.range)).count();
+    match labels {
+        0 => return refuse(format!("N{number} does not stand in this program")),
+        1 => {}
+        _ => return refuse(format!("N{number} stands more than once in this program")),
+    }
+    let returns_to_caller = file.snapshot.control().semantics().return_to == ReturnTo::Caller;
+    for other in workspace.files.iter().filter(|_| returns_to_caller) {
+        let survey = other.snapshot.survey();
+        let names_it = |jump: &&gcheck_program::Jump| {
+            is_elsewhere(other.snapshot.control(), jump.code, WordKind::Label)
+                && jump.target.is_none_or(|target| target == number)
+                && (other.id != file.id || !inside(&jump.range))
+        };
+        if let Some(jump) = survey.jumps.iter().find(names_it) {
+            let text = other.snapshot.slice(jump.range.clone());
+            return refuse(format!(
+                "a return in {} names a block of its caller (`{}`): that may be this one",
+                other.name,
+                text.trim()
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn check_calls(workspace: &Workspace) -> Checked {
+    for file in &workspace.files {
+        if let Some(call) = computed_call(file.snapshot.survey()) {
+            let text = file.snapshot.slice(call.range.clone());
+            return refuse(format!(
+                "a call in {} computes what it calls (`{}`), so what it means is not certain",
+                file.name,
+                text.trim()
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// A file that is found by its name would no longer be.
+fn named_by_file(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Checked {
+    if !file.snapshot.control().syntax().o_words {
+        return Ok(());
+    }
+    let name = match thing {
+        Thing::Program(number) | Thing::Subroutine(OLabel::Number(number)) => number.to_string(),
+        Thing::Subroutine(OLabel::Name(name)) => name.clone(),
+        _ => return Ok(()),
+    };
+    match workspace.files.iter().find(|file| stem_matches(&file.name, &name, thing)) {
+        Some(named) => {
+            refuse(format!("the control finds {} by the name of its file, {}", shown(thing), named.name))
+        }
+        None => Ok(()),
+    }
+}
+
+fn check_variable(
+    workspace: &Workspace,
+    file: &WorkspaceFile,
+    number: u32,
+    part: Option<&Range<u32>>,
+) -> Checked {
+    let control = file.snapshot.control();
+    match kind_of(control, number) {
+        VariableKind::System => return refuse(format!("#{number} is the control's own")),
+        VariableKind::Retained => {
+            return refuse(format!("the control keeps #{number} over power off: other programs may use it"));
+        }
+        VariableKind::Common | VariableKind::Local => {}
+    }
+    if number == 0 {
+        return refuse("#0 is the control's own");
+    }
+    let thing = Thing::Variable { number, part: part.cloned() };
+    for other in files_of(workspace, file.id, &thing) {
+        if has_indirect_variables(&other.snapshot) {
+            return refuse(format!(
+                "{} computes the numbers of variables, so which one it means is not certain",
+                other.name
+            ));
+        }
+    }
+    let Some(part) = part else { return Ok(()) };
+    let survey = file.snapshot.survey();
+    let is_argument = control.semantics().argument_letters.values().any(|n| u32::from(*n) == number)
+        || control.syntax().o_words;
+    let returns =
+        survey.ends.iter().any(|end| end.ends == Ends::Subprogram && part.contains(&end.range.start))
+            || subs(&file.snapshot).iter().any(|sub| sub.range == *part);
+    if is_argument && returns {
+        return refuse(format!("#{number} may be given by callers of this program"));
+    }
+    let shares = !control.semantics().locals_per_subprogram
+        && survey.calls.iter().any(|call| {
+            part.contains(&call.range.start)
+                && control.code_at(call.code).is_some_and(|code| code.effect() == Effect::CallProgram)
+        });
+    if shares {
+        return refuse(format!("programs that this one calls share #{number} with it"));
+    }
+    Ok(())
+}
+
+/// Can the thing have this name?
+fn check_new(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing, new: &NewName) -> Checked {
+    let control = file.snapshot.control();
+    let renamed = match (thing, new) {
+        (Thing::Label { program, .. }, NewName::Number(number)) => {
+            if let Some(most) = control.limits().max_sequence_number.filter(|most| number > most) {
+                return refuse(format!("N{number} is beyond the highest sequence number, {most}"));
+            }
+            Thing::Label { number: *number, program: program.clone() }
+        }
+        (Thing::Program(_), NewName::Number(number)) => {
+            if let Some([first, last]) = control.limits().program_numbers
+                && !(first..=last).contains(number)
+            {
+                return refuse(format!("program numbers go from {first} to {last}"));
+            }
+            Thing::Program(*number)
+        }
+        (Thing::Subroutine(_), NewName::Number(number)) => Thing::Subroutine(OLabel::Number(*number)),
+        (Thing::Subroutine(_), NewName::Name(name)) => Thing::Subroutine(OLabel::Name(parameter_key(name))),
+        (Thing::Branch { part, .. }, NewName::Number(number)) => {
+            Thing::Branch { label: OLabel::Number(*number), part: part.clone() }
+        }
+        (Thing::Branch { part, .. }, NewName::Name(name)) => {
+            Thing::Branch { label: OLabel::Name(parameter_key(name)), part: part.clone() }
+        }
+        (Thing::Variable { number: old, part }, NewName::Number(number)) => {
+            if *number == 0 || kind_of(control, *number) != kind_of(control, *old) {
+                return refuse(format!("#{number} is not the same kind of variable as #{old}"));
+            }
+            Thing::Variable { number: *number, part: part.clone() }
+        }
+        (Thing::Parameter { part, .. }, NewName::Name(name)) => {
+            let name = parameter_key(name);
+            if control.named_parameter(&name).is_some() {
+                return refuse(format!("`#<{name}>` is the control's own"));
+            }
+            if name.starts_with('_') == part.is_some() {
+                return refuse(
+                    "names that begin with `_` are global, others are local: that would change it",
+                );
+            }
+            Thing::Parameter { name, part: part.clone() }
+        }
+        _ => return refuse("that is no such name"),
+    };
+    if renamed == *thing {
+        return Ok(());
+    }
+    let taken_by_label = |label: &OLabel| {
+        // Subroutines and branches share their labels with what stands around them.
+        file.snapshot.survey().o_words.iter().any(|word| word.label == *label)
+    };
+    let is_taken = match &renamed {
+        Thing::Subroutine(label) | Thing::Branch { label, .. } => {
+            taken_by_label(label) || !namings(workspace, file.id, &renamed).is_empty()
+        }
+        _ => !namings(workspace, file.id, &renamed).is_empty(),
+    };
+    if is_taken { refuse(format!("{} is taken", shown(&renamed))) } else { Ok(()) }
+}
+
+/// A thing as people call it.
+fn shown(thing: &Thing) -> String {
+    let label = |label: &OLabel| match label {
+        OLabel::Number(number) => format!("O{number}"),
+        OLabel::Name(name) => format!("O<{name}>"),
+        OLabel::Computed => "O[…]".to_owned(),
+    };
+    match thing {
+        Thing::Label { number, .. } => format!("N{number}"),
+        Thing::Program(number) => format!("O{number}"),
+        Thing::Subroutine(name) | Thing::Branch { label: name, .. } => label(name),
+        Thing::Variable { number, .. } => format!("#{number}"),
+        Thing::Parameter { name, .. } => format!("#<{name}>"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::rename;
+    use crate::fixture::Fixture;
+
+    fn check(control: &str, text: &str, new: &str, expected: &Expect) {
+        let fixture = Fixture::new(control, text);
+        let result = match rename(&fixture.workspace, fixture.document, fixture.offset, new) {
+            Ok(edits) => fixture.edited(&edits),
+            Err(refused) => format!("refused: {}\n", refused.0),
+        };
+        expected.assert_eq(&result);
+    }
+
+    #[test]
+    fn a_label_and_its_jumps() {
+        let text = "O1\nN010 G0 X0.\nGOTO 1$00\nM99 P10\nM30\nO2\nN10 M99\n";
+        check(
+            "haas-mill",
+            text,
+            "20",
+            &expect![[r#"
+            O1
+            N020 G0 X0.
+            GOTO 20
+            M99 P20
+            M30
+            O2
+            N10 M99
+        "#]],
+        );
+        check(
+            "haas-mill",
+            text,
+            "N20",
+            &expect![[r#"
+            O1
+            N020 G0 X0.
+            GOTO 20
+            M99 P20
+            M30
+            O2
+            N10 M99
+        "#]],
+        );
+        check(
+            "haas-mill",
+            text,
+            "100000",
+            &expect![[r#"
+            refused: N100000 is beyond the highest sequence number, 99999
+        "#]],
+        );
+        check(
+            "haas-mill",
+            text,
+            "x",
+            &expect![[r#"
+            refused: `x` is no whole number
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nN10$0 G0 X0.\nN20 X1.\nGOTO 10\n",
+            "20",
+            &expect![[r#"
+            refused: N20 is taken
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_label_that_a_computed_jump_may_mean_stays() {
+        check(
+            "haas-mill",
+            "O1\nN10$0 G0 X0.\nGOTO #1\nM30\n",
+            "20",
+            &expect![[r#"
+            refused: a jump of this program computes its target, so which block it means is not certain
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nN10$0 G0 X0.\nN10 X1.\nM30\n",
+            "20",
+            &expect![[r#"
+            refused: N10 stands more than once in this program
+        "#]],
+        );
+        let files = "//- a.nc\nO1\nM98 P2\nN10$0 G0 X0.\nM30\n//- b.nc\nO2\nM99 P10\n";
+        check(
+            "fanuc-mill",
+            files,
+            "20",
+            &expect![[r#"
+            refused: a return in b.nc names a block of its caller (`P10`): that may be this one
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_across_files() {
+        let files = "//- a.nc\nO0001\nM98 P9010$0\nG65 P09010 A1.\nM30\n//- b.nc\nO09010 (PROBE)\nM99\n";
+        check(
+            "haas-mill",
+            files,
+            "9020",
+            &expect![[r#"
+            //- a.nc
+            O0001
+            M98 P9020
+            G65 P09020 A1.
+            M30
+            //- b.nc
+            O09020 (PROBE)
+            M99
+        "#]],
+        );
+        check(
+            "haas-mill",
+            files,
+            "O1",
+            &expect![[r#"
+            refused: O1 is taken
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1$0\nM98 P30001\nM98 P1\nM30\n",
+            "25",
+            &expect![[r#"
+            O25
+            M98 P30025
+            M98 P25
+            M30
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nM98 P77$0\nM30\n",
+            "78",
+            &expect![[r#"
+            refused: O77 stands in no file of this workspace
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nM98 P#1\nM98 P2\nM30\nO2$0\nM99\n",
+            "3",
+            &expect![[r#"
+            refused: a call in main.nc computes what it calls (`P#1`), so what it means is not certain
+        "#]],
+        );
+    }
+
+    #[test]
+    fn subroutines_and_branches_of_o_words() {
+        let text = "o<probe> sub\no1 if [#1]\no1 endif\no<probe> endsub\no<Pro be> call$0 [1]\nM2\n";
+        check(
+            "linuxcnc",
+            text,
+            "touch",
+            &expect![[r#"
+            o<touch> sub
+            o1 if [#1]
+            o1 endif
+            o<touch> endsub
+            o<touch> call [1]
+            M2
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "o1 while$0 [1]\no1 endwhile\nM2\n",
+            "2",
+            &expect![[r#"
+            o2 while [1]
+            o2 endwhile
+            M2
+        "#]],
+        );
+        let files = "//- a.ngc\no<probe> call$0\nM2\n//- probe.ngc\no<probe> sub\no<probe> endsub\n";
+        check(
+            "linuxcnc",
+            files,
+            "touch",
+            &expect![[r#"
+            refused: the control finds O<probe> by the name of its file, probe.ngc
+        "#]],
+        );
+    }
+
+    #[test]
+    fn variables() {
+        let files =
+            "//- a.nc\nO1\n#100=1.\nM98 P2\nM30\n//- b.nc\nO2\nG0 X#100$0\nM99\n//- c.nc\nO3\n#100=5.\nM30\n";
+        check(
+            "fanuc-mill",
+            files,
+            "#120",
+            &expect![[r#"
+            //- a.nc
+            O1
+            #120=1.
+            M98 P2
+            M30
+            //- b.nc
+            O2
+            G0 X#120
+            M99
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            files,
+            "33",
+            &expect![[r#"
+            refused: #33 is not the same kind of variable as #100
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#500$0=1.\nM30\n",
+            "501",
+            &expect![[r#"
+            refused: the control keeps #500 over power off: other programs may use it
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#5021$0=1.\nM30\n",
+            "501",
+            &expect![[r#"
+            refused: #5021 is the control's own
+        "#]],
+        );
+        check(
+            "fanuc-mill",
+            "O1\n#100$0=1.\n#[#100]=2.\nM30\n",
+            "101",
+            &expect![[r#"
+            refused: main.nc computes the numbers of variables, so which one it means is not certain
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O9\n#1$0=1.\nM99\n",
+            "2",
+            &expect![[r#"
+            refused: #1 may be given by callers of this program
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<depth> = 1\nG0 Z[#<De pth$0>]\nM2\n",
+            "deep",
+            &expect![[r#"
+            #<deep> = 1
+            G0 Z[#<deep>]
+            M2
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<depth$0> = 1\nM2\n",
+            "_deep",
+            &expect![[r#"
+            refused: names that begin with `_` are global, others are local: that would change it
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "G0 X#<_x$0>\nM2\n",
+            "_deep",
+            &expect![[r#"
+            refused: `#<_x>` is the control's own
+        "#]],
+        );
+    }
+
+    #[test]
+    fn nothing_has_a_name() {
+        check(
+            "haas-mill",
+            "O1\nG0 X$01.\nM30\n",
+            "2",
+            &expect![[r#"
+            refused: there is nothing here that has a name
+        "#]],
+        );
+    }
+}

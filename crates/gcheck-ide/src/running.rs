@@ -1,0 +1,153 @@
+//! A run of a document, event by event, for what is made of its moves.
+//!
+//! Knows: which file and line an event belongs to, what the machine's times are. Must not know: what is made of the moves.
+
+use std::rc::Rc;
+
+use gcheck_controls::{CodeNumber, Effect, HelixFeed, Machine as MachineKind};
+use gcheck_db::Snapshot;
+use gcheck_engine::{
+    Axis, Concrete, Ending, Event, Model, Observer, Options, Origin, Program, State, Stop, Stopped, Units,
+    run,
+};
+use gcheck_syntax::line_len;
+use gcheck_toolpath::{Spot, Step, Timing, View, WorkCoordinates};
+
+use crate::reading::Reading;
+
+/// Runs a document, at most so many blocks; `step` sees every event. Says why the run did not reach the program's end, in a
+/// few words.
+pub(crate) fn run_through(snapshot: &Snapshot, fuel: u64, step: &mut dyn FnMut(&Step<'_>)) -> Option<String> {
+    snapshot.with_program(|program, model| {
+        let machine = &snapshot.settings().machine.engine;
+        let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).unwrap_or(Units::Mm);
+        let mut watcher = Watcher { program, model, units, files: Vec::new(), step };
+        let result = run(program, model, machine, Options::NONE, fuel, &mut watcher);
+        let line = watcher.line(result.origin);
+        match &result.stopped {
+            Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => None,
+            Stopped::Ended(Ending::Text) => Some("the text ends without a program end".to_owned()),
+            Stopped::Ended(Ending::Alarm(number)) => {
+                Some(format!("alarm {number} of its own in line {line}"))
+            }
+            Stopped::Faulted(_) => Some(format!("the control would stop in line {line}")),
+            Stopped::OutOfFuel => Some(format!("ended after {} blocks", result.blocks)),
+        }
+    })
+}
+
+/// The axes that figures speak of, and whether X is shown as a diameter.
+pub(crate) fn view(snapshot: &Snapshot, model: &Model<'_>) -> View {
+    let view = View::new(&Reading::new(snapshot, model).axes());
+    if model.semantics().diameter { view.with_diameters() } else { view }
+}
+
+/// Is the document turned?
+pub(crate) fn is_turned(snapshot: &Snapshot) -> bool {
+    snapshot.control().machine() == MachineKind::Lathe
+}
+
+/// What times rest on.
+pub(crate) fn timing(snapshot: &Snapshot) -> Timing {
+    let machine = &snapshot.settings().machine.engine;
+    let timing = Timing::new(machine.rapid, machine.tool_change);
+    let helix = &snapshot.control().semantics().helix;
+    let told = helix.setting.as_deref().and_then(|number| machine.settings.get(number));
+    let by_circle = match told {
+        Some(value) => value != "path",
+        None => helix.feed == HelixFeed::Circle,
+    };
+    if by_circle { timing.with_helix_by_circle() } else { timing }
+}
+
+/// The work coordinate system at the start.
+pub(crate) fn work_at_start(snapshot: &Snapshot) -> WorkCoordinates {
+    let control = snapshot.control();
+    let defaults = control.groups().iter().filter_map(|group| group.default.as_ref());
+    let number = defaults.chain(&control.semantics().at_start).find_map(|name| {
+        match control.code(CodeNumber::parse(name)?)?.effect() {
+            Effect::WorkOffset(number) => Some(number),
+            _ => None,
+        }
+    });
+    let offset = number.and_then(|number| snapshot.settings().machine.engine.offsets.get(&number));
+    match offset {
+        Some(offset) => WorkCoordinates { number, origin: offset.origin, rotation: offset.rotation },
+        None => WorkCoordinates { number, ..WorkCoordinates::UNKNOWN },
+    }
+}
+
+/// Names of the axes X, Y and Z by their index in boxes.
+pub(crate) const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
+
+struct Watcher<'a> {
+    program: &'a Program<'a>,
+    model: &'a Model<'a>,
+    units: Units,
+    files: Vec<Option<Lines>>,
+    step: &'a mut dyn FnMut(&Step<'_>),
+}
+
+/// Name and begins of the lines of a file.
+struct Lines {
+    name: Rc<str>,
+    starts: Vec<u32>,
+    /// The last place that was asked for, and its line: many events come from one block.
+    last: (u32, u32),
+}
+
+impl Lines {
+    fn new(name: Rc<str>, text: &str) -> Self {
+        let mut starts = Vec::new();
+        let mut rest = text.as_bytes();
+        let mut at = 0;
+        while !rest.is_empty() {
+            starts.push(at);
+            let len = line_len(rest);
+            at += len as u32;
+            rest = rest.get(len..).unwrap_or_default();
+        }
+        Self { name, starts, last: (0, 1) }
+    }
+
+    fn line(&mut self, offset: u32) -> u32 {
+        if self.last.0 != offset {
+            self.last = (offset, self.starts.partition_point(|start| *start <= offset) as u32);
+        }
+        self.last.1
+    }
+}
+
+impl Watcher<'_> {
+    fn lines(&mut self, file: u32) -> Option<&mut Lines> {
+        let at = file as usize;
+        if self.files.len() <= at {
+            self.files.resize_with(at + 1, || None);
+        }
+        let slot = self.files.get_mut(at)?;
+        if slot.is_none() {
+            let loaded = self.program.file(file)?;
+            *slot = Some(Lines::new(Rc::clone(&loaded.name), &loaded.loaded.text()));
+        }
+        slot.as_mut()
+    }
+
+    fn line(&mut self, origin: Origin) -> u32 {
+        self.lines(origin.at.file).map_or(0, |lines| lines.line(origin.start))
+    }
+}
+
+impl Observer<Concrete> for Watcher<'_> {
+    fn event(&mut self, origin: Origin, state: &State<Concrete>, event: &Event) {
+        // The switch of the optional stop is off.
+        if matches!(event, Event::Stop(Stop::Optional)) {
+            return;
+        }
+        let (name, line) = match self.lines(origin.at.file) {
+            Some(lines) => (Rc::clone(&lines.name), lines.line(origin.start)),
+            None => (Rc::from(""), 0),
+        };
+        let spot = Spot { file: &name, line, n: origin.n };
+        (self.step)(&Step::seen(event, state, self.model, spot, self.units));
+    }
+}

@@ -1,0 +1,1074 @@
+//! The state before and after the block at a place, in full.
+//!
+//! Knows: what of a state people read. Must not know: how states come about, how they are drawn.
+
+use std::collections::BTreeMap;
+
+use gcheck_db::{Cancelled, Database, DocumentId, Snapshot, StateAt};
+use gcheck_engine::{Abstract, AbstractValue, Fact, Look, Position, Role, State, Trace};
+use serde::Serialize;
+
+use crate::figures::{in_units, unit, value};
+use crate::reading::Reading;
+
+/// Variables that are shown.
+const MOST_VARIABLES: usize = 200;
+
+/// The state around a block.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct StateView {
+    /// Line of the block, from 0.
+    pub line: u32,
+    /// First byte of the block.
+    pub start: u32,
+    /// Byte behind the block.
+    pub end: u32,
+    /// Every path comes here.
+    pub on_every_path: bool,
+    /// How often it was executed: turns of loops and calls.
+    pub visits: u32,
+    /// Before the block.
+    pub before: StateSide,
+    /// Behind it; `None` when the program does not go on from here.
+    pub after: Option<StateSide>,
+}
+
+/// A state.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct StateSide {
+    /// Units of all lengths here: `mm` or `inch`.
+    pub units: &'static str,
+    /// X counts diameters.
+    pub diameter: bool,
+    /// What may be in effect, by what it decides.
+    pub modes: Vec<ModeView>,
+    /// The feed with its unit; `None` when none was given or it is not known.
+    pub feed: Option<String>,
+    /// The speed with its unit.
+    pub speed: Option<String>,
+    /// What the spindle does.
+    pub spindle: &'static str,
+    /// The tool in the spindle; `None` not known.
+    pub tool: Option<String>,
+    /// The tool called for.
+    pub selected_tool: Option<String>,
+    /// Number of the tool length offset (`H`); 0 for none.
+    pub length_offset: Option<String>,
+    /// Number of the cutter compensation offset (`D`); 0 for none.
+    pub cutter_offset: Option<String>,
+    /// The active work coordinate system.
+    pub work_offset: Option<String>,
+    /// Its origin in machine coordinates.
+    pub origin: AxisPlaces,
+    /// Programmed point.
+    pub programmed: AxisPlaces,
+    /// Where the axes stand, work coordinates.
+    pub work: AxisPlaces,
+    /// Where the axes stand, machine coordinates.
+    pub machine: AxisPlaces,
+    /// The tool's tip, work coordinates.
+    pub tip: AxisPlaces,
+    /// Tool offsets in effect.
+    pub length: AxisPlaces,
+    /// Shift of `G52` and `G92`.
+    pub shift: AxisPlaces,
+    /// Variables that the program uses.
+    pub variables: Vec<VariableView>,
+}
+
+/// What a modal group decides and what may be active of it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ModeView {
+    /// What the group decides.
+    pub group: String,
+    /// The code, or the few that it may be.
+    pub codes: Vec<String>,
+    /// First byte of the block that set it; `None` when it is as at the start, or was set in another file.
+    pub set_at: Option<u32>,
+}
+
+/// A variable and what it may hold.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct VariableView {
+    /// `#100`, `#<depth>`.
+    pub name: String,
+    /// Its value or range.
+    pub value: String,
+}
+
+/// Where the axes stand, by axis; `None` unknown.
+pub type AxisPlaces = BTreeMap<char, Option<f64>>;
+
+/// The state around the block at `offset`; `None` where no block is, or no path comes.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn state_at(
+    database: &mut Database,
+    document: DocumentId,
+    offset: u32,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<StateView>, Cancelled> {
+    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let Some(place) = snapshot.block_at(offset) else { return Ok(None) };
+    let mut view = None;
+    database.look(document, place.number..place.number + 1, stop, &mut |state, look| {
+        let reading = Reading::new(&snapshot, look.model());
+        let range = place.range();
+        view = Some(StateView {
+            line: snapshot.line_at(range.start),
+            start: range.start,
+            end: range.end,
+            on_every_path: state.on_every_path,
+            visits: state.visits,
+            before: side(&reading, look, &state.before, Some(&state.trace)),
+            after: state.after.as_ref().map(|after| side(&reading, look, after, None)),
+        });
+    })?;
+    Ok(view)
+}
+
+fn side(
+    reading: &Reading<'_>,
+    look: &mut Look<'_, '_>,
+    state: &State<Abstract>,
+    trace: Option<&Trace>,
+) -> StateSide {
+    let model = reading.model;
+    let places = reading.places(state);
+    let named = |point: &Position| axes(reading, state, point);
+    let number = |held: &AbstractValue| {
+        (!matches!(held, AbstractValue::Vacant | AbstractValue::Unknown)).then(|| value(held))
+    };
+    StateSide {
+        units: unit(reading.units(state)),
+        diameter: reading.diameter(state),
+        modes: Role::ALL.into_iter().filter_map(|role| mode(reading, state, role, trace)).collect(),
+        feed: reading.feed(state),
+        speed: reading.speed(state),
+        spindle: Reading::spindle(state),
+        tool: number(state.tool()),
+        selected_tool: number(state.selected()),
+        length_offset: number(state.h()),
+        cutter_offset: number(state.d()),
+        work_offset: state.work().map(|number| gcheck_rules::work_offset_name(number, model)),
+        origin: named(&state.work_offset().origin),
+        programmed: named(&places.programmed),
+        work: named(&places.work),
+        machine: named(&places.machine),
+        tip: named(&places.tip),
+        length: named(state.length()),
+        shift: named(&state.shift()),
+        variables: variables(reading.snapshot, look, state),
+    }
+}
+
+fn mode(
+    reading: &Reading<'_>,
+    state: &State<Abstract>,
+    role: Role,
+    trace: Option<&Trace>,
+) -> Option<ModeView> {
+    let codes = reading.mode(state, role);
+    let first =
+        state.mode(role).alternatives().iter().find_map(|code| reading.model.control().code_at(*code))?;
+    let set = trace.and_then(|trace| trace.set_by(Fact::Mode(role))).filter(|at| at.file == 0);
+    let set_at = set.and_then(|at| reading.snapshot.place(at.block)).map(|place| place.range().start);
+    Some(ModeView { group: first.group().title.clone(), codes, set_at })
+}
+
+/// A point by axis, in the units of the program.
+fn axes(reading: &Reading<'_>, state: &State<Abstract>, point: &Position) -> AxisPlaces {
+    let (units, diameter) = (reading.units(state), reading.diameter(state));
+    // Nobody reads more than six decimals, and the noise of conversions stands behind them.
+    let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    let value = |axis| point.get(axis).map(|value| rounded(in_units(axis, value, units, diameter)));
+    reading.axes().into_iter().map(|axis| (axis.name(), value(axis))).collect()
+}
+
+/// The numbered variables that the file assigns, and the locals that hold something.
+fn variables(snapshot: &Snapshot, look: &mut Look<'_, '_>, state: &State<Abstract>) -> Vec<VariableView> {
+    let [first, last] = look.model().semantics().locals;
+    let assigned = snapshot.survey().assigned.iter().map(|(number, _)| *number);
+    let mut numbers: Vec<u32> = assigned.chain(first.max(1)..=last).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    let mut views = Vec::new();
+    for number in numbers {
+        if views.len() >= MOST_VARIABLES {
+            break;
+        }
+        let held = look.variable(number, state);
+        let is_local = (first..=last).contains(&number);
+        if let Some(held) = held.filter(|held| !(is_local && nothing(held))) {
+            views.push(VariableView { name: format!("#{number}"), value: value(&held) });
+        }
+    }
+    views
+}
+
+/// Says nothing worth a line: never set, or not known.
+fn nothing(held: &AbstractValue) -> bool {
+    matches!(held, AbstractValue::Vacant | AbstractValue::Unknown) || *held == AbstractValue::Number(0.0)
+}
+
+/// The states of one block, for features that look at several things of it.
+pub(crate) fn look_at(
+    database: &mut Database,
+    document: DocumentId,
+    block: u32,
+    stop: &dyn Fn() -> bool,
+    with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
+) -> Result<(), Cancelled> {
+    database.look(document, block..block.saturating_add(1), stop, with)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::state_at;
+    use crate::fixture::Fixture;
+
+    fn check(control: &str, text: &str, expected: &Expect) {
+        let mut fixture = Fixture::new(control, text);
+        let view = state_at(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+        expected.assert_debug_eq(&view);
+    }
+
+    #[test]
+    fn modes_places_and_variables() {
+        check(
+            "haas-mill",
+            "%\nO1\nG20 G90 G54 G0 X1. Y2.\n#100=2.5\nG1 X$03. F20.\nM30\n%\n",
+            &expect![[r##"
+                Some(
+                    StateView {
+                        line: 4,
+                        start: 37,
+                        end: 48,
+                        on_every_path: true,
+                        visits: 1,
+                        before: StateSide {
+                            units: "inch",
+                            diameter: false,
+                            modes: [
+                                ModeView {
+                                    group: "motion",
+                                    codes: [
+                                        "G0",
+                                    ],
+                                    set_at: Some(
+                                        5,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "canned cycle",
+                                    codes: [
+                                        "G80",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "plane of arcs, rotation and compensation",
+                                    codes: [
+                                        "G17",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "absolute or incremental",
+                                    codes: [
+                                        "G90",
+                                    ],
+                                    set_at: Some(
+                                        5,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "meaning of F",
+                                    codes: [
+                                        "G94",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "inch or millimetre",
+                                    codes: [
+                                        "G20",
+                                    ],
+                                    set_at: Some(
+                                        5,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "cutter compensation",
+                                    codes: [
+                                        "G40",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "tool length compensation, tool center point control",
+                                    codes: [
+                                        "G49",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "height to return to in canned cycles",
+                                    codes: [
+                                        "G98",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "work offset",
+                                    codes: [
+                                        "G54",
+                                    ],
+                                    set_at: Some(
+                                        5,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "exact stop",
+                                    codes: [
+                                        "G64",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "scaling",
+                                    codes: [
+                                        "G50",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "rotation",
+                                    codes: [
+                                        "G69",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "mirror image, axis by axis",
+                                    codes: [
+                                        "G100",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "dynamic work offset",
+                                    codes: [
+                                        "G255",
+                                    ],
+                                    set_at: None,
+                                },
+                            ],
+                            feed: None,
+                            speed: None,
+                            spindle: "spindle stopped",
+                            tool: None,
+                            selected_tool: None,
+                            length_offset: Some(
+                                "0",
+                            ),
+                            cutter_offset: Some(
+                                "0",
+                            ),
+                            work_offset: Some(
+                                "G54",
+                            ),
+                            origin: {
+                                'X': None,
+                                'Y': None,
+                                'Z': None,
+                            },
+                            programmed: {
+                                'X': Some(
+                                    1.0,
+                                ),
+                                'Y': Some(
+                                    2.0,
+                                ),
+                                'Z': None,
+                            },
+                            work: {
+                                'X': Some(
+                                    1.0,
+                                ),
+                                'Y': Some(
+                                    2.0,
+                                ),
+                                'Z': None,
+                            },
+                            machine: {
+                                'X': None,
+                                'Y': None,
+                                'Z': None,
+                            },
+                            tip: {
+                                'X': None,
+                                'Y': None,
+                                'Z': None,
+                            },
+                            length: {
+                                'X': Some(
+                                    0.0,
+                                ),
+                                'Y': Some(
+                                    0.0,
+                                ),
+                                'Z': Some(
+                                    0.0,
+                                ),
+                            },
+                            shift: {
+                                'X': Some(
+                                    0.0,
+                                ),
+                                'Y': Some(
+                                    0.0,
+                                ),
+                                'Z': Some(
+                                    0.0,
+                                ),
+                            },
+                            variables: [
+                                VariableView {
+                                    name: "#100",
+                                    value: "2.5",
+                                },
+                            ],
+                        },
+                        after: Some(
+                            StateSide {
+                                units: "inch",
+                                diameter: false,
+                                modes: [
+                                    ModeView {
+                                        group: "motion",
+                                        codes: [
+                                            "G1",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "canned cycle",
+                                        codes: [
+                                            "G80",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "plane of arcs, rotation and compensation",
+                                        codes: [
+                                            "G17",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "absolute or incremental",
+                                        codes: [
+                                            "G90",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "meaning of F",
+                                        codes: [
+                                            "G94",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "inch or millimetre",
+                                        codes: [
+                                            "G20",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "cutter compensation",
+                                        codes: [
+                                            "G40",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool length compensation, tool center point control",
+                                        codes: [
+                                            "G49",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "height to return to in canned cycles",
+                                        codes: [
+                                            "G98",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "work offset",
+                                        codes: [
+                                            "G54",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "exact stop",
+                                        codes: [
+                                            "G64",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "scaling",
+                                        codes: [
+                                            "G50",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "rotation",
+                                        codes: [
+                                            "G69",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "mirror image, axis by axis",
+                                        codes: [
+                                            "G100",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "dynamic work offset",
+                                        codes: [
+                                            "G255",
+                                        ],
+                                        set_at: None,
+                                    },
+                                ],
+                                feed: Some(
+                                    "F20 inch/min",
+                                ),
+                                speed: None,
+                                spindle: "spindle stopped",
+                                tool: None,
+                                selected_tool: None,
+                                length_offset: Some(
+                                    "0",
+                                ),
+                                cutter_offset: Some(
+                                    "0",
+                                ),
+                                work_offset: Some(
+                                    "G54",
+                                ),
+                                origin: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                programmed: {
+                                    'X': Some(
+                                        3.0,
+                                    ),
+                                    'Y': Some(
+                                        2.0,
+                                    ),
+                                    'Z': None,
+                                },
+                                work: {
+                                    'X': Some(
+                                        3.0,
+                                    ),
+                                    'Y': Some(
+                                        2.0,
+                                    ),
+                                    'Z': None,
+                                },
+                                machine: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                tip: {
+                                    'X': None,
+                                    'Y': None,
+                                    'Z': None,
+                                },
+                                length: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Y': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                shift: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Y': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                variables: [
+                                    VariableView {
+                                        name: "#100",
+                                        value: "2.5",
+                                    },
+                                ],
+                            },
+                        ),
+                    },
+                )
+            "##]],
+        );
+    }
+
+    #[test]
+    fn a_lathe_in_diameters() {
+        check(
+            "haas-lathe",
+            "O1\nG20 G54 T0101\nG0 X2. Z.1\nG1 X1.$0 F.01\nM30\n",
+            &expect![[r#"
+                Some(
+                    StateView {
+                        line: 3,
+                        start: 28,
+                        end: 39,
+                        on_every_path: true,
+                        visits: 1,
+                        before: StateSide {
+                            units: "inch",
+                            diameter: true,
+                            modes: [
+                                ModeView {
+                                    group: "motion, with the box cycles",
+                                    codes: [
+                                        "G0",
+                                    ],
+                                    set_at: Some(
+                                        17,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "drilling and tapping cycles",
+                                    codes: [
+                                        "G80",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "plane of arcs and compensation",
+                                    codes: [
+                                        "G18",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "absolute or incremental positions",
+                                    codes: [
+                                        "G390",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "feed per minute or per revolution",
+                                    codes: [
+                                        "G99",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "units",
+                                    codes: [
+                                        "G20",
+                                    ],
+                                    set_at: Some(
+                                        3,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "tool nose compensation",
+                                    codes: [
+                                        "G40",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "tool length compensation",
+                                    codes: [
+                                        "G49",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "work offset",
+                                    codes: [
+                                        "G54",
+                                    ],
+                                    set_at: Some(
+                                        3,
+                                    ),
+                                },
+                                ModeView {
+                                    group: "exact stop",
+                                    codes: [
+                                        "G64",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "surface speed or rpm",
+                                    codes: [
+                                        "G97",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "X as radius or diameter",
+                                    codes: [
+                                        "G170",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "scaling",
+                                    codes: [
+                                        "G250",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "rotation",
+                                    codes: [
+                                        "G69",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "mirror image, axis by axis",
+                                    codes: [
+                                        "G100",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "XY to XC interpolation",
+                                    codes: [
+                                        "G113",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "dynamic work offset",
+                                    codes: [
+                                        "G255",
+                                    ],
+                                    set_at: None,
+                                },
+                                ModeView {
+                                    group: "tilted plane",
+                                    codes: [
+                                        "G269",
+                                    ],
+                                    set_at: None,
+                                },
+                            ],
+                            feed: None,
+                            speed: None,
+                            spindle: "spindle stopped",
+                            tool: Some(
+                                "1",
+                            ),
+                            selected_tool: Some(
+                                "1",
+                            ),
+                            length_offset: Some(
+                                "1",
+                            ),
+                            cutter_offset: Some(
+                                "1",
+                            ),
+                            work_offset: Some(
+                                "G54",
+                            ),
+                            origin: {
+                                'X': None,
+                                'Z': None,
+                            },
+                            programmed: {
+                                'X': Some(
+                                    2.0,
+                                ),
+                                'Z': Some(
+                                    0.1,
+                                ),
+                            },
+                            work: {
+                                'X': Some(
+                                    2.0,
+                                ),
+                                'Z': Some(
+                                    0.1,
+                                ),
+                            },
+                            machine: {
+                                'X': None,
+                                'Z': None,
+                            },
+                            tip: {
+                                'X': None,
+                                'Z': None,
+                            },
+                            length: {
+                                'X': None,
+                                'Z': None,
+                            },
+                            shift: {
+                                'X': Some(
+                                    0.0,
+                                ),
+                                'Z': Some(
+                                    0.0,
+                                ),
+                            },
+                            variables: [],
+                        },
+                        after: Some(
+                            StateSide {
+                                units: "inch",
+                                diameter: true,
+                                modes: [
+                                    ModeView {
+                                        group: "motion, with the box cycles",
+                                        codes: [
+                                            "G1",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "drilling and tapping cycles",
+                                        codes: [
+                                            "G80",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "plane of arcs and compensation",
+                                        codes: [
+                                            "G18",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "absolute or incremental positions",
+                                        codes: [
+                                            "G390",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "feed per minute or per revolution",
+                                        codes: [
+                                            "G99",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "units",
+                                        codes: [
+                                            "G20",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool nose compensation",
+                                        codes: [
+                                            "G40",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tool length compensation",
+                                        codes: [
+                                            "G49",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "work offset",
+                                        codes: [
+                                            "G54",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "exact stop",
+                                        codes: [
+                                            "G64",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "surface speed or rpm",
+                                        codes: [
+                                            "G97",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "X as radius or diameter",
+                                        codes: [
+                                            "G170",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "scaling",
+                                        codes: [
+                                            "G250",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "rotation",
+                                        codes: [
+                                            "G69",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "mirror image, axis by axis",
+                                        codes: [
+                                            "G100",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "XY to XC interpolation",
+                                        codes: [
+                                            "G113",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "dynamic work offset",
+                                        codes: [
+                                            "G255",
+                                        ],
+                                        set_at: None,
+                                    },
+                                    ModeView {
+                                        group: "tilted plane",
+                                        codes: [
+                                            "G269",
+                                        ],
+                                        set_at: None,
+                                    },
+                                ],
+                                feed: Some(
+                                    "F0.01 inch/rev",
+                                ),
+                                speed: None,
+                                spindle: "spindle stopped",
+                                tool: Some(
+                                    "1",
+                                ),
+                                selected_tool: Some(
+                                    "1",
+                                ),
+                                length_offset: Some(
+                                    "1",
+                                ),
+                                cutter_offset: Some(
+                                    "1",
+                                ),
+                                work_offset: Some(
+                                    "G54",
+                                ),
+                                origin: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                programmed: {
+                                    'X': Some(
+                                        1.0,
+                                    ),
+                                    'Z': Some(
+                                        0.1,
+                                    ),
+                                },
+                                work: {
+                                    'X': Some(
+                                        1.0,
+                                    ),
+                                    'Z': Some(
+                                        0.1,
+                                    ),
+                                },
+                                machine: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                tip: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                length: {
+                                    'X': None,
+                                    'Z': None,
+                                },
+                                shift: {
+                                    'X': Some(
+                                        0.0,
+                                    ),
+                                    'Z': Some(
+                                        0.0,
+                                    ),
+                                },
+                                variables: [],
+                            },
+                        ),
+                    },
+                )
+            "#]],
+        );
+    }
+
+    #[test]
+    fn what_no_path_comes_to_has_no_state() {
+        check(
+            "haas-mill",
+            "O1\nM30\nG0 X$01.\nM30\n",
+            &expect![[r#"
+            None
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "$0",
+            &expect![[r#"
+            None
+        "#]],
+        );
+    }
+}

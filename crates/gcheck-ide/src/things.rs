@@ -1,0 +1,512 @@
+//! What programs name: labels, programs, subroutines, branches, variables, parameters; and every place that names them.
+//!
+//! Knows: which place names which thing, and how far a thing reaches. Must not know: what is done with the places.
+
+use std::ops::Range;
+
+use gcheck_controls::{CodeIx, Control, Effect, Variable, VariableKind, WordKind};
+use gcheck_db::{DocumentId, Snapshot};
+use gcheck_program::{Call, CallKind, Jump, OKeyword, OLabel, OWord, Survey, profile};
+use gcheck_syntax::SyntaxKind;
+
+use crate::pieces::{Piece, pieces, pieces_of_line, touches};
+use crate::{Place, ReferenceKind, Workspace, WorkspaceFile};
+
+/// Something that has a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Thing {
+    /// `N100` of the program that these bytes hold.
+    Label { number: u32, program: Range<u32> },
+    /// `O1234`.
+    Program(u32),
+    /// `O100 SUB`, `O<probe> SUB`.
+    Subroutine(OLabel),
+    /// The label of an O-word that is no subroutine, in the subroutine or main part of these bytes.
+    Branch { label: OLabel, part: Range<u32> },
+    /// `#100`; of a local variable, the program that it lives in.
+    Variable { number: u32, part: Option<Range<u32>> },
+    /// `#<depth>`, lower case without blanks; of a local one, the subroutine or main part that it lives in.
+    Parameter { name: String, part: Option<Range<u32>> },
+}
+
+/// A place that names a thing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Naming {
+    pub(crate) thing: Thing,
+    /// Bytes of the name itself: digits without address, the name without brackets.
+    pub(crate) range: Range<u32>,
+    pub(crate) kind: ReferenceKind,
+}
+
+/// The thing that is named at an offset.
+pub(crate) fn thing_at(snapshot: &Snapshot, offset: u32) -> Option<Naming> {
+    let survey = snapshot.survey();
+    let at = |range: &Range<u32>| touches(range, offset);
+    let end = code_end(snapshot);
+    if offset > end {
+        return None;
+    }
+    let variable = || {
+        let line = pieces_of_line(snapshot, offset);
+        let scopes = Scopes::of(snapshot);
+        variables(snapshot, &line, &scopes).into_iter().find(|naming| {
+            // The sigil and the brackets belong to what people point at.
+            let (before, behind) =
+                if matches!(naming.thing, Thing::Parameter { .. }) { (2, 1) } else { (1, 0) };
+            touches(&(naming.range.start.saturating_sub(before)..naming.range.end + behind), offset)
+        })
+    };
+    // A variable stands inside what else may be named: `GOTO #1`, `M98 P#2`.
+    if let Some(naming) = variable() {
+        return Some(naming);
+    }
+    let label = || {
+        let label = around(&survey.labels, |label| &label.range, offset)?;
+        naming_of_label(snapshot, label.number, &label.range, ReferenceKind::Write)
+    };
+    let program = || {
+        let program = around(&survey.programs, |program| &program.range, offset)?;
+        naming_of_program(snapshot, program.number?, &program.range, ReferenceKind::Write)
+    };
+    let o_word = || o_word_naming(snapshot, survey.o_words.iter().find(|word| at(&word.range))?);
+    let jump = || {
+        let mut jumps = survey.jumps.iter().filter(|jump| at(&jump.range));
+        jumps.find_map(|jump| jump_naming(snapshot, jump))
+    };
+    let call = || {
+        let mut calls = survey.calls.iter().filter(|call| at(&call.range));
+        calls.find_map(|call| call_naming(snapshot, call))
+    };
+    label().or_else(program).or_else(o_word).or_else(jump).or_else(call)
+}
+
+/// All places of a file that name a thing, in text order.
+pub(crate) fn namings_in(snapshot: &Snapshot, thing: &Thing) -> Vec<Naming> {
+    let survey = snapshot.survey();
+    let mut found: Vec<Naming> = match thing {
+        Thing::Label { number, program } => {
+            let inside = |range: &Range<u32>| program.contains(&range.start);
+            let labels = survey.labels.iter().filter(|label| label.number == *number && inside(&label.range));
+            let labels = labels.filter_map(|label| {
+                naming_of_label(snapshot, label.number, &label.range, ReferenceKind::Write)
+            });
+            let jumps =
+                survey.jumps.iter().filter(|jump| jump.target == Some(*number) && inside(&jump.range));
+            labels.chain(jumps.filter_map(|jump| jump_naming(snapshot, jump))).collect()
+        }
+        Thing::Program(number) => {
+            let heads = survey.programs.iter().filter(|program| program.number == Some(*number));
+            let heads = heads.filter_map(|program| {
+                naming_of_program(snapshot, *number, &program.range, ReferenceKind::Write)
+            });
+            heads.chain(survey.calls.iter().filter_map(|call| call_naming(snapshot, call))).collect()
+        }
+        Thing::Subroutine(_) | Thing::Branch { .. } => {
+            survey.o_words.iter().filter_map(|word| o_word_naming(snapshot, word)).collect()
+        }
+        Thing::Variable { .. } | Thing::Parameter { .. } => all_variables(snapshot),
+    };
+    found.retain(|naming| naming.thing == *thing);
+    found.sort_by_key(|naming| naming.range.start);
+    found
+}
+
+/// All places that name a thing which is named in `document`, by file.
+pub(crate) fn namings(
+    workspace: &Workspace,
+    document: DocumentId,
+    thing: &Thing,
+) -> Vec<(DocumentId, Naming)> {
+    files_of(workspace, document, thing)
+        .into_iter()
+        .flat_map(|file| namings_in(&file.snapshot, thing).into_iter().map(|naming| (file.id, naming)))
+        .collect()
+}
+
+/// The files that may name a thing which is named in `document`.
+pub(crate) fn files_of<'w>(
+    workspace: &'w Workspace,
+    document: DocumentId,
+    thing: &Thing,
+) -> Vec<&'w WorkspaceFile> {
+    match thing {
+        Thing::Label { .. }
+        | Thing::Branch { .. }
+        | Thing::Variable { part: Some(_), .. }
+        | Thing::Parameter { part: Some(_), .. } => workspace.file(document).into_iter().collect(),
+        Thing::Program(_) | Thing::Subroutine(_) => workspace.files.iter().collect(),
+        Thing::Variable { number, .. } => {
+            let kind = workspace.file(document).map(|file| kind_of(file.snapshot.control(), *number));
+            match kind {
+                // What the control keeps over programs may be set by any of them.
+                Some(VariableKind::Retained | VariableKind::System) => workspace.files.iter().collect(),
+                _ => joined_by_calls(workspace, document),
+            }
+        }
+        Thing::Parameter { .. } => joined_by_calls(workspace, document),
+    }
+}
+
+/// How long a variable lives.
+pub(crate) fn kind_of(control: &Control, number: u32) -> VariableKind {
+    let [first, last] = control.semantics().locals;
+    if (first.max(1)..=last).contains(&number) {
+        return VariableKind::Local;
+    }
+    match control.variable(number) {
+        Variable::Known(entry) => entry.kind,
+        Variable::Unlisted => VariableKind::Common,
+    }
+}
+
+/// The files that calls join with a file, itself included, in the order of the workspace.
+pub(crate) fn joined_by_calls(workspace: &Workspace, document: DocumentId) -> Vec<&WorkspaceFile> {
+    let mut edges: Vec<(DocumentId, DocumentId)> = Vec::new();
+    for file in &workspace.files {
+        for call in &file.snapshot.survey().calls {
+            let target =
+                callee(&file.snapshot, call).and_then(|thing| definition_of(workspace, file.id, &thing));
+            if let Some(target) = target.filter(|target| target.file != file.id) {
+                edges.push((file.id, target.file));
+            }
+        }
+    }
+    let mut joined = vec![document];
+    let mut next = 0;
+    while let Some(at) = joined.get(next).copied() {
+        for (from, to) in &edges {
+            for (one, other) in [(from, to), (to, from)] {
+                if *one == at && !joined.contains(other) {
+                    joined.push(*other);
+                }
+            }
+        }
+        next += 1;
+    }
+    workspace.files.iter().filter(|file| joined.contains(&file.id)).collect()
+}
+
+/// The program or subroutine that a call names.
+pub(crate) fn callee(snapshot: &Snapshot, call: &Call) -> Option<Thing> {
+    match &call.target {
+        CallKind::Program(number) => Some(Thing::Program(unpacked(snapshot.control(), call.code, *number))),
+        CallKind::OWord(OLabel::Computed) | CallKind::Unknown => None,
+        CallKind::OWord(label) => Some(Thing::Subroutine(label.clone())),
+    }
+}
+
+/// Where a program or subroutine stands that is called in `from`: its name, or the begin of the file that is named so.
+pub(crate) fn definition_of(workspace: &Workspace, from: DocumentId, thing: &Thing) -> Option<Place> {
+    let own = workspace.files.iter().filter(|file| file.id == from);
+    let others = || workspace.files.iter().filter(|file| file.id != from);
+    let head =
+        |file: &WorkspaceFile| head_in(&file.snapshot, thing).map(|range| Place { file: file.id, range });
+    if let Some(place) = own.clone().chain(others()).find_map(head) {
+        return Some(place);
+    }
+    let name = file_stem_of(thing)?;
+    let named = others().find(|file| stem_matches(&file.name, &name, thing))?;
+    Some(Place { file: named.id, range: 0..0 })
+}
+
+/// The stem of the name of a file that holds a program or subroutine.
+fn file_stem_of(thing: &Thing) -> Option<String> {
+    match thing {
+        Thing::Program(number) | Thing::Subroutine(OLabel::Number(number)) => Some(number.to_string()),
+        Thing::Subroutine(OLabel::Name(name)) => Some(name.clone()),
+        _ => None,
+    }
+}
+
+/// `O0123.nc`, `123.ngc`, `probe.ngc`.
+pub(crate) fn stem_matches(file: &str, name: &str, thing: &Thing) -> bool {
+    let stem = file.rsplit_once('.').map_or(file, |(stem, _)| stem);
+    if matches!(thing, Thing::Subroutine(OLabel::Name(_))) {
+        return stem.eq_ignore_ascii_case(name);
+    }
+    let digits = stem.strip_prefix(['O', 'o']).unwrap_or(stem).trim_start_matches('0');
+    digits == name.trim_start_matches('0') && stem.ends_with(|c: char| c.is_ascii_digit())
+}
+
+fn head_in(snapshot: &Snapshot, thing: &Thing) -> Option<Range<u32>> {
+    let survey = snapshot.survey();
+    match thing {
+        Thing::Program(number) => {
+            let head = survey.programs.iter().find(|program| program.number == Some(*number))?;
+            Some(head.range.clone())
+        }
+        Thing::Subroutine(label) => {
+            let is_sub = |word: &&OWord| word.keyword == OKeyword::Sub && word.label == *label;
+            let sub = survey.o_words.iter().find(is_sub)?;
+            Some(o_name_range(snapshot, sub).unwrap_or_else(|| sub.range.clone()))
+        }
+        _ => None,
+    }
+}
+
+/// Bytes of the program around an offset: from its `O` number to the next. What stands in front of the first belongs to it.
+pub(crate) fn program_around(snapshot: &Snapshot, offset: u32) -> Range<u32> {
+    let programs = &snapshot.survey().programs;
+    let end = snapshot.len();
+    let next = programs.partition_point(|program| program.range.start <= offset);
+    let start = |ix: usize| programs.get(ix).map(|program| program.range.start);
+    match next {
+        0 | 1 => 0..start(1).unwrap_or(end),
+        _ => start(next - 1).unwrap_or(0)..start(next).unwrap_or(end),
+    }
+}
+
+/// End of the part of the file that the control reads.
+pub(crate) fn code_end(snapshot: &Snapshot) -> u32 {
+    // A closing mark ends the file as the control sees it; an opening one is followed by blocks.
+    let survey = snapshot.survey();
+    match survey.tape_marks.as_slice() {
+        [_, second, ..] => second.end,
+        [only] if survey.first_block.as_ref().is_some_and(|first| first.start < only.start) => only.end,
+        _ => snapshot.len(),
+    }
+}
+
+/// A subroutine of O-words, from `SUB` to `ENDSUB`.
+#[derive(Debug, Clone)]
+pub(crate) struct Sub {
+    pub(crate) label: OLabel,
+    /// Bytes from its first statement to its last.
+    pub(crate) range: Range<u32>,
+    /// Bytes of the label.
+    pub(crate) name: Range<u32>,
+}
+
+/// The subroutines of a file in text order.
+pub(crate) fn subs(snapshot: &Snapshot) -> Vec<Sub> {
+    let mut subs: Vec<Sub> = Vec::new();
+    for word in &snapshot.survey().o_words {
+        match word.keyword {
+            OKeyword::Sub => subs.push(Sub {
+                label: word.label.clone(),
+                range: word.range.clone(),
+                name: o_name_range(snapshot, word).unwrap_or_else(|| word.range.clone()),
+            }),
+            OKeyword::EndSub => {
+                let open = subs.iter_mut().rev().find(|sub| sub.label == word.label);
+                if let Some(open) = open {
+                    open.range.end = word.range.end;
+                }
+            }
+            _ => {}
+        }
+    }
+    subs
+}
+
+/// Which local variables live where.
+struct Scopes {
+    subs: Vec<Sub>,
+}
+
+impl Scopes {
+    fn of(snapshot: &Snapshot) -> Self {
+        Self { subs: subs(snapshot) }
+    }
+
+    /// The subroutine around an offset, else the program.
+    fn around(&self, snapshot: &Snapshot, offset: u32) -> Range<u32> {
+        let sub = self.subs.iter().rev().find(|sub| sub.range.contains(&offset));
+        sub.map_or_else(|| program_around(snapshot, offset), |sub| sub.range.clone())
+    }
+}
+
+/// The innermost of sorted items that touches an offset.
+fn around<T>(items: &[T], range: impl Fn(&T) -> &Range<u32>, offset: u32) -> Option<&T> {
+    let upto = items.partition_point(|item| range(item).start <= offset);
+    items.get(upto.checked_sub(1)?).filter(|item| touches(range(item), offset))
+}
+
+fn naming_of_label(
+    snapshot: &Snapshot,
+    number: u32,
+    word: &Range<u32>,
+    kind: ReferenceKind,
+) -> Option<Naming> {
+    let program = program_around(snapshot, word.start);
+    Some(Naming { thing: Thing::Label { number, program }, range: digits(snapshot, word, number)?, kind })
+}
+
+fn naming_of_program(
+    snapshot: &Snapshot,
+    number: u32,
+    word: &Range<u32>,
+    kind: ReferenceKind,
+) -> Option<Naming> {
+    Some(Naming { thing: Thing::Program(number), range: digits(snapshot, word, number)?, kind })
+}
+
+/// The label of its own program that a jump names. What a return names stands in the caller, unless the control says that it
+/// does not, or there is no such label but here.
+fn jump_naming(snapshot: &Snapshot, jump: &Jump) -> Option<Naming> {
+    let number = jump.target?;
+    if is_elsewhere(snapshot.control(), jump.code, WordKind::Label) && !is_in_main(snapshot, jump.range.start)
+    {
+        return None;
+    }
+    naming_of_label(snapshot, number, &jump.range, ReferenceKind::Read)
+}
+
+/// Does the place belong to the first program of the file, or to one that nothing returns from?
+pub(crate) fn is_in_main(snapshot: &Snapshot, offset: u32) -> bool {
+    let survey = snapshot.survey();
+    program_around(snapshot, offset).start == 0
+        && survey.programs.first().is_none_or(|first| program_around(snapshot, first.range.start).start == 0)
+        && survey.ends.iter().any(|end| end.ends == gcheck_controls::Ends::Program)
+}
+
+/// May what a code names with a word of this kind stand in another program?
+pub(crate) fn is_elsewhere(control: &Control, code: CodeIx, kind: WordKind) -> bool {
+    control.code_at(code).is_some_and(|code| {
+        code.effect() == Effect::Return
+            || code.entry().words.iter().any(|word| word.kind == kind && word.elsewhere)
+    })
+}
+
+fn call_naming(snapshot: &Snapshot, call: &Call) -> Option<Naming> {
+    let thing = callee(snapshot, call)?;
+    let Thing::Program(number) = &thing else { return None };
+    let CallKind::Program(written) = call.target else { return None };
+    let mut range = digits(snapshot, &call.range, written)?;
+    if written != *number {
+        // Repeats stand before the last four digits.
+        range.start = range.end.checked_sub(4)?;
+    }
+    Some(Naming { thing, range, kind: ReferenceKind::Read })
+}
+
+/// A program number without the repeats that a control packs in front of it.
+pub(crate) fn unpacked(control: &Control, code: CodeIx, number: u32) -> u32 {
+    let packs =
+        control.code_at(code).is_some_and(|code| code.entry().words.iter().any(|word| word.packed_repeats));
+    if packs && number > 9_999 { number % 10_000 } else { number }
+}
+
+fn o_word_naming(snapshot: &Snapshot, word: &OWord) -> Option<Naming> {
+    let range = o_name_range(snapshot, word)?;
+    let is_of_sub =
+        matches!(word.keyword, OKeyword::Sub | OKeyword::EndSub | OKeyword::Call | OKeyword::Return);
+    let opens = matches!(
+        word.keyword,
+        OKeyword::Sub | OKeyword::If | OKeyword::While | OKeyword::Do | OKeyword::Repeat
+    );
+    let kind = if opens { ReferenceKind::Write } else { ReferenceKind::Read };
+    let thing = if is_of_sub {
+        Thing::Subroutine(word.label.clone())
+    } else {
+        let part = Scopes::of(snapshot).around(snapshot, word.range.start);
+        Thing::Branch { label: word.label.clone(), part }
+    };
+    Some(Naming { thing, range, kind })
+}
+
+/// Bytes of an O-word's label without `O` and brackets; `None` for a computed one.
+pub(crate) fn o_name_range(snapshot: &Snapshot, word: &OWord) -> Option<Range<u32>> {
+    match &word.label {
+        OLabel::Number(number) => digits(snapshot, &word.range, *number),
+        OLabel::Name(_) => {
+            let text = snapshot.slice(word.range.clone());
+            let open = text.find('<')?;
+            let close = text.find('>')?;
+            (open < close).then(|| word.range.start + open as u32 + 1..word.range.start + close as u32)
+        }
+        OLabel::Computed => None,
+    }
+}
+
+/// Bytes of the first run of digits in a word or statement that read as `number`.
+fn digits(snapshot: &Snapshot, within: &Range<u32>, number: u32) -> Option<Range<u32>> {
+    let text = snapshot.slice(within.clone());
+    let start = text.find(|c: char| c.is_ascii_digit())?;
+    let rest = text.get(start..)?;
+    let len = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    (rest.get(..len)?.parse() == Ok(number))
+        .then(|| within.start + start as u32..within.start + (start + len) as u32)
+}
+
+/// All places of a file that name a variable or parameter, in text order.
+fn all_variables(snapshot: &Snapshot) -> Vec<Naming> {
+    let scopes = Scopes::of(snapshot);
+    let end = code_end(snapshot);
+    let with_variables = snapshot.chunks().filter(|chunk| chunk.base < end && chunk.text.contains('#'));
+    let mut all: Vec<Naming> = with_variables
+        .flat_map(|chunk| variables(snapshot, &pieces(snapshot, chunk.text, chunk.base), &scopes))
+        .collect();
+    all.retain(|naming| naming.range.start < end);
+    all
+}
+
+/// Variables and parameters among tokens.
+fn variables(snapshot: &Snapshot, pieces: &[Piece], scopes: &Scopes) -> Vec<Naming> {
+    let control = snapshot.control();
+    let solid: Vec<&Piece> =
+        pieces.iter().filter(|piece| piece.kind == SyntaxKind::NEWLINE || !piece.kind.is_trivia()).collect();
+    let mut found = Vec::new();
+    for (index, piece) in solid.iter().enumerate() {
+        let kind_of = |index: Option<usize>| index.and_then(|index| solid.get(index)).map(|piece| piece.kind);
+        let is_written = kind_of(Some(index + 1)) == Some(SyntaxKind::EQUALS)
+            && kind_of(index.checked_sub(1)) != Some(SyntaxKind::HASH);
+        let kind = if is_written { ReferenceKind::Write } else { ReferenceKind::Read };
+        let text = snapshot.slice(piece.range.clone());
+        match piece.kind {
+            SyntaxKind::VARIABLE => {
+                let digits = text.trim_start_matches('#').trim_end_matches('.');
+                let Ok(number) = digits.parse() else { continue };
+                let start = piece.range.start + 1;
+                let part = (self::kind_of(control, number) == VariableKind::Local)
+                    .then(|| scopes.around(snapshot, start));
+                let thing = Thing::Variable { number, part };
+                found.push(Naming { thing, range: start..start + digits.len() as u32, kind });
+            }
+            SyntaxKind::NAMED_VARIABLE if profile(control).named_parameters => {
+                let (Some(open), Some(close)) = (text.find('<'), text.rfind('>')) else { continue };
+                let range = piece.range.start + open as u32 + 1..piece.range.start + close as u32;
+                let name = parameter_key(text.get(open + 1..close).unwrap_or_default());
+                let part = (!name.starts_with('_')).then(|| scopes.around(snapshot, range.start));
+                found.push(Naming { thing: Thing::Parameter { name, part }, range, kind });
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The names of parameters in a file, each once, in order.
+pub(crate) fn parameter_names(snapshot: &Snapshot) -> Vec<String> {
+    let mut names: Vec<String> = all_variables(snapshot)
+        .into_iter()
+        .filter_map(|naming| match naming.thing {
+            Thing::Parameter { name, .. } => Some(name),
+            _ => None,
+        })
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// A parameter's name as the control compares it.
+pub(crate) fn parameter_key(name: &str) -> String {
+    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+}
+
+/// Does the file compute the number of a variable somewhere (`#[#1+2]`, `##1`)?
+pub(crate) fn has_indirect_variables(snapshot: &Snapshot) -> bool {
+    let with_variables = snapshot.chunks().filter(|chunk| chunk.text.contains('#'));
+    with_variables
+        .flat_map(|chunk| pieces(snapshot, chunk.text, chunk.base))
+        .any(|piece| piece.kind == SyntaxKind::HASH)
+}
+
+/// The first place of a file where a call or jump of the given kind is computed.
+pub(crate) fn computed_call(survey: &Survey) -> Option<&Call> {
+    survey
+        .calls
+        .iter()
+        .find(|call| matches!(call.target, CallKind::Unknown | CallKind::OWord(OLabel::Computed)))
+}

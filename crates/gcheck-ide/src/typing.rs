@@ -1,0 +1,132 @@
+//! The block that is being typed: what stands before the cursor, and which codes and words it has.
+//!
+//! Knows: one line up to the cursor. Must not know: states, what is offered.
+
+use std::ops::Range;
+
+use gcheck_controls::{Code, CodeNumber, Control, Letter, WordEntry};
+use gcheck_db::Snapshot;
+use gcheck_syntax::SyntaxKind;
+
+use crate::describe;
+use crate::pieces::{Piece, pieces};
+
+/// A block that is being typed.
+pub(crate) struct Typing<'s> {
+    pub(crate) snapshot: &'s Snapshot,
+    /// Tokens of the whole line.
+    pub(crate) line: Vec<Piece>,
+    /// Text of the line up to the cursor.
+    pub(crate) before: String,
+    /// First byte of the line.
+    pub(crate) start: u32,
+    pub(crate) offset: u32,
+}
+
+impl<'s> Typing<'s> {
+    pub(crate) fn new(snapshot: &'s Snapshot, offset: u32) -> Self {
+        let offset = offset.min(snapshot.len());
+        let range = snapshot.line_range(snapshot.line_at(offset));
+        let text = snapshot.slice(range.clone());
+        let upto = (offset.saturating_sub(range.start) as usize).min(text.len());
+        // A cursor inside a character stands before it.
+        let upto = (0..=upto).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
+        let before = text.get(..upto).unwrap_or_default().to_owned();
+        let offset = range.start + upto as u32;
+        Self { snapshot, line: pieces(snapshot, &text, range.start), before, start: range.start, offset }
+    }
+
+    pub(crate) fn control(&self) -> &'s Control {
+        self.snapshot.control()
+    }
+
+    /// The text of the comment that the cursor stands in, up to the cursor.
+    pub(crate) fn comment(&self) -> Option<&str> {
+        let piece = self
+            .line
+            .iter()
+            .find(|piece| piece.range.start < self.offset && self.offset <= piece.range.end)?;
+        let is_closed = piece.kind == SyntaxKind::COMMENT && piece.range.end == self.offset;
+        if !piece.kind.is_comment() || is_closed {
+            return None;
+        }
+        self.before.get((piece.range.start - self.start) as usize + 1..)
+    }
+
+    /// What is being typed: letters, digits and signs right before the cursor, with the offset of the first.
+    pub(crate) fn prefix(&self) -> (&str, u32) {
+        let is_part = |c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '#' | '<' | '_' | ',' | '>');
+        let mut at = self.before.len();
+        for (index, c) in self.before.char_indices().rev() {
+            if !is_part(c) {
+                break;
+            }
+            at = index;
+            // A sigil begins what is typed.
+            if c == '#' {
+                break;
+            }
+        }
+        let text = self.before.get(at..).unwrap_or_default();
+        // `G0X1`: the last address begins the word, but `GOTO` and names are one.
+        let word = text.rfind(|c: char| c.is_ascii_alphabetic()).filter(|last| {
+            !text.starts_with('#')
+                && text
+                    .get(*last + 1..)
+                    .is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit() || b == b'.'))
+                && text
+                    .get(..*last)
+                    .is_some_and(|head| head.ends_with(|c: char| c.is_ascii_digit() || c == '.'))
+        });
+        let at = at + word.unwrap_or(0);
+        (self.before.get(at..).unwrap_or_default(), self.start + at as u32)
+    }
+
+    /// Is the cursor inside brackets?
+    pub(crate) fn in_brackets(&self) -> bool {
+        let before = self.line.iter().filter(|piece| piece.range.start < self.offset);
+        let depth = before.fold(0_i32, |depth, piece| match piece.kind {
+            SyntaxKind::L_BRACKET => depth + 1,
+            SyntaxKind::R_BRACKET => depth - 1,
+            _ => depth,
+        });
+        depth > 0
+    }
+
+    /// The last token before the cursor and what is typed there, blanks left out.
+    pub(crate) fn last_before(&self, from: u32) -> Option<&Piece> {
+        self.line.iter().rfind(|piece| piece.range.end <= from && !piece.kind.is_trivia())
+    }
+
+    /// The codes of the line in text order, but for one that is being typed at the cursor.
+    pub(crate) fn codes(&self) -> Vec<(Range<u32>, Code<'s>)> {
+        let words = self.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD);
+        let finished = words.filter(|piece| piece.range.end != self.offset);
+        finished
+            .filter_map(|piece| {
+                let number = CodeNumber::parse(&self.snapshot.slice(piece.range.clone()))?;
+                Some((piece.range.clone(), self.control().code(number)?))
+            })
+            .collect()
+    }
+
+    /// Addresses of the line's words, but for one that is being typed at the cursor.
+    pub(crate) fn letters(&self) -> Vec<Letter> {
+        let words =
+            self.line.iter().filter(|piece| matches!(piece.kind, SyntaxKind::WORD | SyntaxKind::LETTER));
+        let finished = words.filter(|piece| piece.range.end != self.offset);
+        finished.filter_map(|piece| self.letter(piece)).collect()
+    }
+
+    /// The address of a word.
+    pub(crate) fn letter(&self, piece: &Piece) -> Option<Letter> {
+        let text = self.snapshot.slice(piece.range.clone());
+        let len = if text.starts_with(',') { 2 } else { 1 };
+        Letter::parse(&text.get(..len)?.to_ascii_uppercase())
+    }
+
+    /// How the codes of the line read an address: the first that reads it.
+    pub(crate) fn entry(&self, letter: Letter) -> Option<(Code<'s>, &'s WordEntry)> {
+        self.codes().into_iter().find_map(|(_, code)| Some((code, describe::word_of(code, letter)?)))
+    }
+}

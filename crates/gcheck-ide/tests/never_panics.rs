@@ -1,0 +1,314 @@
+//! Every feature at every place of broken programs: no panic, no place outside of the file.
+//!
+//! Knows: the features by name. Must not know: what they answer.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use gcheck_db::{Database, DocumentId, Settings, Snapshot};
+use gcheck_ide::{Edit, InlayOptions, Workspace, WorkspaceFile};
+use proptest::prelude::*;
+
+const CONTROLS: [&str; 6] =
+    ["haas-mill", "haas-lathe", "fanuc-mill", "fanuc-lathe", "linuxcnc", "generic-mill"];
+
+/// Pieces of programs, whole and broken, of all controls.
+const PIECES: &[&str] = &[
+    "%",
+    "O1",
+    "O0002 (PART)",
+    "O",
+    "N10",
+    "N",
+    "N10 ",
+    "/",
+    "/2 ",
+    "G0 ",
+    "G01",
+    "G1 X1. ",
+    "X1",
+    "Y-2.5 ",
+    "Z[#1+2]",
+    "X#100 ",
+    "G2 I1. J0. ",
+    "G3 X1. Y1. R-2. ",
+    "G83 Z-1. R1. Q.5 F10. ",
+    "G80 ",
+    "G81X1.Z-1.R1.F1.",
+    "G41 D1 ",
+    "G43 H1 ",
+    "G91 ",
+    "G90 ",
+    "G20 ",
+    "G21 ",
+    "G18 ",
+    "G68 R45. ",
+    "G51 P2. ",
+    "T1 M6 ",
+    "T0101 ",
+    "T",
+    "M6",
+    "M3 S1000 ",
+    "F100. ",
+    "S",
+    "G96 S200 ",
+    "G71 P10 Q20 U.1 W.1 D1. F.2 ",
+    "U1. ",
+    "W-1. ",
+    "M97 P10 ",
+    "M98 P2 ",
+    "M98 P#1",
+    "G65 P9010 A1. B#2 ",
+    "M99 ",
+    "M99 P10",
+    "M30",
+    "M2",
+    "#1=1",
+    "#100=#1+[2*3.]",
+    "#[#1+1]=",
+    "##1=2",
+    "#<d>=3",
+    "#<_x>",
+    "#<",
+    "#",
+    "IF [#1 EQ 1] GOTO 10",
+    "IF [",
+    "WHILE [#1 LT 5] DO1",
+    "END1",
+    "GOTO 10",
+    "GOTO #1",
+    "GOTO",
+    "o100 sub",
+    "o100 endsub",
+    "o<probe> sub",
+    "o<probe> endsub",
+    "o<probe> call [1] [#2]",
+    "o100 call",
+    "o110 if [#1]",
+    "o110 else",
+    "o110 endif",
+    "o120 while [0]",
+    "o120 endwhile",
+    "o[#1] call",
+    "o130 do",
+    "o130 while [1]",
+    "DPRNT[A#1]",
+    "(NOTE)",
+    "(",
+    "(a (b) c)",
+    "; rest",
+    ";",
+    "(gcheck: ignore all)",
+    "(gcheck: ignore ",
+    "(gcheck: control=",
+    "(MSG, µ)",
+    "(日本🙂)",
+    "SIN[",
+    "ATAN[1]/[2]",
+    "[",
+    "]",
+    ")",
+    "=",
+    ",R1.",
+    "\u{1A}",
+    "\u{FEFF}",
+    "é",
+    "\t",
+    "\r",
+    "\0",
+    "1.2.3",
+    "G1.25 ",
+    "G999 ",
+    "M123 ",
+    "@1^2",
+    "X 1 . 5",
+    ":1234",
+];
+
+fn program() -> impl Strategy<Value = String> {
+    let piece = prop_oneof![
+        8 => proptest::sample::select(PIECES).prop_map(str::to_owned),
+        1 => any::<char>().prop_map(String::from),
+    ];
+    let end = prop_oneof![3 => Just(""), 2 => Just("\n"), 1 => Just("\r\n"), 1 => Just(" ")];
+    proptest::collection::vec((piece, end), 0..60)
+        .prop_map(|pieces| pieces.into_iter().map(|(piece, end)| piece + end).collect())
+}
+
+struct World {
+    database: Database,
+    workspace: Workspace,
+    main: DocumentId,
+}
+
+impl World {
+    fn new(control: &str, texts: &[String]) -> Self {
+        let settings = Settings::new(gcheck_controls::load(control).unwrap());
+        let mut database = Database::new();
+        let mut workspace = Workspace::default();
+        for (index, text) in texts.iter().enumerate() {
+            let id = database.open(text, settings.clone());
+            let name = Arc::from(["main.nc", "probe.ngc", "O9010.nc"][index]);
+            workspace.files.push(WorkspaceFile { id, name, snapshot: database.snapshot(id).unwrap() });
+        }
+        let main = workspace.files[0].id;
+        Self { database, workspace, main }
+    }
+
+    fn snapshot(&self, id: DocumentId) -> &Snapshot {
+        &self.workspace.file(id).unwrap().snapshot
+    }
+
+    fn inside(&self, id: DocumentId, range: &Range<u32>) {
+        let snapshot = self.snapshot(id);
+        let text = snapshot.text();
+        assert!(range.start <= range.end, "{range:?}");
+        assert!(text.get(range.start as usize..range.end as usize).is_some(), "{range:?} of {text:?}");
+    }
+
+    /// Edits lie in the file, on characters, in order and apart.
+    fn fit(&self, id: DocumentId, edits: &[Edit]) {
+        let mut sorted: Vec<&Edit> = edits.iter().collect();
+        sorted.sort_by_key(|edit| (edit.range.start, edit.range.end));
+        for edit in &sorted {
+            self.inside(id, &edit.range);
+        }
+        for pair in sorted.windows(2) {
+            assert!(pair[0].range.end <= pair[1].range.start, "{pair:?} of {:?}", self.snapshot(id).text());
+        }
+    }
+}
+
+fn nest(world: &World, symbols: &[gcheck_ide::Symbol], around: &Range<u32>) {
+    for symbol in symbols {
+        world.inside(world.main, &symbol.range);
+        assert!(
+            around.start <= symbol.range.start && symbol.range.end <= around.end,
+            "{symbol:?} in {around:?}"
+        );
+        assert!(
+            symbol.range.start <= symbol.selection.start && symbol.selection.end <= symbol.range.end,
+            "{symbol:?}"
+        );
+        nest(world, &symbol.children, &symbol.range);
+    }
+}
+
+fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
+    let go = || false;
+    let id = world.main;
+    let snapshot = world.snapshot(id).clone();
+    let end = snapshot.len();
+    let analysis = world.database.analysis(id, &go).unwrap();
+    let range = offset.min(other)..offset.max(other);
+
+    for found in gcheck_ide::diagnostics(&analysis).list {
+        world.inside(id, &found.range);
+    }
+    let unreachable = gcheck_ide::unreachable_ranges(&analysis);
+    if let Some(hover) = gcheck_ide::hover(&mut world.database, id, offset, Some(&analysis), &go).unwrap() {
+        world.inside(id, &hover.range);
+    }
+    for item in gcheck_ide::completion(&mut world.database, &world.workspace, id, offset, &go).unwrap() {
+        world.inside(id, &item.edit.range);
+        assert!(item.edit.range.end <= end.min(offset), "{item:?} at {offset} of {:?}", snapshot.text());
+    }
+    for signature in gcheck_ide::signature_help(&world.workspace, id, offset) {
+        for word in &signature.parameters {
+            assert!(signature.label.get(word.label.start as usize..word.label.end as usize).is_some());
+        }
+    }
+    for target in gcheck_ide::definition(&world.workspace, id, offset) {
+        world.inside(target.name.file, &target.name.range);
+        world.inside(target.name.file, &target.full);
+        world.inside(id, &target.from);
+    }
+    for reference in gcheck_ide::references(&world.workspace, id, offset, true) {
+        world.inside(reference.place.file, &reference.place.range);
+    }
+    for place in gcheck_ide::highlights(&snapshot, offset) {
+        world.inside(id, &place.range);
+    }
+    if let Ok(target) = gcheck_ide::prepare_rename(&world.workspace, id, offset) {
+        world.inside(id, &target.range);
+    }
+    for edits in gcheck_ide::rename(&world.workspace, id, offset, new_name).unwrap_or_default() {
+        world.fit(edits.file, &edits.edits);
+    }
+    nest(world, &gcheck_ide::document_symbols(&snapshot), &(0..end));
+    for symbol in gcheck_ide::workspace_symbols(&world.workspace, new_name) {
+        world.inside(symbol.place.file, &symbol.place.range);
+    }
+    for item in gcheck_ide::call_items(&world.workspace, id, offset) {
+        world.inside(item.place.file, &item.range);
+        for call in gcheck_ide::incoming_calls(&world.workspace, &item) {
+            call.calls.iter().for_each(|range| world.inside(call.from.place.file, range));
+        }
+        for call in gcheck_ide::outgoing_calls(&world.workspace, &item) {
+            call.calls.iter().for_each(|range| world.inside(item.place.file, range));
+        }
+    }
+    for fold in gcheck_ide::folding_ranges(&snapshot) {
+        world.inside(id, &fold.range);
+    }
+    let ranges = gcheck_ide::selection_ranges(&snapshot, offset);
+    assert!(ranges.windows(2).all(|pair| pair[1].start <= pair[0].start && pair[0].end <= pair[1].end));
+    for of in [None, Some(range.clone())] {
+        let tokens = gcheck_ide::semantic_tokens(&snapshot, of, &unreachable);
+        tokens.iter().for_each(|token| world.inside(id, &token.range));
+        assert!(tokens.windows(2).all(|pair| pair[0].range.end <= pair[1].range.start), "{tokens:?}");
+    }
+    let options = InlayOptions::default();
+    for hint in gcheck_ide::inlay_hints(&mut world.database, id, range.clone(), options, &go).unwrap() {
+        assert!(hint.offset <= end);
+    }
+    let figures = gcheck_ide::figures(&snapshot, 500);
+    for lens in gcheck_ide::code_lenses(&snapshot, &figures) {
+        world.inside(id, &lens.range);
+    }
+    let actions =
+        gcheck_ide::code_actions(&mut world.database, id, range.clone(), Some(&analysis), &go).unwrap();
+    for action in actions {
+        world.fit(id, &action.edits);
+    }
+    world.fit(id, &gcheck_ide::format(&snapshot, None));
+    world.fit(id, &gcheck_ide::format(&snapshot, Some(range)));
+    world.fit(id, &gcheck_ide::format_on_type(&snapshot, offset));
+    for link in gcheck_ide::document_links(&world.workspace, id) {
+        world.inside(id, &link.range);
+        world.inside(link.target.file, &link.target.range);
+    }
+    let _ = gcheck_ide::toolpath(&snapshot, 500, 100);
+    let _ = gcheck_ide::state_at(&mut world.database, id, offset, &go).unwrap();
+    let _ = gcheck_ide::syntax_tree(&snapshot, Some(offset));
+    let _ = gcheck_ide::syntax_tree(&snapshot, None);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn any_feature_at_any_place(
+        control in proptest::sample::select(&CONTROLS[..]),
+        texts in proptest::collection::vec(program(), 1..=3),
+        places in proptest::collection::vec((0.0..=1.1_f64, 0.0..=1.1_f64), 1..4),
+        new_name in proptest::sample::select(&["20", "N30", "#101", "deep", "", "O7", "é", "4294967296"][..]),
+    ) {
+        let mut world = World::new(control, &texts);
+        let len = f64::from(world.snapshot(world.main).len());
+        for (one, other) in places {
+            ask_everything(&mut world, (one * len).round() as u32, (other * len).round() as u32, new_name);
+        }
+    }
+}
+
+#[test]
+fn every_place_of_a_program_of_everything() {
+    let text = PIECES.join("\n");
+    for control in CONTROLS {
+        let mut world = World::new(control, &[text.clone(), PIECES.join(" "), String::new()]);
+        for offset in (0..=text.len() as u32).step_by(17) {
+            ask_everything(&mut world, offset, offset + 40, "20");
+        }
+    }
+}

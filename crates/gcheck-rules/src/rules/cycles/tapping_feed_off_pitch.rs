@@ -1,0 +1,333 @@
+//! A tap that does not go down by its pitch each turn.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role};
+use gcheck_program::BlockFlags;
+
+use crate::boundary::is_before;
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// A tapping cycle goes down by another way each turn than the pitch of the thread that the tool's comment names.
+    ///
+    /// ## Why it matters
+    /// A tap leads itself by its pitch. With another feed it tears the thread out, pulls out of its holder or breaks. Feed a
+    /// minute is speed times pitch; feed a turn is the pitch.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T5 M6 (M6X1 TAP)
+    /// G21 G90 G54 G0 X0. Y0.
+    /// S500 M3
+    /// G43 H5 Z10.
+    /// G84 Z-12. R5. F600.
+    /// G80
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// A holder that gives way is fed a little short.
+    /// ```nc,quiet,haas-mill
+    /// T5 M6 (M6X1 TAP)
+    /// G21 G90 G54 G0 X0. Y0.
+    /// S500 M3
+    /// G43 H5 Z10.
+    /// G84 Z-12. R5. F490.
+    /// G80
+    /// M30
+    /// ```
+    rule "tapping-feed-off-pitch" in "cycles" {
+        summary: "tap fed by another way a turn than its pitch",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(TappingFeedOffPitch { told: None }) },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct TappingFeedOffPitch {
+    /// The tool change whose tool was told of.
+    told: Option<At>,
+}
+
+remembers!(TappingFeedOffPitch: told);
+
+/// A holder that gives way is fed short by a few parts in a hundred.
+const SHORT: f64 = 0.93;
+/// Rounded numbers of feed and speed.
+const LONG: f64 = 1.03;
+
+impl PathRule for TappingFeedOffPitch {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_tapping)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if !cx.has_effect(is_tapping) || cx.depth() > 1 {
+            return;
+        }
+        let Some(changed) = cx.trace().set_by(Fact::Tool) else { return };
+        let state = cx.state();
+        let given = |letter: char, before: Option<f64>| {
+            let place = cx.place()?;
+            match place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter)) {
+                Some(word) => word.number(),
+                None => before,
+            }
+        };
+        let feed = given('F', Abstract::known(state.feed_word()));
+        let speed = given('S', Abstract::known(state.speed()));
+        let (Some(feed), Some(speed), Some(units)) = (feed, speed, state.units(cx.model)) else { return };
+        // A mode of the block itself, and a feed of before a change of modes, mean other things than the state says.
+        let is_switched = cx.code_of_role(Role::FeedMode).is_some() || cx.code_of_role(Role::Units).is_some();
+        let is_older = |fact| cx.trace().set_by(fact).is_some_and(|at| is_before(at, changed));
+        let is_stale = is_older(Fact::Speed) && !cx.origin().letters.contains(Letter::of('S'));
+        if self.told == Some(changed) || is_switched || is_stale || feed <= 0.0 || speed <= 0.0 {
+            return;
+        }
+        let a_turn = match state.feed_mode(cx.model) {
+            Some(FeedMode::PerMinute) => feed / speed,
+            Some(FeedMode::PerRevolution) => feed,
+            _ => return,
+        } * units.in_mm();
+        let Some(thread) = thread_of_tool(cx, changed) else { return };
+        if (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
+            return;
+        }
+        self.told = Some(changed);
+        let pitch = gcheck_geometry::Mm(thread.pitch);
+        let by_turns = state.feed_mode(cx.model) == Some(FeedMode::PerRevolution);
+        let right = if by_turns { thread.pitch } else { thread.pitch * speed } / units.in_mm();
+        let right = trimmed(right);
+        let message = format!(
+            "the tap goes down {} a turn, the pitch is {}",
+            cx.shown(gcheck_geometry::Mm(a_turn)),
+            cx.shown(pitch)
+        );
+        let mut finding = cx
+            .finding(&META, cx.letter_range('F'), message)
+            .label(format!(
+                "`F{right}` for this pitch{}",
+                if by_turns { String::new() } else { format!(" at `S{}`", trimmed(speed)) }
+            ))
+            .help("give the feed that belongs to speed and pitch, or correct the comment");
+        if let Some(range) = cx.range_of(thread.at) {
+            finding = finding.also(range, format!("names the thread: {}", thread.name));
+        }
+        report.add(finding);
+    }
+}
+
+fn is_tapping(effect: Effect) -> bool {
+    matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+}
+
+fn trimmed(number: f64) -> String {
+    let text = format!("{number:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// A thread that a comment names.
+struct Thread {
+    /// As the comment writes it.
+    name: String,
+    /// Millimetres.
+    pitch: f64,
+    /// The block of the comment.
+    at: At,
+}
+
+/// The thread that the comment at a tool change names: in its block, in the one before it or in the one behind it.
+fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
+    let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
+    let places = [Some(changed), before, Some(changed.next())];
+    let mut found = None;
+    for at in places.into_iter().flatten() {
+        let Some(place) = cx.place_of(at).filter(|_| at.file == 0) else { continue };
+        let block = place.block();
+        // Only a comment alone in its block belongs to the tool beside it.
+        let is_alone = at == changed || place.table.words(block).is_empty();
+        if !is_alone || !block.flags.contains(BlockFlags::COMMENT) {
+            continue;
+        }
+        let Some(file) = cx.program.file(0) else { continue };
+        let text = file.loaded.chunk_text(place.chunk);
+        let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
+        let Some((name, pitch)) = text.find(['(', ';']).and_then(|open| thread_in(text.get(open..)?)) else {
+            continue;
+        };
+        if found.is_none() {
+            found = Some(Thread { name, pitch, at });
+        }
+    }
+    found
+}
+
+/// The one thread that a comment about a tap names, and its pitch in millimetres.
+fn thread_in(comment: &str) -> Option<(String, f64)> {
+    let upper = comment.to_ascii_uppercase();
+    let is_letter = |c: char| c.is_ascii_alphanumeric();
+    let mut words = upper.split(|c: char| !is_letter(c));
+    // A drill for a tap, and a thread that is milled, are no taps.
+    let taps = words.clone().any(|word| matches!(word, "TAP" | "TAPS" | "TAPPING"));
+    if !taps || words.any(|word| matches!(word, "DRILL" | "MILL" | "PREDRILL" | "CHAMFER" | "SPOT")) {
+        return None;
+    }
+    let mut found: Vec<(String, f64)> = Vec::new();
+    let pieces = upper.split(|c: char| !(is_letter(c) || matches!(c, '.' | '/' | '-' | '#' | '*')));
+    for piece in pieces.filter(|piece| !piece.is_empty()) {
+        if let Some(pitch) = metric(piece).or_else(|| inch(piece)) {
+            found.push((piece.to_owned(), pitch));
+        }
+    }
+    match found.as_slice() {
+        [one] => Some(one.clone()),
+        // `M6 (M6X1.0)` names one thread twice; anything else is not clear.
+        [first, others @ ..] if others.iter().all(|other| other.1.to_bits() == first.1.to_bits()) => {
+            Some(first.clone())
+        }
+        _ => None,
+    }
+}
+
+/// `M6X1`, `M10-1.25`, `M8` with its coarse pitch.
+fn metric(piece: &str) -> Option<f64> {
+    const COARSE: [(f64, f64); 13] = [
+        (2.0, 0.4),
+        (2.5, 0.45),
+        (3.0, 0.5),
+        (4.0, 0.7),
+        (5.0, 0.8),
+        (6.0, 1.0),
+        (8.0, 1.25),
+        (10.0, 1.5),
+        (12.0, 1.75),
+        (14.0, 2.0),
+        (16.0, 2.0),
+        (20.0, 2.5),
+        (24.0, 3.0),
+    ];
+    let size = piece.strip_prefix('M')?;
+    match size.split_once(['X', '-', '*']) {
+        Some((size, pitch)) => {
+            let (size, pitch) = (number(size)?, number(pitch)?);
+            ((0.2..=6.0).contains(&pitch) && pitch < size).then_some(pitch)
+        }
+        None => {
+            let size = number(size)?;
+            COARSE.iter().find(|(known, _)| known.to_bits() == size.to_bits()).map(|(_, pitch)| *pitch)
+        }
+    }
+}
+
+/// `1/4-20`, `#10-32`, `10-24`: threads an inch behind the dash, and only where such a thread is made.
+fn inch(piece: &str) -> Option<f64> {
+    const NUMBERED: [(u32, u32); 17] = [
+        (0, 80),
+        (1, 64),
+        (1, 72),
+        (2, 56),
+        (2, 64),
+        (3, 48),
+        (4, 40),
+        (4, 48),
+        (5, 40),
+        (6, 32),
+        (6, 40),
+        (8, 32),
+        (8, 36),
+        (10, 24),
+        (10, 32),
+        (12, 24),
+        (12, 28),
+    ];
+    const FRACTIONS: [(&str, [u32; 2]); 10] = [
+        ("1/4", [20, 28]),
+        ("5/16", [18, 24]),
+        ("3/8", [16, 24]),
+        ("7/16", [14, 20]),
+        ("1/2", [13, 20]),
+        ("9/16", [12, 18]),
+        ("5/8", [11, 18]),
+        ("3/4", [10, 16]),
+        ("7/8", [9, 14]),
+        ("1", [8, 12]),
+    ];
+    let (size, threads) = piece.split_once('-')?;
+    let threads = threads.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let threads: u32 = threads.parse().ok()?;
+    let is_made = match FRACTIONS.iter().find(|(known, _)| *known == size) {
+        Some((_, made)) => made.contains(&threads),
+        None => {
+            let number: u32 = size.trim_start_matches('#').parse().ok()?;
+            NUMBERED.contains(&(number, threads))
+        }
+    };
+    is_made.then(|| 25.4 / f64::from(threads))
+}
+
+fn number(text: &str) -> Option<f64> {
+    let is_number = !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    text.parse().ok().filter(|_| is_number)
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{RULE, thread_in};
+    use crate::testing::check_rule;
+
+    #[test]
+    fn threads_as_shops_write_them() {
+        for (comment, expected) in [
+            ("(M6X1 TAP)", Some(1.0)),
+            ("(TAP M8)", Some(1.25)),
+            ("(T5 - M10-1.25 SPIRAL TAP)", Some(1.25)),
+            ("(1/4-20 TAP)", Some(25.4 / 20.0)),
+            ("(#10-32UNF TAP)", Some(25.4 / 32.0)),
+            ("(TAPER PIN M6)", None),
+            ("(DRILL 5.0 FOR M6 TAP)", None),
+            ("(TAP 1-1/4 DEEP)", None),
+            ("(TAP M6 OR M8)", None),
+            ("(M6 THREAD MILL TAP)", None),
+        ] {
+            assert_eq!(thread_in(comment).map(|(_, pitch)| pitch), expected, "{comment}");
+        }
+    }
+
+    #[test]
+    fn feed_a_turn_is_the_pitch() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "(1/4-20 TAP)\nT5 M6\nG20 G90 G54 G0 X0. Y0.\nG95 S500 M3\nG84 Z-1. R.1 F.05\nG80\nM30\n",
+            &expect![[""]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "(1/4-20 TAP)\nT5 M6\nG20 G90 G54 G0 X0. Y0.\nG94 S500 M3\nG84 Z-1. R.1 F.05\nG80\nM30\n",
+            &expect![[r#"
+                5 | G84 Z-1. R.1 F.05
+                  |              ^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0001 in a turn, the pitch is 0.05 in
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_speed_that_is_not_this_tools_says_nothing() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 S3000 M3\nT5 M6 (M6 TAP)\nG0 X0. Y0.\nG84 Z-12. R5. F500.\nG80\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

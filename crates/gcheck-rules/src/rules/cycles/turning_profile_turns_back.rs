@@ -1,0 +1,147 @@
+//! A turning cycle whose profile turns back.
+
+use gcheck_controls::LetterSet;
+
+use crate::meta::declare_rule;
+use crate::turning::is_roughing;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// The profile of a roughing cycle goes back: it must only rise or fall from its first block to its last.
+    ///
+    /// ## Why it matters
+    /// The control alarms, or leaves the undercut as it is and dives into it in the last pass. Most often a sign or a digit is
+    /// wrong. Profiles with pockets need the cycle's second form, whose first block names both axes, where the control has it.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// G20 G54 T0101
+    /// G97 S500 M3
+    /// G0 X3. Z.1
+    /// G71 P10 Q20 D.05 U.02 W.005 F.01
+    /// N10 G0 X1.
+    /// G1 Z-1. F.005
+    /// X.5 Z-1.5
+    /// N20 X2. Z-2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// G20 G54 T0101
+    /// G97 S500 M3
+    /// G0 X3. Z.1
+    /// G71 P10 Q20 D.05 U.02 W.005 F.01
+    /// N10 G0 X1.
+    /// G1 Z-1. F.005
+    /// X1.5 Z-1.5
+    /// N20 X2. Z-2.
+    /// M30
+    /// ```
+    rule "turning-profile-turns-back" in "cycles" {
+        summary: "turning cycle whose profile turns back",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(TurningProfileTurnsBack) },
+    }
+}
+
+struct TurningProfileTurnsBack;
+
+impl PathRule for TurningProfileTurnsBack {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_roughing)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if !cx.has_effect(is_roughing) {
+            return;
+        }
+        let Some(profile) = cx.profile() else { return };
+        // A first block that names both axes chooses the form of the cycle that takes pockets.
+        let has_pockets = profile.first_axes.intersects(LetterSet::of("XU"))
+            && profile.first_axes.intersects(LetterSet::of("ZW"));
+        if has_pockets {
+            return;
+        }
+        // The way out, in rapid, is no part of the profile.
+        let count = profile.points.iter().rposition(|point| !point.is_rapid).map_or(0, |last| last + 1);
+        let points = profile.points.get(..count).unwrap_or_default();
+        for (axis, way) in [
+            ('X', points.iter().map(|point| point.x).collect::<Vec<_>>()),
+            ('Z', points.iter().map(|point| point.z).collect()),
+        ] {
+            let Some(at) = turn(&way) else { continue };
+            let Some(point) = points.get(at) else { continue };
+            let message = format!("the profile of the turning cycle turns back in {axis}");
+            report.add(
+                cx.finding(&META, point.range.clone(), message)
+                    .label(format!("{axis} goes the other way than before"))
+                    .also(cx.range(), "the cycle that follows the profile")
+                    .note("passes follow a profile whose X and Z only rise or only fall")
+                    .help("check the sign and value of the word, or begin the profile with both axes where the control takes pockets"),
+            );
+            return;
+        }
+    }
+}
+
+/// The first of some positions that lies the other way than those before it.
+fn turn(way: &[f64]) -> Option<usize> {
+    let mut sign = 0.0;
+    way.windows(2)
+        .position(|pair| {
+            let step = pair.last().copied().unwrap_or_default() - pair.first().copied().unwrap_or_default();
+            if step.abs() <= SLACK {
+                return false;
+            }
+            let turns = step * sign < 0.0;
+            sign = step.signum();
+            turns
+        })
+        .map(|before| before + 1)
+}
+
+/// In units of the program: controls let a profile turn back by this much.
+const SLACK: f64 = 0.001;
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_block_that_turns_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG0 X60. Z5.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20.\nZ20.\nN20 X50.\nM30\n",
+            &expect![[r#"
+                8 | Z20.
+                  | ^^^^ warning[turning-profile-turns-back] the profile of the turning cycle turns back in Z
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_first_block_of_both_axes_takes_pockets() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G20 G54 T0101\nG97 S500 M3\nG0 X3. Z.1\nG71 P10 Q20 D.05 U.02 W.005 F.01\nN10 G0 X1. Z.1\nG1 Z-1. F.005\nX.5 Z-1.5\nN20 X2. Z-2.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn boring_goes_down() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG0 X18. Z5.\nG71 U2. R1.\nG71 P10 Q20 U-0.5 W0.1 F0.25\nN10 G0 X40.\nG1 Z-20.\nX30. Z-25.\nN20 X20.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

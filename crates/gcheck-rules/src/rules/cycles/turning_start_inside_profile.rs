@@ -1,0 +1,119 @@
+//! A turning cycle that starts inside its profile.
+
+use gcheck_controls::Effect;
+
+use crate::meta::declare_rule;
+use crate::turning::is_roughing;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// The tool stands inside the profile when a roughing cycle begins.
+    ///
+    /// ## Why it matters
+    /// Passes start from where the tool stands, and after each the tool comes back there in rapid: through the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-lathe
+    /// G20 G54 T0101
+    /// G97 S500 M3
+    /// G0 X1.5 Z.1
+    /// G71 P10 Q20 D.05 U.02 W.005 F.01
+    /// N10 G0 X1.
+    /// G1 Z-1. F.005
+    /// N20 X2. Z-2.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-lathe
+    /// G20 G54 T0101
+    /// G97 S500 M3
+    /// G0 X2.1 Z.1
+    /// G71 P10 Q20 D.05 U.02 W.005 F.01
+    /// N10 G0 X1.
+    /// G1 Z-1. F.005
+    /// N20 X2. Z-2.
+    /// M30
+    /// ```
+    rule "turning-start-inside-profile" in "cycles" {
+        summary: "turning cycle that starts inside its profile",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(TurningStartInsideProfile) },
+    }
+}
+
+struct TurningStartInsideProfile;
+
+impl PathRule for TurningStartInsideProfile {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(is_roughing)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if !cx.has_effect(is_roughing) {
+            return;
+        }
+        let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
+        let Some(profile) = cx.profile() else { return };
+        let level = |point: &crate::turning::Point| if along_x { point.z } else { point.x };
+        let mut cut = profile.points.iter().skip(1).filter(|point| !point.is_rapid);
+        let (Some(first), Some(last)) = (profile.points.first(), cut.clone().next_back()) else { return };
+        // Outward from the first block: the tool must stand where the profile ends, or beyond.
+        let start = level(&profile.start);
+        let outward = if level(first) <= start { 1.0 } else { -1.0 };
+        let beyond = |point: &crate::turning::Point| (level(point) - start) * outward;
+        let Some(worst) = cut.find(|point| beyond(point) > SLACK) else { return };
+        // A profile that begins outside the tool, or runs the other way, is of another kind.
+        if beyond(first) > 0.0 || beyond(last) <= 0.0 {
+            return;
+        }
+        let axis = if along_x { 'Z' } else { 'X' };
+        let message = format!("the turning cycle starts inside its profile (`{axis}{}`)", trimmed(start));
+        report.add(
+            cx.finding(&META, cx.range(), message)
+                .label("the tool comes back to where it stands now in rapid")
+                .also(worst.range.clone(), format!("the profile reaches `{axis}{}`", trimmed(level(worst))))
+                .help("go to the outside of the stock before the cycle"),
+        );
+    }
+}
+
+/// In units of the program.
+const SLACK: f64 = 0.01;
+
+fn trimmed(number: f64) -> String {
+    let text = format!("{number:.3}");
+    text.trim_end_matches('0').to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn facing_counts_along_the_part() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG0 X60. Z-5.\nG72 W2. R1.\nG72 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 Z-20.\nG1 X30.\nN20 Z0.\nM30\n",
+            &expect![[r#"
+                5 | G72 P10 Q20 U0.5 W0.1 F0.25
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[turning-start-inside-profile] the turning cycle starts inside its profile (`Z-5.`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_bore_is_started_inside_it() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG0 X18. Z5.\nG71 U2. R1.\nG71 P10 Q20 U-0.5 W0.1 F0.25\nN10 G0 X40.\nG1 Z-20.\nX30. Z-25.\nN20 X20.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

@@ -1,0 +1,120 @@
+//! A chamfer or rounding with no cut behind it.
+
+use std::ops::Range;
+
+use gcheck_controls::{Letter, LetterSet};
+use gcheck_engine::{Event, TravelKind};
+
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+
+declare_rule! {
+    /// A block asks for a chamfer or a rounding to the next move (`,C`, `,R`), and the next move is a rapid one.
+    ///
+    /// ## Why it matters
+    /// The corner lies between two cuts: with a rapid move behind it there is none, and the control alarms.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-lathe
+    /// G21 T0101
+    /// G97 S500 M3
+    /// G99 G0 X20. Z2.
+    /// G1 X10. ,R2. F.1
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 T0101
+    /// G97 S500 M3
+    /// G99 G0 X20. Z2.
+    /// G1 X10. ,R2. F.1
+    /// G1 Z-5.
+    /// G0 X30.
+    /// M30
+    /// ```
+    rule "corner-before-rapid" in "motion" {
+        summary: "chamfer or rounding before a rapid move",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::MOVES, make: || Box::new(CornerBeforeRapid { corner: None }) },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct CornerBeforeRapid {
+    /// The corner that waits for its second move: its word.
+    corner: Option<Range<u32>>,
+}
+
+remembers!(CornerBeforeRapid: corner);
+
+impl PathRule for CornerBeforeRapid {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.survey.letters.intersects(corners())
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let Event::Travel(travel) = event else {
+            self.corner = None;
+            return;
+        };
+        if let Some(corner) = self.corner.take()
+            && travel.kind == TravelKind::Rapid
+            && !travel.expanded
+        {
+            report.add(
+                cx.finding(&META, corner, "chamfer or rounding before a rapid move")
+                    .label("the corner to the next cut")
+                    .also(cx.range(), "the next move is a rapid one")
+                    .help("end the contour with a cut behind the corner, or take the word away")
+                    .at_most(Severity::Warning),
+            );
+        }
+        let is_corner = |word: &gcheck_program::Word| word.letter.is_corner() && word.number() != Some(0.0);
+        if travel.kind == TravelKind::Feed && !travel.expanded && cx.origin().letters.intersects(corners()) {
+            self.corner = cx.find_word(cx.origin().at, is_corner);
+        }
+    }
+}
+
+fn corners() -> LetterSet {
+    [Letter::CORNER_R, Letter::CORNER_C].into_iter().collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn an_arc_takes_the_corner() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G17 G90 G54 G0 X0. Y0.\nG1 X10. ,R2. F100.\nG2 X20. Y10. R10.\nG0 Z5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_word_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G17 G90 G54 G0 X0. Y0.\nG1 X10. ,C2. F100.\nG0 Z5.\nM30\n",
+            &expect![[r#"
+                2 | G1 X10. ,C2. F100.
+                  |         ^^^^ warning[corner-before-rapid] chamfer or rounding before a rapid move
+            "#]],
+        );
+    }
+}

@@ -1,0 +1,136 @@
+//! One tool in another work offset than all others.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::schemes::whole;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch, work_offset_name};
+
+declare_rule! {
+    /// All tools but one work in the same work offset.
+    ///
+    /// ## Why it matters
+    /// An offset that was changed in every section but one sends the tool to the wrong place. Where a tool has a place of its
+    /// own, all is well: the rule is for shops that say so in a comment.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G90 G54
+    /// T1 M6
+    /// G1 X1. F10.
+    /// T2 M6
+    /// G54 G1 X1.
+    /// T3 M6
+    /// G55 G1 X1.
+    /// T4 M6
+    /// G54 G1 X1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G90 G54
+    /// T1 M6
+    /// G1 X1. F10.
+    /// G55 X1.
+    /// T2 M6
+    /// G54 G1 X1.
+    /// G55 X1.
+    /// T3 M6
+    /// G55 G1 X1.
+    /// T4 M6
+    /// G54 G1 X1.
+    /// M30
+    /// ```
+    rule "work-offset-of-one-tool" in "offsets" {
+        summary: "one tool works in another work offset than all others",
+        severity: Info,
+        tier: Path,
+        recommended: false,
+        sets: [Strict],
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CUTS.union(Watch::FINISH),
+            make: || Box::new(WorkOffsetOfOneTool::default()),
+        },
+    }
+}
+
+#[derive(Clone, Default, PartialEq)]
+struct WorkOffsetOfOneTool {
+    /// Tools with the offsets that they cut in, each with the finding to make of it if it is odd.
+    pairs: Vec<(u32, u16, Finding)>,
+}
+
+remembers!(WorkOffsetOfOneTool: pairs);
+
+/// More pairs than this say nothing clear.
+const MOST_PAIRS: usize = 500;
+
+impl PathRule for WorkOffsetOfOneTool {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_)))
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+        let tool = Abstract::known(cx.state().tool()).and_then(whole);
+        let (Some(tool), Some(offset)) = (tool.filter(|tool| *tool > 0), cx.state().work()) else { return };
+        let is_known = self.pairs.iter().any(|(t, o, _)| (*t, *o) == (tool, offset));
+        if is_known || self.pairs.len() >= MOST_PAIRS || cx.is_called_only() {
+            return;
+        }
+        let name = work_offset_name(offset, cx.model);
+        let message = format!("tool {tool} alone works in `{name}`");
+        let mut finding = cx
+            .finding(&META, cx.range(), message)
+            .label("its first cut")
+            .help("see that the offset is meant; where it is, say so in a suppression");
+        if let Some(at) = cx.trace().set_by(Fact::Mode(Role::WorkOffset))
+            && let Some(range) = cx.range_of(at)
+        {
+            finding = finding.also(range, format!("`{name}` chosen here"));
+        }
+        self.pairs.push((tool, offset, finding));
+    }
+
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        let Some((_, first, _)) = self.pairs.first() else { return };
+        let usual = self.pairs.iter().map(|(_, offset, _)| *offset).max_by_key(|offset| {
+            (self.pairs.iter().filter(|(_, other, _)| other == offset).count(), *offset == *first)
+        });
+        let Some(usual) = usual else { return };
+        let followers = self.pairs.iter().filter(|(_, offset, _)| *offset == usual).count();
+        let mut others = self.pairs.iter().filter(|(_, offset, _)| *offset != usual);
+        let (Some((tool, _, finding)), None) = (others.next(), others.next()) else { return };
+        let works_in_both = self.pairs.iter().any(|(t, offset, _)| t == tool && *offset == usual);
+        if followers < 3 || works_in_both {
+            return;
+        }
+        let usual = work_offset_name(usual, cx.model);
+        let note = format!("the {followers} other tools of the program work in `{usual}`");
+        report.add(finding.clone().note(note));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn two_tools_of_another_place_are_meant() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G54 F100.\nT1 M6\nG1 X1.\nT2 M6\nG1 X1.\nT3 M6\nG1 X1.\nG55\nT4 M6\nG1 X1.\nT5 M6\nG1 X2.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

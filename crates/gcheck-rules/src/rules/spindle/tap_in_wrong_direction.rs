@@ -1,0 +1,111 @@
+//! A tapping cycle whose spindle turns the wrong way.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Fact, Spindle};
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+
+declare_rule! {
+    /// A tapping cycle begins with the spindle turning the other way than its thread: a right-hand tap under `M4`, a left-hand
+    /// tap under `M3`.
+    ///
+    /// ## Why it matters
+    /// A control that looks at it refuses the cycle. One that does not would screw the tap out of the hole while it feeds in.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G20 G90 G0 X0 Y0 Z1
+    /// M4 S100
+    /// G84 Z-1 R.1 F10
+    /// G80
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G20 G90 G0 X0 Y0 Z1
+    /// M3 S100
+    /// G84 Z-1 R.1 F10
+    /// G80
+    /// M2
+    /// ```
+    /// Other controls turn the spindle themselves.
+    /// ```nc,quiet,haas-mill
+    /// G20 G90 G54 G0 X0. Y0.
+    /// M4 S100
+    /// G84 Z-1. R.1 F10.
+    /// G80
+    /// M30
+    /// ```
+    rule "tap-in-wrong-direction" in "spindle" {
+        summary: "spindle turns the wrong way for a tapping cycle",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(TapInWrongDirection) },
+    }
+}
+
+struct TapInWrongDirection;
+
+impl PathRule for TapInWrongDirection {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| wanted(effect).is_some())
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // A control that does not look at the spindle turns it itself.
+        if !cx.model.semantics().cycles.tap_needs_spindle {
+            return;
+        }
+        let wanted = cx.codes().iter().find_map(|code| wanted(cx.model.effect(*code)));
+        let (Some(wanted), Some(turns)) = (wanted, cx.state().spindle()) else { return };
+        let starts = |effect| {
+            matches!(effect, Effect::SpindleClockwise | Effect::SpindleCounterClockwise | Effect::SpindleStop)
+        };
+        if turns == wanted || turns == Spindle::Stopped || cx.has_effect(starts) {
+            return;
+        }
+        let finding = cx
+            .finding(
+                &META,
+                cx.effect_range(|effect| matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)),
+                "the spindle turns the wrong way for this tapping cycle",
+            )
+            .label("the control refuses the cycle")
+            .note("a right-hand thread needs the spindle clockwise (`M3`), a left-hand one counter-clockwise (`M4`)")
+            .help("start the spindle the other way, or use the cycle of the other thread")
+            .at_most(limit(cx.model.semantics().confidence));
+        report.add(cx.resting_on(finding, Fact::Spindle, "the direction"));
+    }
+}
+
+/// The way in which the spindle must turn.
+fn wanted(effect: Effect) -> Option<Spindle> {
+    match effect {
+        Effect::CycleTap => Some(Spindle::Clockwise),
+        Effect::CycleLeftTap => Some(Spindle::CounterClockwise),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn left_hand_threads_too() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G20 G90 G0 X0 Y0 Z1\nM3 S100\nG74 Z-1 R.1 F10\nG80\nM2\n",
+            &expect![[r#"
+                3 | G74 Z-1 R.1 F10
+                  | ^^^ error[tap-in-wrong-direction] the spindle turns the wrong way for this tapping cycle
+            "#]],
+        );
+    }
+}

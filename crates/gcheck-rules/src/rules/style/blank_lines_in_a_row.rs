@@ -1,0 +1,78 @@
+//! Several blank lines, one after the other.
+
+use crate::meta::declare_rule;
+use crate::writing::MOST_PLACES;
+use crate::{Edit, FileCx, Finding, Fix, Report, Run};
+
+declare_rule! {
+    /// Two or more blank lines follow each other. Told once for the file.
+    ///
+    /// ## Why it matters
+    /// One blank line sets the parts of a program apart. More of them push code off the small screen of a control.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G0 X1.
+    ///
+    ///
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G0 X1.
+    ///
+    /// M30
+    /// ```
+    rule "blank-lines-in-a-row" in "style" {
+        summary: "several blank lines in a row",
+        severity: Hint,
+        tier: Program,
+        recommended: false,
+        sets: [HouseStyle],
+        mends: Safely,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let text = cx.slice(0..cx.region.end);
+    let mut edits = Vec::new();
+    let (mut start, mut blanks) = (0, 0_usize);
+    while let Some(rest) = text.get(start..).filter(|rest| !rest.is_empty()) {
+        let end = start + gcheck_syntax::line_len(rest.as_bytes());
+        let is_blank = text.get(start..end).unwrap_or_default().trim().is_empty();
+        blanks = if is_blank { blanks + 1 } else { 0 };
+        if blanks > 1 && edits.len() < MOST_PLACES {
+            edits.push(Edit { range: start as u32..end as u32, text: String::new() });
+        }
+        start = end;
+    }
+    let Some(first) = edits.first() else { return };
+    report.add(
+        Finding::new(&META, first.range.clone(), "several blank lines in a row")
+            .label("one more blank line")
+            .help("leave one blank line between two parts")
+            .fix(Fix { title: "leave one blank line".to_owned(), safe: true, edits }),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    fn mended(control: &str, program: &str) -> String {
+        let found = findings(&Selection::only(&RULE), control, program, &World::default());
+        found.iter().map(|finding| fixed(program, finding)).collect()
+    }
+
+    #[test]
+    fn one_stays() {
+        assert_eq!(mended("haas-mill", "G0 X1.\r\n\r\n \r\n\r\nM30\r\n"), "G0 X1.\r\n\r\nM30\r\n");
+        check_rule(&RULE, "haas-mill", "\nG0 X1.\n\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,70 @@
+//! Line ends of two kinds in one file.
+
+use crate::meta::declare_rule;
+use crate::writing::Question;
+use crate::{FileCx, Report, Run};
+
+declare_rule! {
+    /// Some lines end with a line feed, others with a carriage return and a line feed. Told once for the file.
+    ///
+    /// ## Why it matters
+    /// The file was put together from two places. Controls that load over a line, and programs that compare files, stumble over
+    /// it: a block is doubled or seems to have changed.
+    ///
+    /// ## Reported
+    /// `␍` stands for a carriage return.
+    /// ```nc,reported,haas-mill
+    /// G0 X1.␍
+    /// G0 X2.␍
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G0 X1.
+    /// M30
+    /// ```
+    rule "line-ends-mixed" in "style" {
+        summary: "line ends of two kinds",
+        severity: Hint,
+        tier: Program,
+        recommended: false,
+        sets: [HouseStyle],
+        mends: Safely,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let Some(odd) = cx.writing().habit(Question::LineEnd).odd() else { return };
+    let Some(first) = odd.places.first() else { return };
+    let (found, others) = if odd.is_long {
+        ("carriage return and line feed", "line feed")
+    } else {
+        ("line feed", "carriage return and line feed")
+    };
+    let message = format!("line ends with {found} among lines with {others}");
+    let written = if odd.is_long { "" } else { "\r" };
+    report.add(odd.finding(&META, first.clone(), message, |_| written.to_owned()));
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    fn mended(control: &str, program: &str) -> String {
+        let found = findings(&Selection::only(&RULE), control, program, &World::default());
+        found.iter().map(|finding| fixed(program, finding)).collect()
+    }
+
+    #[test]
+    fn the_fix_follows_the_many() {
+        check_rule(&RULE, "haas-mill", "G0 X1.\r\nX2.\r\n", &expect![[""]]);
+        assert_eq!(mended("haas-mill", "G0 X1.\r\nX2.\nX3.\r\n"), "G0 X1.\r\nX2.\r\nX3.\r\n");
+        assert_eq!(mended("haas-mill", "G0 X1.\nX2.\r\nX3.\n"), "G0 X1.\nX2.\nX3.\n");
+    }
+}

@@ -1,0 +1,79 @@
+//! Blanks at the end of lines.
+
+use crate::meta::declare_rule;
+use crate::writing::MOST_PLACES;
+use crate::{Edit, FileCx, Finding, Fix, Report, Run};
+
+declare_rule! {
+    /// Lines end with blanks. Told once for the file.
+    ///
+    /// ## Why it matters
+    /// Nobody sees them, they cost memory of the control, and they make two versions of a program differ where nothing changed.
+    ///
+    /// ## Reported
+    /// `␠` stands for a blank.
+    /// ```nc,reported,haas-mill
+    /// G0 X1.␠␠
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G0 X1.
+    /// M30
+    /// ```
+    rule "trailing-blanks" in "style" {
+        summary: "blanks at the end of lines",
+        severity: Hint,
+        tier: Program,
+        recommended: false,
+        sets: [HouseStyle],
+        mends: Safely,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let text = cx.slice(0..cx.region.end);
+    let mut edits = Vec::new();
+    for line in text.split(['\n', '\r']) {
+        let kept = line.trim_end_matches([' ', '\t']).len();
+        // A blank line belongs to another rule.
+        if kept > 0 && kept < line.len() && edits.len() < MOST_PLACES {
+            let start = line.as_ptr() as usize - text.as_ptr() as usize;
+            let range = (start + kept) as u32..(start + line.len()) as u32;
+            edits.push(Edit { range, text: String::new() });
+        }
+    }
+    let Some(first) = edits.first() else { return };
+    let message = match edits.len() {
+        1 => "line ends with blanks".to_owned(),
+        count => format!("{count} lines end with blanks"),
+    };
+    report.add(
+        Finding::new(&META, first.range.clone(), message)
+            .label("nothing follows")
+            .help("take the blanks away")
+            .fix(Fix { title: "take the blanks away".to_owned(), safe: true, edits }),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::Selection;
+    use crate::testing::{World, check_rule, findings, fixed};
+
+    fn mended(control: &str, program: &str) -> String {
+        let found = findings(&Selection::only(&RULE), control, program, &World::default());
+        found.iter().map(|finding| fixed(program, finding)).collect()
+    }
+
+    #[test]
+    fn line_ends_and_blank_lines_stay() {
+        assert_eq!(mended("haas-mill", "G0 X1. \t\r\n  \r\nM30 \n"), "G0 X1.\r\n  \r\nM30\n");
+        check_rule(&RULE, "haas-mill", "G0 X1.\n   \n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,150 @@
+//! A tool that cuts after its length was cancelled.
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
+
+use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// A tool has worked with its length in effect, the length is cancelled (`G49`), and the tool goes on to cut along Z.
+    ///
+    /// ## Why it matters
+    /// From there the control counts Z for the spindle's nose: the tool goes deeper by its own length.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// S1000 M3
+    /// G90 G54 G0 X0. Y0.
+    /// G43 H1 Z1.
+    /// G1 Z-0.1 F10.
+    /// G0 Z1.
+    /// G49
+    /// X2.
+    /// G1 Z-0.1
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// S1000 M3
+    /// G90 G54 G0 X0. Y0.
+    /// G43 H1 Z1.
+    /// G1 Z-0.1 F10.
+    /// G0 Z1.
+    /// G49
+    /// G53 G0 Z0.
+    /// G43 H1 Z1.
+    /// G1 Z-0.1
+    /// M30
+    /// ```
+    rule "length-cancelled-before-cut" in "tool" {
+        summary: "tool cuts after its length was cancelled",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CUTS,
+            make: || Box::new(LengthCancelledBeforeCut { worked: None, told: None }),
+        },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct LengthCancelledBeforeCut {
+    /// The tool change whose tool has cut with its length in effect.
+    worked: Option<At>,
+    /// The block whose cancelling was told of.
+    told: Option<At>,
+}
+
+remembers!(LengthCancelledBeforeCut: worked, told);
+
+impl PathRule for LengthCancelledBeforeCut {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus))
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let rules = cx.model.semantics().tools;
+        if rules.offset_in_t {
+            return;
+        }
+        let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
+        let Some(changed) = changed else { return };
+        match cx.state().effect(Role::Length, cx.model) {
+            Some(Effect::LengthPlus | Effect::LengthMinus) if is_cut(cx, event) => {
+                self.worked = Some(changed);
+            }
+            Some(Effect::LengthOff) if self.worked == Some(changed) && goes_into_the_part(event) => {
+                let Some(cancelled) = cx.trace().set_by(fact).filter(|at| self.told != Some(*at)) else {
+                    return;
+                };
+                if !cx.origin().letters.contains(Letter::of('Z')) {
+                    return;
+                }
+                self.told = Some(cancelled);
+                let off = cx.code_name(Role::Length).unwrap_or_default();
+                let on = cx.cancel_of(Effect::LengthPlus).unwrap_or_default();
+                let finding = cx
+                    .finding(
+                        &META,
+                        cx.letter_range('Z'),
+                        format!("the tool cuts after its length was cancelled (`{off}`)"),
+                    )
+                    .label("counts for the spindle's nose, the tool is longer by its length")
+                    .help(format!(
+                        "give the length again before (`{on} H…`), or cancel it only when the tool goes away"
+                    ));
+                report.add(cx.resting_on(finding, fact, &format!("`{off}`")));
+            }
+            _ => {}
+        }
+    }
+}
+
+/// A feed move to below the zero of the part: where the tool comes from is not known behind a cancelled length.
+fn goes_into_the_part(event: &Event) -> bool {
+    match event {
+        Event::Travel(travel) => travel.kind == TravelKind::Feed && travel.to.raw(Axis::Z) < 0.0,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn another_tool_is_another_matter() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nS1000 M3\nG90 G54 G43 H1 Z1.\nG1 Z-0.1 F10.\nG49\nT2 M6\nM3\nG1 Z-0.1\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_cut_is_marked_once() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG21 S1000 M3\nG90 G54 G43 H1 Z10.\nG1 Z-1. F100.\nG0 G49 Z50.\nG1 Z-2.\nM8\nG1 Z-3.\nM30\n",
+            &expect![[r#"
+                6 | G1 Z-2.
+                  |    ^^^^ warning[length-cancelled-before-cut] the tool cuts after its length was cancelled (`G49`)
+            "#]],
+        );
+    }
+}

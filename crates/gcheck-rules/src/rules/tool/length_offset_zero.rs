@@ -1,0 +1,84 @@
+//! Tool length compensation with offset number zero.
+
+use gcheck_controls::Effect;
+use gcheck_program::BlockFlags;
+
+use crate::meta::declare_rule;
+use crate::{BlockCx, Finding, Report, Run};
+
+declare_rule! {
+    /// A block moves Z with tool length compensation and offset number zero: `G43 H0 Z1.`.
+    ///
+    /// ## Why it matters
+    /// Offset zero is no length: the spindle's nose goes where the tool's tip should. On some controls `H0` even ends the
+    /// compensation.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G43 H0 Z1.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// Alone in its block it is a way to end the compensation.
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// G43 H0
+    /// M30
+    /// ```
+    rule "length-offset-zero" in "tool" {
+        summary: "tool length compensation with offset number zero",
+        severity: Warning,
+        tier: Block,
+        since: "0.1.0",
+        run: Run::Block { trigger: BlockFlags::CODE, check },
+    }
+}
+
+fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
+    let is_length = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
+    let Some((_, code)) = cx.codes().find(|(_, code)| is_length(code.effect())) else { return };
+    let Some(word) = cx.word('H').filter(|word| word.number() == Some(0.0)) else { return };
+    // Where the tool brings its own length, row zero of the table may be that of the tool.
+    let is_own = cx.control().semantics().tools.length_from_tool;
+    if is_own || cx.word('Z').is_none() || !cx.words_are_plain() {
+        return;
+    }
+    let name = cx.written(code);
+    report.add(
+        Finding::new(
+            &META,
+            cx.range(word),
+            format!("tool length compensation with offset zero (`{name} {}`)", cx.text(word)),
+        )
+        .label("offset zero is no length")
+        .help("give the number of the tool's length offset"),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn tools_that_bring_their_length() {
+        check_rule(&RULE, "linuxcnc", "G21 T1 M6\nG43 H0 Z1\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn computed_numbers_are_not_judged() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 Z1. H#1\nG43 Z1. H00\nM30\n",
+            &expect![[r#"
+            3 | G43 Z1. H00
+              |         ^^^ warning[length-offset-zero] tool length compensation with offset zero (`G43 H00`)
+        "#]],
+        );
+    }
+}

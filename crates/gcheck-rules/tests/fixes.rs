@@ -1,0 +1,61 @@
+//! What every fix makes of the examples of its rule's documentation.
+
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
+use std::fmt::Write as _;
+
+use expect_test::expect_file;
+use gcheck_program::Dialect;
+use gcheck_rules::{
+    Execution, FixKinds, Job, MachineFacts, Mends, NoPrograms, RuleEntry, Scene, Selection, all, check, mend,
+};
+use gcheck_syntax::SourceText;
+
+/// An example with all fixes of one rule in it.
+fn mended(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (String, usize) {
+    let control = gcheck_controls::load(control).unwrap();
+    let dialect = Dialect::new(&control);
+    let machine = MachineFacts::default();
+    // A rule about suppressions speaks of the silence of other rules.
+    let is_of_suppressions = rule.meta.group == "suppressions";
+    let selection = if is_of_suppressions { Selection::default() } else { Selection::only(rule) };
+    let mended = mend(SourceText::from(program), kinds, |source| {
+        let scene =
+            Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+        let execution = Execution::default();
+        let mut outcome = check(&Job { source, scene, selection: &selection, suppressions: true, execution });
+        outcome.findings.retain(|finding| std::ptr::eq(finding.rule, rule.meta));
+        outcome
+    });
+    (mended.source.text().to_owned(), mended.count)
+}
+
+/// Signs that nobody sees, as the documentation writes them.
+fn visible(program: &str) -> String {
+    let text = program.replace('\r', "␍").replace('\t', "␉").replace(" \n", "␠\n");
+    if text.ends_with('\n') { text } else { format!("{text}␃\n") }
+}
+
+#[test]
+fn every_rule_that_mends_mends_its_examples() {
+    let mut page = String::new();
+    for rule in all().iter().filter(|rule| rule.meta.mends != Mends::Nothing) {
+        let id = rule.meta.id;
+        let kinds = if rule.meta.mends == Mends::Safely { FixKinds::Safe } else { FixKinds::All };
+        let mut is_mended = false;
+        for example in rule.meta.examples().iter().filter(|example| example.reported) {
+            let (after, count) = mended(rule, &example.code, &example.control, kinds);
+            if count == 0 {
+                continue;
+            }
+            is_mended = true;
+            let option = rule.meta.mends.option();
+            let _ = writeln!(page, "## {id} ({option}, {})\n", example.control);
+            let _ = writeln!(page, "{}--\n{}", visible(&example.code), visible(&after));
+            let (again, count) = mended(rule, &after, &example.control, kinds);
+            assert_eq!((again, count), (after, 0), "{id}: a second run changes something");
+        }
+        assert!(is_mended, "{id} mends no example");
+    }
+    expect_file!["fixes.txt"].assert_eq(&page);
+}

@@ -1,0 +1,125 @@
+//! Documents that are open in the editor.
+//!
+//! Knows: which document is which, what of it is stale. Must not know: how anything about it is worked out.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, PoisonError, RwLock};
+
+use gcheck_db::{DocumentId, Snapshot};
+use gcheck_ide::RunFigures;
+
+use crate::proto::Uri;
+use crate::{InForce, OpenPrograms};
+
+/// A document that is open in the editor.
+#[derive(Debug)]
+pub(crate) struct Document {
+    pub(crate) uri: Uri,
+    pub(crate) id: DocumentId,
+    /// Where it is on disk, or would be.
+    pub(crate) path: PathBuf,
+    pub(crate) version: i32,
+    /// What is in force, as the host said last.
+    pub(crate) in_force: InForce,
+    /// What the host says must be asked again: the head of the text has changed, or something beyond it.
+    pub(crate) stale: Stale,
+    /// Changes with everything that findings depend on.
+    pub(crate) clock: Clock,
+    /// The user wants to see findings of the text as it is: it was opened, saved, or is analysed while it is typed.
+    pub(crate) wants_findings: bool,
+    /// The clock when findings were published last.
+    pub(crate) published: Option<u64>,
+    /// How often the analysis was given up for a question since it last came to its end.
+    pub(crate) given_up: u32,
+    /// The clock when its analysis met a mistake of our own: it is not tried again with the same text.
+    pub(crate) failed: Option<u64>,
+    /// What its run amounted to, and the clock then.
+    pub(crate) figures: Option<(u64, Arc<RunFigures>)>,
+    /// A run of it is under way.
+    pub(crate) is_running: bool,
+    /// When it was changed last, compared with others.
+    pub(crate) touched: u64,
+}
+
+/// What of a document's settings has to be asked for again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Stale {
+    /// Nothing.
+    No,
+    /// What it may call has changed; its settings are as they were.
+    Callees,
+    /// Its head has changed, which may choose another control.
+    Head,
+    /// Configuration or files have changed.
+    Settings,
+}
+
+/// A number that changes with a document, and that work elsewhere can look at.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Clock(Arc<AtomicU64>);
+
+impl Clock {
+    pub(crate) fn now(&self) -> u64 {
+        self.0.load(Ordering::Acquire)
+    }
+
+    pub(crate) fn tick(&self) {
+        self.0.fetch_add(1, Ordering::AcqRel);
+    }
+}
+
+impl Document {
+    /// Its file's name without folders.
+    pub(crate) fn name(&self) -> Arc<str> {
+        file_name(&self.path)
+    }
+
+    /// The folder it stands in.
+    pub(crate) fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(&self.path)
+    }
+
+    /// Something changed that its findings depend on.
+    pub(crate) fn changed(&mut self, stale: Stale) {
+        self.stale = self.stale.max(stale);
+        self.clock.tick();
+    }
+}
+
+/// A file's name without folders.
+pub(crate) fn file_name(path: &Path) -> Arc<str> {
+    path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default().into()
+}
+
+/// The texts of open documents, for the host, which asks from other threads too.
+#[derive(Debug, Default)]
+pub(crate) struct OpenTexts {
+    by_path: RwLock<BTreeMap<PathBuf, (u64, Snapshot)>>,
+}
+
+impl OpenTexts {
+    /// Takes the text of a document as it is at `clock`.
+    pub(crate) fn put(&self, path: &Path, clock: u64, snapshot: Snapshot) {
+        let mut texts = self.by_path.write().unwrap_or_else(PoisonError::into_inner);
+        texts.insert(path.to_owned(), (clock, snapshot));
+    }
+
+    pub(crate) fn remove(&self, path: &Path) {
+        self.by_path.write().unwrap_or_else(PoisonError::into_inner).remove(path);
+    }
+}
+
+impl OpenPrograms for OpenTexts {
+    fn text(&self, path: &Path) -> Option<String> {
+        let texts = self.by_path.read().unwrap_or_else(PoisonError::into_inner);
+        texts.get(path).map(|(_, snapshot)| snapshot.text())
+    }
+
+    fn in_folder(&self, folder: &Path) -> Vec<(PathBuf, u64)> {
+        let texts = self.by_path.read().unwrap_or_else(PoisonError::into_inner);
+        let there = texts.iter().filter(|(path, _)| path.parent() == Some(folder));
+        there.map(|(path, (clock, _))| (path.clone(), *clock)).collect()
+    }
+}

@@ -1,0 +1,161 @@
+//! Changes of the text that the user asks for: actions at a place, formatting.
+//!
+//! Knows: their forms in the protocol. Must not know: what is changed how.
+
+use gcheck_db::Snapshot;
+use gcheck_ide::{ActionKind, FileEdits, Style};
+
+use super::commands::OPEN_PAGE;
+use super::navigating::workspace_edit;
+use super::{given_up, text_edits};
+use crate::owner::{Addressed, Owner};
+use crate::position::Places;
+use crate::proto::{
+    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, CodeActionResponse, Command,
+    Diagnostic, DocumentFormattingParams, DocumentOnTypeFormattingParams, DocumentRangeFormattingParams,
+    NumberOrString, Result, TextEdit, Uri,
+};
+
+/// Mends what has a fix that changes no move; editors may run it whenever a file is saved.
+const FIX_ALL: &str = "source.fixAll.gcheck";
+
+/// The kinds of actions, for clients that ask for one kind.
+pub(crate) fn action_kinds() -> Vec<CodeActionKind> {
+    vec![
+        CodeActionKind::QUICKFIX,
+        CodeActionKind::REFACTOR_REWRITE,
+        CodeActionKind::SOURCE,
+        CodeActionKind::from(FIX_ALL),
+    ]
+}
+
+impl Owner {
+    pub(crate) fn code_actions(
+        &mut self,
+        params: &CodeActionParams,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<CodeActionResponse>> {
+        if !self.abilities.action_literals {
+            return Ok(None);
+        }
+        let uri = &params.text_document.uri;
+        self.choose_settings(uri);
+        let snapshot = self.snapshot(uri)?;
+        let mut places = self.places(&snapshot);
+        let range = places.bytes(params.range);
+        // Fixes are of findings, so the findings must be there.
+        let analysis = self.analyse(uri, stop).map_err(given_up)?;
+        let document = self.document(uri)?;
+        let (id, version) = (document.id, document.version);
+        let found = gcheck_ide::code_actions(&mut self.database, id, range, analysis.as_deref(), stop)
+            .map_err(given_up)?;
+        let files = Addressed::of(uri, id, version, document_name(self, uri), snapshot.clone());
+        let mut out = Vec::new();
+        for action in found {
+            let kind = match action.kind {
+                ActionKind::Fix | ActionKind::Suppress | ActionKind::Explain => CodeActionKind::QUICKFIX,
+                ActionKind::FixAll => CodeActionKind::from(FIX_ALL),
+                ActionKind::Rewrite => CodeActionKind::REFACTOR_REWRITE,
+                ActionKind::Source => CodeActionKind::SOURCE,
+            };
+            if !is_wanted(&kind, params.context.only.as_deref()) {
+                continue;
+            }
+            let answers = action.finding.as_ref().zip(action.rule).map(|(bytes, rule)| {
+                let range = places.range(bytes);
+                let is_it = |shown: &&Diagnostic| {
+                    shown.range == range && shown.code == Some(NumberOrString::String(rule.to_owned()))
+                };
+                params.context.diagnostics.iter().filter(is_it).cloned().collect::<Vec<_>>()
+            });
+            let edit = (!action.edits.is_empty()).then(|| {
+                let edits = vec![FileEdits { file: id, edits: action.edits }];
+                workspace_edit(&files, edits, self.abilities.encoding, self.abilities.versioned_edits)
+            });
+            let command = action.link.map(|link| Command {
+                title: action.title.clone(),
+                command: OPEN_PAGE.to_owned(),
+                arguments: Some(vec![link.into()]),
+            });
+            out.push(CodeActionOrCommand::CodeAction(CodeAction {
+                title: action.title,
+                kind: Some(kind),
+                diagnostics: answers.filter(|list| !list.is_empty()),
+                edit,
+                command,
+                is_preferred: action.is_preferred.then_some(true),
+                disabled: None,
+                data: None,
+            }));
+        }
+        Ok(Some(out))
+    }
+
+    pub(crate) fn formatting(&mut self, params: &DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>> {
+        let uri = &params.text_document.uri;
+        self.format(uri, |snapshot, _, style| gcheck_ide::format_in(snapshot, style, None))
+    }
+
+    pub(crate) fn range_formatting(
+        &mut self,
+        params: &DocumentRangeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        self.format(&params.text_document.uri, |snapshot, places, style| {
+            gcheck_ide::format_in(snapshot, style, Some(places.bytes(params.range)))
+        })
+    }
+
+    pub(crate) fn on_type_formatting(
+        &mut self,
+        params: &DocumentOnTypeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        let at = &params.text_document_position;
+        self.format(&at.text_document.uri, |snapshot, places, style| {
+            gcheck_ide::format_on_type_in(snapshot, style, places.offset(at.position))
+        })
+    }
+
+    fn format(
+        &mut self,
+        uri: &Uri,
+        edits: impl FnOnce(&Snapshot, &Places<'_>, &Style) -> Vec<gcheck_ide::Edit>,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        self.choose_settings(uri);
+        let snapshot = self.snapshot(uri)?;
+        let mut places = self.places(&snapshot);
+        let style = self.document(uri)?.in_force.style.clone();
+        let style = style.unwrap_or_else(|| Style::of(snapshot.control()));
+        let edits = edits(&snapshot, &places, &style);
+        Ok(Some(text_edits(edits, &mut places)))
+    }
+}
+
+fn document_name(owner: &Owner, uri: &Uri) -> std::sync::Arc<str> {
+    owner.document(uri).map(crate::documents::Document::name).unwrap_or_default()
+}
+
+/// A client that asks for `source` wants `source.fixAll.gcheck` too.
+fn is_wanted(kind: &CodeActionKind, only: Option<&[CodeActionKind]>) -> bool {
+    only.is_none_or(|only| {
+        only.iter().any(|wanted| {
+            let rest = kind.as_str().strip_prefix(wanted.as_str());
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || wanted.as_str().is_empty())
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{FIX_ALL, is_wanted};
+    use crate::proto::CodeActionKind;
+
+    #[test]
+    fn kinds_are_asked_for_by_their_beginning() {
+        let fix_all = CodeActionKind::from(FIX_ALL);
+        assert!(is_wanted(&fix_all, None));
+        assert!(is_wanted(&fix_all, Some(&[CodeActionKind::SOURCE])));
+        assert!(is_wanted(&fix_all, Some(&[CodeActionKind::SOURCE_FIX_ALL])));
+        assert!(!is_wanted(&fix_all, Some(&[CodeActionKind::QUICKFIX])));
+        assert!(!is_wanted(&CodeActionKind::from("sources"), Some(&[CodeActionKind::SOURCE])));
+    }
+}

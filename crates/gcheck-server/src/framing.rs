@@ -1,0 +1,210 @@
+//! Messages in a stream of bytes: a header with the length, an empty line, the body.
+//!
+//! Knows: JSON-RPC's frame, and how to go on behind a broken one. Must not know: methods.
+//!
+//! A header that says no length is skipped up to the next one that does; the body of a message is read as it comes, so that
+//! a length that nobody keeps costs no memory.
+
+use std::io::{self, BufRead, Read as _, Write};
+
+use serde_json::Value;
+
+use crate::proto::{Message, Response};
+
+/// Longer messages are refused: no program is that long.
+const MOST_BYTES: u64 = 4 << 30;
+/// Longer lines of a header are none.
+const MOST_HEADER_BYTES: u64 = 4 << 10;
+
+/// What came from the other side.
+#[derive(Debug)]
+pub(crate) enum Incoming {
+    /// A request or notification.
+    Message(Message),
+    /// The answer to one of ours.
+    Answer(Response),
+    /// Bytes that are no message.
+    Malformed(Malformed),
+}
+
+/// Why something is no message.
+#[derive(Debug)]
+pub(crate) struct Malformed {
+    /// It was JSON, but no request.
+    pub(crate) is_json: bool,
+    /// Its id, as far as it had one.
+    pub(crate) id: Option<Value>,
+    /// What is wrong, for the log.
+    pub(crate) reason: String,
+}
+
+impl Malformed {
+    fn frame(reason: impl Into<String>) -> Incoming {
+        Incoming::Malformed(Self { is_json: false, id: None, reason: reason.into() })
+    }
+}
+
+/// Reads the next message; `None` at the end of the stream.
+pub(crate) fn read(from: &mut impl BufRead) -> io::Result<Option<Incoming>> {
+    let Some(length) = header(from)? else { return Ok(None) };
+    let length = match length {
+        Ok(length) => length,
+        Err(reason) => return Ok(Some(Malformed::frame(reason))),
+    };
+    // Grows with what really comes, not with what is promised.
+    let mut body = Vec::new();
+    from.take(length).read_to_end(&mut body)?;
+    if (body.len() as u64) < length {
+        return Ok(None);
+    }
+    Ok(Some(message(&body)))
+}
+
+/// Reads a header; the inner error is a header without a length.
+fn header(from: &mut impl BufRead) -> io::Result<Option<Result<u64, String>>> {
+    let mut length = None;
+    let mut strange = None;
+    loop {
+        let mut line = Vec::new();
+        from.by_ref().take(MOST_HEADER_BYTES).read_until(b'\n', &mut line)?;
+        if line.is_empty() {
+            return Ok(None);
+        }
+        let text = String::from_utf8_lossy(&line);
+        let text = text.trim();
+        if text.is_empty() {
+            match (length, strange.take()) {
+                (Some(length), _) => return Ok(Some(Ok(length))),
+                (None, Some(strange)) => return Ok(Some(Err(strange))),
+                // Empty lines between two messages.
+                (None, None) => continue,
+            }
+        }
+        match text.split_once(':') {
+            Some((name, value)) if name.trim().eq_ignore_ascii_case("content-length") => {
+                match value.trim().parse() {
+                    Ok(bytes) if bytes <= MOST_BYTES => length = Some(bytes),
+                    _ => strange = Some(format!("`{text}` is no length of a message")),
+                }
+            }
+            Some((name, _)) if name.trim().eq_ignore_ascii_case("content-type") => {}
+            _ => strange = Some("the header of a message has no `Content-Length`".to_owned()),
+        }
+    }
+}
+
+fn message(body: &[u8]) -> Incoming {
+    let value: Value = match serde_json::from_slice(body) {
+        Ok(value) => value,
+        Err(error) => return Malformed::frame(format!("a message is no JSON: {error}")),
+    };
+    let id = value.get("id").cloned();
+    let malformed = |reason: String| Incoming::Malformed(Malformed { is_json: true, id: id.clone(), reason });
+    if value.get("method").is_some() {
+        serde_json::from_value(value)
+            .map_or_else(|error| malformed(format!("a message is no request: {error}")), Incoming::Message)
+    } else if value.get("result").is_some() || value.get("error").is_some() {
+        serde_json::from_value(value)
+            .map_or_else(|error| malformed(format!("a message is no answer: {error}")), Incoming::Answer)
+    } else {
+        malformed("a message has neither method nor result".to_owned())
+    }
+}
+
+/// Writes a message.
+pub(crate) fn write(to: &mut impl Write, message: &impl serde::Serialize) -> io::Result<()> {
+    let body = serde_json::to_vec(message)?;
+    write!(to, "Content-Length: {}\r\n\r\n", body.len())?;
+    to.write_all(&body)?;
+    to.flush()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{Incoming, read};
+
+    fn all(bytes: &[u8]) -> String {
+        let mut from = bytes;
+        let mut out = String::new();
+        while let Some(incoming) = read(&mut from).unwrap() {
+            match incoming {
+                Incoming::Message(message) => out.push_str(&format!("message {}\n", message.method())),
+                Incoming::Answer(answer) => out.push_str(&format!("answer to {}\n", answer.id())),
+                Incoming::Malformed(malformed) => {
+                    out.push_str(&format!("malformed, id {:?}: {}\n", malformed.id, malformed.reason));
+                }
+            }
+        }
+        out
+    }
+
+    fn framed(body: &str) -> String {
+        format!("Content-Length: {}\r\n\r\n{body}", body.len())
+    }
+
+    #[test]
+    fn messages_follow_each_other() {
+        let stream = framed(r#"{"jsonrpc":"2.0","method":"exit"}"#)
+            + &framed(r#"{"jsonrpc":"2.0","id":1,"result":null}"#)
+            + "content-type: application/vscode-jsonrpc; charset=utf8\r\n"
+            + &framed(r#"{"jsonrpc":"2.0","id":2,"method":"shutdown"}"#);
+        expect![[r"
+            message exit
+            answer to 1
+            message shutdown
+        "]]
+        .assert_eq(&all(stream.as_bytes()));
+    }
+
+    #[test]
+    fn what_is_no_message_is_said_and_passed_over() {
+        let good = framed(r#"{"jsonrpc":"2.0","method":"good"}"#);
+        let stream = [
+            framed("{\"jsonrpc\""),
+            framed(r#"{"method":"no version","id":7}"#),
+            framed("[]"),
+            framed(""),
+            "garbage\r\n\r\n".to_owned(),
+            "Content-Length: much\r\n\r\n".to_owned(),
+            "Content-Length: 99999999999999\r\n\r\n".to_owned(),
+        ];
+        let stream: String = stream.iter().flat_map(|bad| [bad.as_str(), &good]).collect();
+        expect![[r#"
+            malformed, id None: a message is no JSON: EOF while parsing an object at line 1 column 10
+            message good
+            malformed, id Some(Number(7)): a message is no request: missing field `jsonrpc`
+            message good
+            malformed, id None: a message has neither method nor result
+            message good
+            malformed, id None: a message is no JSON: EOF while parsing a value at line 1 column 0
+            message good
+            malformed, id None: the header of a message has no `Content-Length`
+            message good
+            malformed, id None: `Content-Length: much` is no length of a message
+            message good
+            malformed, id None: `Content-Length: 99999999999999` is no length of a message
+            message good
+        "#]]
+        .assert_eq(&all(stream.as_bytes()));
+    }
+
+    #[test]
+    fn bytes_that_are_no_utf_8_are_no_json() {
+        let mut stream = b"Content-Length: 3\r\n\r\n\"\xFF\"".to_vec();
+        stream.extend(framed(r#"{"jsonrpc":"2.0","method":"good"}"#).bytes());
+        expect![[r#"
+            malformed, id None: a message is no JSON: invalid unicode code point at line 1 column 2
+            message good
+        "#]]
+        .assert_eq(&all(&stream));
+    }
+
+    #[test]
+    fn a_stream_that_breaks_off_ends() {
+        assert_eq!(all(b"Content-Length: 4000000000\r\n\r\n{"), "");
+        assert_eq!(all(b"Content-Le"), "");
+        assert_eq!(all(b""), "");
+    }
+}

@@ -1,0 +1,108 @@
+//! Where settings and files come from: a trait that the program with the server in it fills.
+//!
+//! Knows: what the server needs to be told. Must not know: files, folders, forms of configuration.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gcheck_db::Settings;
+
+/// The surroundings of the server.
+pub trait Host: Send + Sync + 'static {
+    /// What is in force for a program.
+    fn in_force(&self, program: &ProgramQuery<'_>) -> InForce;
+
+    /// The programs that stand in a folder itself, by path. A folder that cannot be read has none.
+    fn programs_in(&self, folder: &Path) -> Vec<ProgramFile>;
+
+    /// The programs of a folder and of those below it that a check of the folder would read, by path.
+    fn programs_below(&self, folder: &Path) -> Vec<ProgramFile>;
+
+    /// The text of a program on disk, with a stand-in of one byte for each byte that is not UTF-8; `None` when it cannot be
+    /// read, is no text, or is gone.
+    fn read(&self, path: &Path) -> Option<String>;
+
+    /// Forgets what is known of files: some have changed.
+    fn forget(&self);
+
+    /// Patterns of the files whose changes the server wants to hear of: `**/name`.
+    fn watched(&self) -> Vec<String>;
+}
+
+/// A program file on disk.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProgramFile {
+    /// Where it is.
+    pub path: PathBuf,
+    /// Its size in bytes.
+    pub size: u64,
+    /// Changes when the file does.
+    pub stamp: u64,
+}
+
+/// A program whose settings are asked for.
+#[derive(Clone)]
+pub struct ProgramQuery<'q> {
+    /// Where it is, or would be.
+    pub path: &'q Path,
+    /// Its first [`gcheck_rules::EVIDENCE_BYTES`] bytes and the rest of their last line.
+    pub head: &'q str,
+    /// The control that the user chose for all programs, in the editor.
+    pub control: Option<&'q str>,
+    /// The configuration that the user chose for all programs, in the editor.
+    pub configuration: Option<&'q Path>,
+    /// Texts that stand in the place of files.
+    pub open: &'q Arc<dyn OpenPrograms>,
+}
+
+/// Programs that are open in the editor: their text is what counts, whatever is on disk.
+pub trait OpenPrograms: Send + Sync {
+    /// The text of an open program.
+    fn text(&self, path: &Path) -> Option<String>;
+    /// The open programs of a folder, by path; the number changes with the text.
+    fn in_folder(&self, folder: &Path) -> Vec<(PathBuf, u64)>;
+}
+
+/// What is in force for a program.
+#[derive(Debug, Clone)]
+pub struct InForce {
+    /// For the analysis. `None` when the configuration cannot be read: nothing is said of a program whose control and
+    /// machine nobody knows.
+    pub settings: Option<Settings>,
+    /// How the control came about.
+    pub choice: Choice,
+    /// How the program is to be written; `None` as the control does it.
+    pub style: Option<gcheck_ide::Style>,
+    /// The folders whose programs it may call, its own first.
+    pub folders: Vec<PathBuf>,
+    /// The configuration, if there is one.
+    pub configuration: Option<PathBuf>,
+    /// What is wrong with the configuration, or with what the program says of its control.
+    pub problems: Vec<ConfigurationProblem>,
+}
+
+/// The control of a program and how it was chosen.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Choice {
+    /// Its name.
+    pub control: String,
+    /// `option`, `comment`, `configuration`, `detected` or `default`.
+    pub source: String,
+    /// What made it so: a comment, a file.
+    pub because: Option<String>,
+}
+
+/// Something that is wrong with a configuration.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ConfigurationProblem {
+    /// The file; `None` for what is no file's fault.
+    pub path: Option<PathBuf>,
+    /// Line, from 0.
+    pub line: u32,
+    /// Characters before it in its line.
+    pub column: u32,
+    /// Its characters.
+    pub length: u32,
+    /// In words.
+    pub message: String,
+}

@@ -1,0 +1,221 @@
+//! The thread that owns everything: documents are edited, settings chosen, findings worked out, one thing after another.
+//!
+//! Knows: the order of work, what is stale, when work is given up for something better. Must not know: how features
+//! answer, how messages travel.
+//!
+//! Letters are taken in the order in which they came. Only when none waits are findings worked out, and they are given up
+//! when an edit comes in; so an edit never waits, and no finding of an old text is shown.
+
+mod diagnosing;
+mod settings;
+mod synchronizing;
+mod workspace;
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
+
+use gcheck_db::{Database, Settings, Snapshot};
+
+use crate::client::{Abilities, ClientSettings};
+use crate::documents::{Document, OpenTexts};
+use crate::mailbox::{Inbox, Letter, Mailbox, Reply, Waiting, Workers};
+use crate::outbox::Outbox;
+use crate::position::Places;
+use crate::proto::{Error, MessageType, Result, Uri};
+use crate::{Host, OpenPrograms};
+use workspace::Disk;
+
+pub(crate) use settings::Unopened;
+pub(crate) use synchronizing::path_of;
+pub(crate) use workspace::Addressed;
+
+/// How long nothing may happen before the owner looks up; nothing depends on it.
+const IDLE: Duration = Duration::from_mins(10);
+/// A question that takes longer is given up when an edit comes in.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Everything the server knows.
+#[derive(Debug)]
+pub(crate) struct Owner {
+    pub(crate) outbox: Arc<Outbox>,
+    pub(crate) mailbox: Mailbox,
+    pub(crate) workers: Workers,
+    pub(crate) abilities: Abilities,
+    pub(crate) database: Database,
+    /// Open documents.
+    pub(crate) documents: BTreeMap<Uri, Document>,
+    pub(crate) host: HostHandle,
+    waiting: Arc<Waiting>,
+    disk: Disk,
+    open: Arc<OpenTexts>,
+    /// Folders of the workspace.
+    pub(crate) folders: Vec<PathBuf>,
+    /// What the user has set: for each folder of the workspace where the client tells it so, then for all.
+    client_settings: Vec<(Option<PathBuf>, ClientSettings)>,
+    /// Files with problems of configuration that the client was told of.
+    shown_problems: Vec<PathBuf>,
+    /// Counts changes of documents.
+    touches: u64,
+    /// Counts changes of files and configuration.
+    world: u64,
+    /// The client has said `initialized`, and may be told things.
+    is_ready: bool,
+}
+
+/// The host behind a name of its own, because a trait object has no form to be printed.
+#[derive(Clone)]
+pub(crate) struct HostHandle(pub(crate) Arc<dyn Host>);
+
+impl std::fmt::Debug for HostHandle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Host")
+    }
+}
+
+impl Owner {
+    pub(crate) fn new(host: Arc<dyn Host>, outbox: Arc<Outbox>, mailbox: Mailbox, inbox: &Inbox) -> Self {
+        Self {
+            outbox,
+            mailbox,
+            workers: Workers::start(),
+            abilities: Abilities::default(),
+            database: Database::new(),
+            documents: BTreeMap::new(),
+            host: HostHandle(host),
+            waiting: inbox.waiting(),
+            disk: Disk::default(),
+            open: Arc::default(),
+            folders: Vec::new(),
+            client_settings: vec![(None, ClientSettings::read(&serde_json::Value::Null).0)],
+            shown_problems: Vec::new(),
+            touches: 0,
+            world: 0,
+            is_ready: false,
+        }
+    }
+
+    /// Works until nobody is left to post anything.
+    pub(crate) fn run(mut self, inbox: &Inbox) {
+        loop {
+            let next = self.next_to_diagnose();
+            let patience = if next.is_some() { Duration::ZERO } else { IDLE };
+            match (inbox.next(patience), next) {
+                (Ok(letter), _) => self.open_letter(letter),
+                (Err(RecvTimeoutError::Timeout), Some(uri)) => {
+                    if !self.guarded("analysis", |owner| owner.diagnose(&uri)) {
+                        self.give_up_on(&uri);
+                    }
+                }
+                (Err(RecvTimeoutError::Timeout), None) => {}
+                (Err(RecvTimeoutError::Disconnected), _) => return,
+            }
+        }
+    }
+
+    fn open_letter(&mut self, letter: Letter) {
+        let Letter { name, work, .. } = letter;
+        let start = self.is_traced().then(Instant::now);
+        self.guarded(name, work);
+        if let Some(start) = start {
+            let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+            self.outbox.log(MessageType::LOG, format!("{name}: {milliseconds:.1} ms"));
+        }
+    }
+
+    fn is_traced(&self) -> bool {
+        self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.trace)
+    }
+
+    /// Does work. A panic ends it, and is said; what the work had in hand may be broken and is made anew.
+    fn guarded(&mut self, name: &str, work: impl FnOnce(&mut Self)) -> bool {
+        let Err(payload) = catch_unwind(AssertUnwindSafe(|| work(self))) else { return true };
+        let text = payload.downcast_ref::<String>().map(String::as_str);
+        let what = text.or_else(|| payload.downcast_ref::<&str>().copied()).unwrap_or("no words");
+        let message = format!(
+            "a mistake of gcheck itself in {name}: {what}; please report it with the program, or as much of it as \
+             you can show"
+        );
+        self.outbox.log(MessageType::ERROR, message);
+        self.rebuild();
+        false
+    }
+
+    /// Makes the database anew from the texts of the open documents.
+    fn rebuild(&mut self) {
+        let mut database = Database::new();
+        self.disk = Disk::default();
+        for document in self.documents.values_mut() {
+            let settings = document.in_force.settings.clone().unwrap_or_else(fallback_settings);
+            let text =
+                self.database.snapshot(document.id).map(|snapshot| snapshot.text()).unwrap_or_default();
+            document.id = database.open(&text, settings);
+            document.figures = None;
+        }
+        self.database = database;
+    }
+
+    /// Answers a question at once, on this thread.
+    pub(crate) fn answer<T>(
+        &mut self,
+        reply: Reply<T>,
+        work: impl FnOnce(&mut Self, &dyn Fn() -> bool) -> Result<T>,
+    ) {
+        let start = Instant::now();
+        let waiting = Arc::clone(&self.waiting);
+        let answer = {
+            let stop = || reply.is_cancelled() || (waiting.has_changes() && start.elapsed() > PATIENCE);
+            work(self, &stop)
+        };
+        reply.send(answer);
+    }
+
+    /// An open document.
+    pub(crate) fn document(&self, uri: &Uri) -> Result<&Document> {
+        self.documents.get(uri).ok_or_else(|| not_open(uri))
+    }
+
+    /// An open document with its text.
+    pub(crate) fn snapshot(&mut self, uri: &Uri) -> Result<Snapshot> {
+        let id = self.document(uri)?.id;
+        self.database.snapshot(id).ok_or_else(|| not_open(uri))
+    }
+
+    /// For translating places of a document.
+    pub(crate) fn places<'s>(&self, snapshot: &'s Snapshot) -> Places<'s> {
+        Places::new(snapshot, self.abilities.encoding)
+    }
+
+    /// What the user has set for a document.
+    pub(crate) fn client_settings(&self, document: &Document) -> &ClientSettings {
+        settings::nearest(&self.client_settings, &document.path)
+    }
+
+    /// Changes with files and configuration.
+    pub(crate) fn world(&self) -> u64 {
+        self.world
+    }
+
+    fn open_programs(&self) -> Arc<dyn OpenPrograms> {
+        Arc::<OpenTexts>::clone(&self.open)
+    }
+
+    pub(crate) fn log(&self, kind: MessageType, message: impl Into<String>) {
+        self.outbox.log(kind, message);
+    }
+}
+
+/// Settings for a text whose own nobody knows, so that it can be read at all.
+fn fallback_settings() -> Settings {
+    let control = gcheck_controls::load(gcheck_controls::fallback());
+    #[expect(clippy::expect_used, reason = "the data of the fallback is built in and read by tests")]
+    let control = control.expect("the fallback is a control");
+    Settings { selection: Arc::new(gcheck_rules::Selection::none()), ..Settings::new(control) }
+}
+
+pub(crate) fn not_open(uri: &Uri) -> Error {
+    Error::invalid_params(format!("{} is not open", uri.as_str()))
+}

@@ -1,0 +1,216 @@
+//! Findings of open documents: when they are worked out, when that is given up, what becomes of them.
+//!
+//! Knows: what is fresh, progress that is shown. Must not know: how findings are made, how they look to the client.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, AtomicU32, Ordering};
+use std::time::{Duration, Instant};
+
+use gcheck_db::{Analysis, Cancelled};
+
+use super::Owner;
+use crate::diagnostics;
+use crate::documents::Stale;
+use crate::mailbox::Waiting;
+use crate::outbox::Outbox;
+use crate::proto::{
+    Diagnostic, MessageType, NumberOrString, Progress, ProgressParams, ProgressParamsValue,
+    PublishDiagnostics, PublishDiagnosticsParams, Uri, WorkDoneProgress, WorkDoneProgressBegin,
+    WorkDoneProgressCreate, WorkDoneProgressCreateParams, WorkDoneProgressEnd,
+};
+
+/// An analysis that was given up this often for questions is brought to its end before they are answered.
+const MOST_GIVEN_UP: u32 = 20;
+/// An analysis that takes longer is shown to be under way.
+const SHOWN_AFTER: Duration = Duration::from_millis(500);
+
+impl Owner {
+    /// The open document whose findings are to be worked out next: the one that was touched last.
+    pub(super) fn next_to_diagnose(&self) -> Option<Uri> {
+        if !self.is_ready || self.abilities.pulls {
+            return None;
+        }
+        let waiting = self.documents.values().filter(|document| {
+            let now = Some(document.clock.now());
+            document.wants_findings && document.published != now && document.failed != now
+        });
+        waiting.max_by_key(|document| document.touched).map(|document| document.uri.clone())
+    }
+
+    /// Works out the findings of a document and publishes them, unless something better comes up.
+    pub(super) fn diagnose(&mut self, uri: &Uri) {
+        let Some(document) = self.documents.get(uri) else { return };
+        let for_questions = document.given_up < MOST_GIVEN_UP;
+        let waiting = Arc::clone(&self.waiting);
+        let analysis = self.analyse(uri, &|| for_questions && waiting.has_questions());
+        if let Some(document) = self.documents.get_mut(uri) {
+            document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
+        }
+        let Ok(analysis) = analysis else { return };
+        let list = self.diagnostics_of(uri, analysis.as_deref());
+        let Some(document) = self.documents.get_mut(uri) else { return };
+        document.published = Some(document.clock.now());
+        let version = Some(document.version);
+        self.outbox.notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri.clone(), list, version));
+    }
+
+    /// The analysis of a document as it is; `None` where nothing is in force. `stop` ends it, and so does an edit.
+    ///
+    /// # Errors
+    /// [`Cancelled`] when it was given up.
+    pub(crate) fn analyse(
+        &mut self,
+        uri: &Uri,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<Arc<Analysis>>, Cancelled> {
+        self.choose_settings(uri);
+        let document = self.documents.get(uri).ok_or(Cancelled)?;
+        if document.in_force.settings.is_none() {
+            return Ok(None);
+        }
+        let waiting: &Waiting = &self.waiting;
+        let shown = Shown::new(&self.outbox, self.abilities.has_progress, document.name());
+        let given_up = || {
+            shown.look();
+            stop() || waiting.has_changes()
+        };
+        self.database.analysis(document.id, &given_up).map(Some)
+    }
+
+    /// The analysis of a document if it is there already.
+    pub(crate) fn known_analysis(&mut self, uri: &Uri) -> Option<Arc<Analysis>> {
+        let document = self.documents.get(uri)?;
+        if document.stale > Stale::No || document.in_force.settings.is_none() {
+            return None;
+        }
+        self.database.analysis(document.id, &|| true).ok()
+    }
+
+    /// What the client is shown of an analysis, and of what kept it from being made.
+    pub(crate) fn diagnostics_of(&mut self, uri: &Uri, analysis: Option<&Analysis>) -> Vec<Diagnostic> {
+        let Ok(snapshot) = self.snapshot(uri) else { return Vec::new() };
+        let mut list = match analysis {
+            Some(analysis) => {
+                let shown = gcheck_ide::diagnostics(analysis);
+                let abilities = self.abilities.clone();
+                let mut elsewhere = |path: &std::path::Path, bytes: &_| self.location_in(path, bytes);
+                diagnostics::convert(&abilities, uri, &snapshot, &shown, &mut elsewhere)
+            }
+            None => Vec::new(),
+        };
+        let Some(document) = self.documents.get(uri) else { return list };
+        list.extend(diagnostics::of_problems(document, self.abilities.encoding, &snapshot));
+        list
+    }
+
+    /// The analysis met a mistake of our own: it is not tried again with this text.
+    pub(super) fn give_up_on(&mut self, uri: &Uri) {
+        if let Some(document) = self.documents.get_mut(uri) {
+            document.failed = Some(document.clock.now());
+            let name = document.name();
+            let message = format!("{name} is not checked as it stands: gcheck met a mistake of its own");
+            self.outbox.show(MessageType::WARNING, message);
+        }
+    }
+
+    /// Takes back what was published of a document.
+    pub(super) fn clear(&self, uri: Uri) {
+        self.outbox.notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri, Vec::new(), None));
+    }
+
+    /// Publishes what is wrong with configuration files, and takes back what no longer is.
+    pub(super) fn show_problems(&mut self) {
+        if !self.is_ready {
+            return;
+        }
+        let all = self.documents.values().flat_map(|document| &document.in_force.problems);
+        let by_file = diagnostics::of_configurations(all);
+        let own = |path: &PathBuf| self.documents.values().any(|document| document.path == *path);
+        let gone: Vec<PathBuf> =
+            self.shown_problems.iter().filter(|path| !by_file.contains_key(*path)).cloned().collect();
+        for path in gone {
+            if let Some(uri) = Uri::from_file_path(&path) {
+                self.clear(uri);
+            }
+        }
+        self.shown_problems.clear();
+        for (path, list) in by_file {
+            // What is wrong in a program stands among its own diagnostics.
+            if own(&path) {
+                continue;
+            }
+            if let Some(uri) = Uri::from_file_path(&path) {
+                self.outbox.notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri, list, None));
+                self.shown_problems.push(path);
+            }
+        }
+    }
+}
+
+/// Progress of one analysis: shown only when it takes long, and only after the client has agreed.
+struct Shown<'o> {
+    outbox: &'o Outbox,
+    can: bool,
+    /// Of the document.
+    name: Arc<str>,
+    start: Instant,
+    stage: Arc<AtomicU8>,
+    token: NumberOrString,
+}
+
+/// Each progress has a token of its own.
+static TOKENS: AtomicU32 = AtomicU32::new(0);
+
+const QUIET: u8 = 0;
+const ASKED: u8 = 1;
+const AGREED: u8 = 2;
+const BEGUN: u8 = 3;
+const OVER: u8 = 4;
+
+impl<'o> Shown<'o> {
+    fn new(outbox: &'o Outbox, can: bool, name: Arc<str>) -> Self {
+        let start = Instant::now();
+        let token = NumberOrString::String(format!("gcheck-{}", TOKENS.fetch_add(1, Ordering::Relaxed)));
+        Self { outbox, can, name, start, stage: Arc::new(AtomicU8::new(QUIET)), token }
+    }
+
+    /// Takes the next step, if it is time for one.
+    fn look(&self) {
+        match self.stage.load(Ordering::Acquire) {
+            QUIET if self.can && self.start.elapsed() > SHOWN_AFTER => {
+                self.stage.store(ASKED, Ordering::Release);
+                let stage = Arc::clone(&self.stage);
+                let params = WorkDoneProgressCreateParams { token: self.token.clone() };
+                self.outbox.ask::<WorkDoneProgressCreate>(params, move |answer| {
+                    let next = if answer.is_ok() { AGREED } else { OVER };
+                    // Too late when it is over already.
+                    let _ = stage.compare_exchange(ASKED, next, Ordering::AcqRel, Ordering::Acquire);
+                });
+            }
+            AGREED => {
+                self.stage.store(BEGUN, Ordering::Release);
+                self.tell(WorkDoneProgress::Begin(WorkDoneProgressBegin {
+                    title: format!("Checking {}", self.name),
+                    cancellable: Some(false),
+                    message: None,
+                    percentage: None,
+                }));
+            }
+            _ => {}
+        }
+    }
+
+    fn tell(&self, value: WorkDoneProgress) {
+        let value = ProgressParamsValue::WorkDone(value);
+        self.outbox.notify::<Progress>(ProgressParams { token: self.token.clone(), value });
+    }
+}
+
+impl Drop for Shown<'_> {
+    fn drop(&mut self) {
+        if self.stage.swap(OVER, Ordering::AcqRel) == BEGUN {
+            self.tell(WorkDoneProgress::End(WorkDoneProgressEnd { message: None }));
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Documents as the client opens, changes, saves and closes them.
+//!
+//! Knows: what the protocol says of texts. Must not know: findings.
+
+use std::path::{Path, PathBuf};
+
+use gcheck_db::Snapshot;
+
+use super::{Owner, fallback_settings};
+use crate::client::Moment;
+use crate::documents::{Clock, Document, Stale};
+use crate::proto::{
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+    DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri,
+};
+use crate::{Choice, InForce};
+
+impl Owner {
+    pub(crate) fn did_open(&mut self, params: DidOpenTextDocumentParams) {
+        let opened = params.text_document;
+        let uri = opened.uri;
+        self.touches += 1;
+        let touched = self.touches;
+        if let Some(document) = self.documents.get_mut(&uri) {
+            let message = format!("{} is opened though it is open: its text is taken anew", uri.as_str());
+            self.outbox.log(MessageType::WARNING, message);
+            self.database.set_text(document.id, &opened.text);
+            document.version = opened.version;
+            document.touched = touched;
+            document.wants_findings = true;
+            document.changed(Stale::Settings);
+            return;
+        }
+        let path = self.path_of(&uri);
+        // Its text counts from here on, not that of the file.
+        self.disk.forget_file(&path, &mut self.database);
+        let id = self.database.open(&opened.text, fallback_settings());
+        let document = Document {
+            uri: uri.clone(),
+            id,
+            version: opened.version,
+            in_force: InForce {
+                settings: None,
+                choice: Choice::default(),
+                style: None,
+                folders: Vec::new(),
+                configuration: None,
+                problems: Vec::new(),
+            },
+            stale: Stale::Settings,
+            clock: Clock::default(),
+            wants_findings: true,
+            published: None,
+            given_up: 0,
+            failed: None,
+            figures: None,
+            is_running: false,
+            touched,
+            path,
+        };
+        self.documents.insert(uri.clone(), document);
+        self.text_changed(&uri);
+        self.choose_settings(&uri);
+    }
+
+    pub(crate) fn did_change(&mut self, params: DidChangeTextDocumentParams) {
+        let uri = params.text_document.uri;
+        let version = params.text_document.version;
+        self.touches += 1;
+        let touched = self.touches;
+        let Some(document) = self.documents.get_mut(&uri) else {
+            self.log(MessageType::ERROR, format!("{} is changed, but is not open", uri.as_str()));
+            return;
+        };
+        // The client's text is the truth in any case: an edit that is left out would make every later one wrong.
+        if version <= document.version {
+            let message = format!(
+                "{}: version {version} comes after {}; its changes are taken all the same",
+                uri.as_str(),
+                document.version
+            );
+            self.outbox.log(MessageType::WARNING, message);
+        }
+        document.version = version;
+        document.touched = touched;
+        document.wants_findings = false;
+        for change in params.content_changes {
+            self.apply(&uri, change);
+        }
+        self.text_changed(&uri);
+        let Some(document) = self.documents.get(&uri) else { return };
+        let on_type = self.client_settings(document).run == Moment::OnType;
+        if let Some(document) = self.documents.get_mut(&uri) {
+            document.wants_findings = on_type;
+        }
+    }
+
+    fn apply(&mut self, uri: &Uri, change: TextDocumentContentChangeEvent) {
+        let Ok(snapshot) = self.snapshot(uri) else { return };
+        let places = self.places(&snapshot);
+        let bytes = change.range.map(|range| places.bytes(range));
+        // What chooses the control reads whole lines.
+        let line = bytes.as_ref().map(|bytes| snapshot.line_range(snapshot.line_at(bytes.start)).start);
+        let in_head = line.is_none_or(|start| start as usize <= gcheck_rules::EVIDENCE_BYTES);
+        let Some(document) = self.documents.get_mut(uri) else { return };
+        match bytes {
+            None => {
+                self.database.set_text(document.id, &change.text);
+                document.changed(Stale::Head);
+            }
+            Some(bytes) => {
+                // Positions are on the borders of characters, and in the text.
+                if self.database.edit(document.id, bytes, &change.text).is_err() {
+                    let message = format!("{}: an edit lies outside of the text", uri.as_str());
+                    self.outbox.log(MessageType::ERROR, message);
+                }
+                document.changed(if in_head { Stale::Head } else { Stale::No });
+            }
+        }
+    }
+
+    pub(crate) fn did_save(&mut self, params: &DidSaveTextDocumentParams) {
+        if let Some(document) = self.documents.get_mut(&params.text_document.uri) {
+            document.wants_findings = true;
+        }
+    }
+
+    pub(crate) fn did_close(&mut self, params: DidCloseTextDocumentParams) {
+        let uri = params.text_document.uri;
+        let Some(document) = self.documents.remove(&uri) else {
+            self.log(MessageType::WARNING, format!("{} is closed, but is not open", uri.as_str()));
+            return;
+        };
+        self.database.close(document.id);
+        self.open.remove(&document.path);
+        self.callees_changed(&document.path);
+        // What was pushed would stay for ever.
+        if document.published.is_some() {
+            self.clear(uri);
+        }
+        self.show_problems();
+    }
+
+    /// The text of a document has changed: who calls it has to be looked at again, and the host is to see the new text.
+    fn text_changed(&mut self, uri: &Uri) {
+        let Ok(snapshot) = self.snapshot(uri) else { return };
+        let Some(document) = self.documents.get(uri) else { return };
+        self.open.put(&document.path, document.clock.now(), snapshot);
+        let path = document.path.clone();
+        self.callees_changed(&path);
+    }
+
+    /// Marks the other open documents that may call a program at `path`.
+    fn callees_changed(&mut self, path: &Path) {
+        let folder = path.parent().unwrap_or(path);
+        let callers: Vec<Uri> = self
+            .documents
+            .values()
+            .filter(|other| other.path != path && other.in_force.folders.iter().any(|f| f == folder))
+            .map(|other| other.uri.clone())
+            .collect();
+        for uri in callers {
+            let Ok(snapshot) = self.snapshot(&uri) else { continue };
+            if calls_others(&snapshot)
+                && let Some(document) = self.documents.get_mut(&uri)
+            {
+                document.changed(Stale::Callees);
+            }
+        }
+    }
+
+    /// Where a document is on disk, or would be: what is no file is taken for one in the first folder of the workspace.
+    fn path_of(&self, uri: &Uri) -> PathBuf {
+        path_of(uri).unwrap_or_else(|| {
+            let text = uri.as_str();
+            let name = text.rsplit(['/', ':']).next().unwrap_or(text);
+            self.folders.first().cloned().unwrap_or_default().join(name)
+        })
+    }
+}
+
+/// Where a file of the client is.
+pub(crate) fn path_of(uri: &Uri) -> Option<PathBuf> {
+    let is_file = uri.scheme().as_str().eq_ignore_ascii_case("file");
+    uri.to_file_path().filter(|_| is_file).map(std::borrow::Cow::into_owned)
+}
+
+/// Does a program call anything that may lie in another file?
+fn calls_others(snapshot: &Snapshot) -> bool {
+    let survey = snapshot.survey();
+    !survey.calls.is_empty() || !survey.o_words.is_empty()
+}

@@ -1,0 +1,221 @@
+//! Programs on disk beside the open documents, for what looks beyond one file.
+//!
+//! Knows: which programs can call each other, what of them is loaded. Must not know: what is looked for in them.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use gcheck_db::{Database, DocumentId, Settings, Snapshot};
+use gcheck_ide::{Place, Workspace, WorkspaceFile};
+
+use super::{Owner, fallback_settings, not_open};
+use crate::ProgramFile;
+use crate::documents::file_name;
+use crate::position::Places;
+use crate::proto::{Location, Result, Uri};
+
+/// Programs on disk that are loaded at a time.
+const MOST_FILES: usize = 2_000;
+/// Bytes of them.
+const MOST_BYTES: u64 = 64 << 20;
+/// How long a list of files is believed.
+const FRESH: Duration = Duration::from_secs(2);
+
+/// What is loaded from disk.
+#[derive(Debug, Default)]
+pub(super) struct Disk {
+    lists: BTreeMap<(PathBuf, bool), (Instant, Vec<ProgramFile>)>,
+    files: BTreeMap<PathBuf, Loaded>,
+}
+
+/// A program that was read from disk.
+#[derive(Debug)]
+struct Loaded {
+    id: DocumentId,
+    size: u64,
+    stamp: u64,
+}
+
+impl Disk {
+    /// Lists are made anew; files that did not change stay.
+    pub(super) fn forget(&mut self, database: &mut Database) {
+        self.lists.clear();
+        // Their settings may be others.
+        for (_, loaded) in std::mem::take(&mut self.files) {
+            database.close(loaded.id);
+        }
+    }
+
+    pub(super) fn forget_file(&mut self, path: &Path, database: &mut Database) {
+        if let Some(loaded) = self.files.remove(path) {
+            database.close(loaded.id);
+        }
+    }
+
+    fn bytes(&self) -> u64 {
+        self.files.values().map(|loaded| loaded.size).sum()
+    }
+}
+
+/// What features look at, with the addresses of its files.
+#[derive(Debug, Clone)]
+pub(crate) struct Addressed {
+    pub(crate) workspace: Workspace,
+    /// Address of each file, and its version if it is open.
+    pub(crate) addresses: BTreeMap<DocumentId, (Uri, Option<i32>)>,
+}
+
+impl Addressed {
+    /// One open document alone.
+    pub(crate) fn of(uri: &Uri, id: DocumentId, version: i32, name: Arc<str>, snapshot: Snapshot) -> Self {
+        Self {
+            workspace: Workspace::of(WorkspaceFile { id, name, snapshot }),
+            addresses: BTreeMap::from([(id, (uri.clone(), Some(version)))]),
+        }
+    }
+
+    /// The address of a file.
+    pub(crate) fn uri(&self, id: DocumentId) -> Option<&Uri> {
+        self.addresses.get(&id).map(|(uri, _)| uri)
+    }
+
+    /// The file of an address.
+    pub(crate) fn id(&self, uri: &Uri) -> Option<DocumentId> {
+        self.addresses.iter().find(|(_, (address, _))| address == uri).map(|(id, _)| *id)
+    }
+
+    /// The text of a file.
+    pub(crate) fn snapshot(&self, id: DocumentId) -> Option<&Snapshot> {
+        self.workspace.file(id).map(|file| &file.snapshot)
+    }
+
+    /// A place as the client names it.
+    pub(crate) fn location(&self, place: &Place, encoding: crate::position::Encoding) -> Option<Location> {
+        let mut places = Places::new(self.snapshot(place.file)?, encoding);
+        Some(Location::new(self.uri(place.file)?.clone(), places.range(&place.range)))
+    }
+}
+
+impl Owner {
+    /// The programs that a document may call or be called by, itself among them, by path.
+    pub(crate) fn workspace_of(&mut self, uri: &Uri) -> Result<Addressed> {
+        self.choose_settings(uri);
+        let document = self.document(uri)?;
+        let own = document.folder().to_owned();
+        let mut folders = document.in_force.folders.clone();
+        // Who looks for programs in its folder.
+        for other in self.documents.values() {
+            if other.in_force.folders.contains(&own) {
+                folders.push(other.folder().to_owned());
+            }
+        }
+        folders.push(own);
+        folders.sort();
+        folders.dedup();
+        let settings = document.in_force.settings.clone().unwrap_or_else(fallback_settings);
+        let mut paths = BTreeMap::new();
+        for folder in &folders {
+            paths.extend(self.list(folder, false).into_iter().map(|file| (file.path.clone(), file)));
+        }
+        self.load(paths, &settings, &|path| folders.iter().any(|f| path.parent() == Some(f))).with(self, uri)
+    }
+
+    /// All programs of the workspace.
+    pub(crate) fn whole_workspace(&mut self) -> Addressed {
+        let mut paths = BTreeMap::new();
+        for folder in self.folders.clone() {
+            paths.extend(self.list(&folder, true).into_iter().map(|file| (file.path.clone(), file)));
+        }
+        let settings = fallback_settings();
+        self.load(paths, &settings, &|_| true)
+    }
+
+    /// The programs of a folder on disk, or of it and those below.
+    pub(crate) fn list(&mut self, folder: &Path, below: bool) -> Vec<ProgramFile> {
+        let key = (folder.to_owned(), below);
+        if let Some((at, files)) = self.disk.lists.get(&key)
+            && at.elapsed() < FRESH
+        {
+            return files.clone();
+        }
+        let host = &self.host.0;
+        let files = if below { host.programs_below(folder) } else { host.programs_in(folder) };
+        self.disk.lists.insert(key, (Instant::now(), files.clone()));
+        files
+    }
+
+    /// Loads programs, the open ones as they are in the editor.
+    fn load(
+        &mut self,
+        files: BTreeMap<PathBuf, ProgramFile>,
+        settings: &Settings,
+        wanted: &dyn Fn(&Path) -> bool,
+    ) -> Addressed {
+        let mut loaded: BTreeMap<PathBuf, (DocumentId, Uri, Option<i32>)> = BTreeMap::new();
+        for document in self.documents.values().filter(|document| wanted(&document.path)) {
+            let open = (document.id, document.uri.clone(), Some(document.version));
+            loaded.insert(document.path.clone(), open);
+        }
+        for (path, file) in files {
+            if !loaded.contains_key(&path)
+                && let Some(id) = self.load_file(&file, settings)
+                && let Some(uri) = Uri::from_file_path(&path)
+            {
+                loaded.insert(path, (id, uri, None));
+            }
+        }
+        let mut workspace = Workspace::default();
+        let mut addresses = BTreeMap::new();
+        for (path, (id, uri, version)) in loaded {
+            let Some(snapshot) = self.database.snapshot(id) else { continue };
+            workspace.files.push(WorkspaceFile { id, name: file_name(&path), snapshot });
+            addresses.insert(id, (uri, version));
+        }
+        Addressed { workspace, addresses }
+    }
+
+    /// A program on disk as a document; `None` when it cannot be read, or too much is loaded.
+    fn load_file(&mut self, file: &ProgramFile, settings: &Settings) -> Option<DocumentId> {
+        if let Some(known) = self.disk.files.get(&file.path) {
+            if known.stamp == file.stamp {
+                return Some(known.id);
+            }
+            self.disk.forget_file(&file.path, &mut self.database);
+        }
+        if self.disk.files.len() >= MOST_FILES || self.disk.bytes() + file.size > MOST_BYTES {
+            return None;
+        }
+        let text = self.host.0.read(&file.path)?;
+        let id = self.database.open(&text, settings.clone());
+        self.disk.files.insert(file.path.clone(), Loaded { id, size: file.size, stamp: file.stamp });
+        Some(id)
+    }
+
+    /// A place in a file that a finding names by its path.
+    pub(crate) fn location_in(&mut self, path: &Path, bytes: &Range<u32>) -> Option<Location> {
+        let open = self.documents.values().find(|document| document.path == path);
+        let (id, uri) = match open {
+            Some(document) => (document.id, document.uri.clone()),
+            None => {
+                let uri = Uri::from_file_path(path)?;
+                let folder = path.parent()?.to_owned();
+                let file = self.list(&folder, false).into_iter().find(|file| file.path == path)?;
+                (self.load_file(&file, &fallback_settings())?, uri)
+            }
+        };
+        let snapshot = self.database.snapshot(id)?;
+        let range = self.places(&snapshot).range(bytes);
+        Some(Location::new(uri, range))
+    }
+}
+
+impl Addressed {
+    /// Makes sure that a document is among the files.
+    fn with(self, owner: &Owner, uri: &Uri) -> Result<Self> {
+        let id = owner.document(uri)?.id;
+        if self.workspace.file(id).is_some() { Ok(self) } else { Err(not_open(uri)) }
+    }
+}

@@ -1,0 +1,130 @@
+//! A panic anywhere answers its request with an error, is said in the log, and the server lives on with the right text.
+//!
+//! Knows: a host that panics when it is told to. Must not know: what answers say.
+
+#![expect(clippy::unwrap_used, clippy::panic, reason = "tests of panics")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gcheck_db::Settings;
+use gcheck_rules::Programs;
+use gcheck_server::{Choice, Ending, Host, InForce, ProgramFile, ProgramQuery, serve};
+use gcheck_testkit::language_client::LanguageClient;
+use serde_json::{Value, json};
+
+/// Panics where a program or its surroundings say so.
+struct Fragile;
+
+/// Panics when it is asked for program 666.
+struct FragilePrograms;
+
+impl Programs for FragilePrograms {
+    fn has_number(&self, number: u32) -> bool {
+        assert_ne!(number, 666, "asked for the wrong program");
+        false
+    }
+
+    fn has_name(&self, _: &str) -> bool {
+        false
+    }
+}
+
+impl Host for Fragile {
+    fn in_force(&self, program: &ProgramQuery<'_>) -> InForce {
+        assert!(!program.head.contains("PANIC"), "the head holds the word");
+        let control = gcheck_controls::load(gcheck_controls::fallback()).unwrap();
+        InForce {
+            settings: Some(Settings { programs: Arc::new(FragilePrograms), ..Settings::new(control) }),
+            choice: Choice::default(),
+            style: None,
+            folders: vec![PathBuf::from("/work")],
+            configuration: None,
+            problems: Vec::new(),
+        }
+    }
+
+    fn programs_in(&self, _: &Path) -> Vec<ProgramFile> {
+        panic!("no folder can be read")
+    }
+
+    fn programs_below(&self, _: &Path) -> Vec<ProgramFile> {
+        Vec::new()
+    }
+
+    fn read(&self, _: &Path) -> Option<String> {
+        None
+    }
+
+    fn forget(&self) {}
+
+    fn watched(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
+const URI: &str = "file:///work/a.nc";
+
+fn session(text: &str) -> (LanguageClient, std::thread::JoinHandle<Ending>) {
+    let (input, to_server) = std::io::pipe().unwrap();
+    let (from_server, output) = std::io::pipe().unwrap();
+    let server = std::thread::spawn(move || serve(Arc::new(Fragile), input, output).unwrap());
+    let mut client = LanguageClient::over(to_server, from_server);
+    client.initialize(json!({ "processId": null, "rootUri": null, "capabilities": {} }));
+    let document = json!({ "uri": URI, "languageId": "gcode", "version": 1, "text": text });
+    client.notify("textDocument/didOpen", json!({ "textDocument": document }));
+    (client, server)
+}
+
+fn change(client: &mut LanguageClient, version: i32, text: &str) {
+    let document = json!({ "uri": URI, "version": version });
+    let params = json!({ "textDocument": document, "contentChanges": [{ "text": text }] });
+    client.notify("textDocument/didChange", params);
+}
+
+fn published(client: &mut LanguageClient, version: i32) -> Value {
+    client.notification("textDocument/publishDiagnostics", |params| params["version"] == version)
+}
+
+fn logged(client: &mut LanguageClient, part: &str) {
+    client.notification("window/logMessage", |p| p["message"].as_str().unwrap().contains(part));
+}
+
+fn end(mut client: LanguageClient, server: std::thread::JoinHandle<Ending>) {
+    client.request("shutdown", Value::Null);
+    client.notify("exit", Value::Null);
+    assert_eq!(server.join().unwrap(), Ending::Orderly);
+}
+
+#[test]
+fn a_request_that_meets_one_is_refused_and_the_next_answered() {
+    let (mut client, server) = session("G0 X1.\n");
+    let at = json!({ "textDocument": { "uri": URI }, "position": { "line": 0, "character": 1 } });
+    let refused = client.refused("textDocument/definition", at.clone());
+    assert_eq!(refused["code"], -32603);
+    assert!(refused["message"].as_str().unwrap().contains("mistake of its own"), "{refused}");
+    logged(&mut client, "no folder can be read");
+    let tree = client.request("gcheck/syntaxTree", json!({ "textDocument": { "uri": URI } }));
+    assert!(tree.as_str().unwrap().contains("X1."), "the text is still there: {tree}");
+    client.request("textDocument/hover", at);
+    end(client, server);
+}
+
+#[test]
+fn an_analysis_that_meets_one_is_not_tried_again_until_the_text_changes() {
+    let (mut client, server) = session("%\nO1\nM98 P666\nM30\n%\n");
+    logged(&mut client, "asked for the wrong program");
+    client.notification("window/showMessage", |p| p["message"].as_str().unwrap().contains("is not checked"));
+    change(&mut client, 2, "%\nO1\nM98 P667\nM30\n%\n");
+    published(&mut client, 2);
+    end(client, server);
+}
+
+#[test]
+fn settings_that_meet_one_leave_the_text_as_it_is() {
+    let (mut client, server) = session("(PANIC)\nG0 X1.\n");
+    logged(&mut client, "the head holds the word");
+    change(&mut client, 2, "%\nO1\nG0 X1.\nM30\n%\n");
+    published(&mut client, 2);
+    end(client, server);
+}

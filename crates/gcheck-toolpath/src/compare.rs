@@ -1,0 +1,326 @@
+//! Two runs held against each other: do they move the machine the same way?
+//!
+//! Knows: when two paths are one however they are cut into blocks, which settings count for which move. Must not know: how acts
+//! come about, how differences are worded.
+//!
+//! Both runs are read with a cursor that may stand inside a move. Of two moves the shorter one decides how far both go on, so
+//! that a line in two pieces, or a circle in four quarters, is the line or the circle.
+
+mod curve;
+mod difference;
+mod stands;
+
+use std::iter::Peekable;
+use std::sync::Arc as Shared;
+
+use gcheck_engine::Position;
+
+use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
+use curve::Curve;
+
+pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
+
+/// Feeds and speeds that differ by less, as a part of the larger one, are the same: inches are not always whole millimetres.
+const SAME_RATE: f64 = 1e-3;
+/// Acts that stand together and are matched with each other at most.
+const MAX_STANDS: usize = 64;
+
+/// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
+/// on every axis. Coordinates that are unknown in one of them are not compared.
+pub fn compare(
+    a: impl IntoIterator<Item = Act>,
+    b: impl IntoIterator<Item = Act>,
+    tolerance: f64,
+) -> Differences {
+    let mut comparison = Comparison {
+        a: Cursor::new(a.into_iter()),
+        b: Cursor::new(b.into_iter()),
+        tolerance,
+        found: Differences::default(),
+    };
+    comparison.run();
+    comparison.found
+}
+
+struct Comparison<A: Iterator<Item = Act>, B: Iterator<Item = Act>> {
+    a: Cursor<A>,
+    b: Cursor<B>,
+    tolerance: f64,
+    found: Differences,
+}
+
+/// A place in a run.
+struct Cursor<I: Iterator<Item = Act>> {
+    acts: Peekable<I>,
+    /// The move at hand, as far as it is not done.
+    piece: Option<Piece>,
+    /// Where the axes stand.
+    at: Position,
+    /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
+    started: bool,
+    /// The last move that was done.
+    last: Option<Place>,
+}
+
+/// A move, of which a part may be done.
+struct Piece {
+    act: Act,
+    driven: Driven,
+    curve: Curve,
+    /// From 0 to 1.
+    done: f64,
+}
+
+impl<I: Iterator<Item = Act>> Cursor<I> {
+    fn new(acts: I) -> Self {
+        Self { acts: acts.peekable(), piece: None, at: Position::UNKNOWN, started: false, last: None }
+    }
+
+    /// Collects what happens before the next move, and takes up that move.
+    fn advance(&mut self, found: &mut Differences) -> Vec<Act> {
+        let mut stands = Vec::new();
+        while self.piece.is_none() && stands.len() < MAX_STANDS {
+            let Some(act) = self.acts.next() else { break };
+            match &act.doing {
+                Doing::Stand(_) => stands.push(act),
+                Doing::Move(made) => {
+                    let curve = Curve::new(made);
+                    let driven = made.driven;
+                    found.unknown |= driven != Driven::Rapid && curve.is_unknown();
+                    if curve.is_nothing() && self.started {
+                        self.at = made.to;
+                        continue;
+                    }
+                    self.started |= !curve.is_nothing() && !curve.is_open();
+                    self.piece = Some(Piece { act, driven, curve, done: 0.0 });
+                }
+            }
+        }
+        stands
+    }
+
+    /// Ends the move at hand.
+    fn finish(&mut self) {
+        if let Some(piece) = self.piece.take() {
+            self.at = piece.curve.end();
+            self.last = Some(piece.place());
+        }
+    }
+
+    /// Is there no further move?
+    fn is_over(&mut self) -> bool {
+        self.piece.is_none() && self.acts.peek().is_none()
+    }
+
+    /// Does the next act stand?
+    fn stands_next(&mut self) -> bool {
+        self.piece.is_none() && self.acts.peek().is_some_and(|act| matches!(act.doing, Doing::Stand(_)))
+    }
+}
+
+impl Piece {
+    fn place(&self) -> Place {
+        Place { file: Shared::clone(&self.act.file), line: self.act.line }
+    }
+
+    fn left(&self) -> f64 {
+        self.curve.length() * (1.0 - self.done)
+    }
+}
+
+impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
+    fn run(&mut self) {
+        loop {
+            // A move that is not done on one side, while the other one stands: what stands there is one-sided.
+            let mut before_a = self.a.advance(&mut self.found);
+            let mut before_b = self.b.advance(&mut self.found);
+            if self.a.is_over() != self.b.is_over() {
+                // That one ends while the other goes on is told as such.
+                for stands in [&mut before_a, &mut before_b] {
+                    stands.retain(|act| act.doing != Doing::Stand(Stand::End));
+                }
+            }
+            if !before_a.is_empty() || !before_b.is_empty() {
+                self.stands(&before_a, &before_b);
+                if self.a.stands_next() || self.b.stands_next() {
+                    continue;
+                }
+            }
+            match (&self.a.piece, &self.b.piece) {
+                (None, None) => return,
+                (Some(_), Some(_)) => {
+                    if let Some(parting) = self.pieces() {
+                        self.found.parting = Some(parting);
+                        return;
+                    }
+                }
+                (Some(piece), None) => {
+                    let parting = Parting {
+                        a: Some(piece.place()),
+                        b: self.b.last.take(),
+                        at: self.b.at,
+                        to: [Some(piece.curve.end()), None],
+                        apart: f64::NAN,
+                    };
+                    self.found.parting = Some(parting);
+                    return;
+                }
+                (None, Some(piece)) => {
+                    let parting = Parting {
+                        a: self.a.last.take(),
+                        b: Some(piece.place()),
+                        at: self.a.at,
+                        to: [None, Some(piece.curve.end())],
+                        apart: f64::NAN,
+                    };
+                    self.found.parting = Some(parting);
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Goes on along both moves by the shorter one of them; tells when they part.
+    fn pieces(&mut self) -> Option<Parting> {
+        let (Some(a), Some(b)) = (self.a.piece.as_mut(), self.b.piece.as_mut()) else { return None };
+        // A move that goes nowhere is passed over, unless it is the other side's way there from an unknown place.
+        let (a_is_nothing, b_is_nothing) = (a.curve.is_nothing(), b.curve.is_nothing());
+        if (a_is_nothing && !b.curve.is_open()) || (b_is_nothing && !a.curve.is_open()) {
+            if a_is_nothing {
+                self.a.finish();
+            }
+            if b_is_nothing {
+                self.b.finish();
+            }
+            return None;
+        }
+        self.found.moves += 1;
+        let parting = |a: &Piece, b: &Piece, at: Position, apart: f64| Parting {
+            a: Some(a.place()),
+            b: Some(b.place()),
+            at,
+            to: [Some(a.curve.end()), Some(b.curve.end())],
+            apart,
+        };
+        let parted = if a.curve.is_open() || b.curve.is_open() {
+            // From an unknown place only the end is known, and everything before it may be a part of the way there.
+            let apart = curve::apart(&a.curve.end(), &b.curve.end());
+            (a.done, b.done) = (1.0, 1.0);
+            let parts = apart > self.tolerance || !Curve::go_for_the_same(&a.curve, &b.curve);
+            parts.then(|| parting(a, b, self.a.at, apart))
+        } else {
+            let (at_a, at_b) = (a.curve.at(a.done), b.curve.at(b.done));
+            let apart = curve::apart(&at_a, &at_b);
+            if apart > self.tolerance {
+                Some(parting(a, b, at_a, apart))
+            } else if a.left() <= b.left() {
+                follow(a, b, self.tolerance).err().map(|apart| parting(a, b, at_a, apart))
+            } else {
+                follow(b, a, self.tolerance).err().map(|apart| parting(a, b, at_a, apart))
+            }
+        };
+        if parted.is_some() {
+            return parted;
+        }
+        settings(&mut self.found, a, b);
+        let (a_is_done, b_is_done) = (a.done >= 1.0, b.done >= 1.0);
+        if a_is_done {
+            self.a.finish();
+        }
+        if b_is_done {
+            self.b.finish();
+        }
+        None
+    }
+
+    fn stands(&mut self, a: &[Act], b: &[Act]) {
+        stands::compare(&mut self.found, a, b);
+    }
+}
+
+/// Goes to the end of the shorter move, and along the longer one as far as that is; the error is how far they are apart.
+fn follow(short: &mut Piece, long: &mut Piece, tolerance: f64) -> Result<(), f64> {
+    let count = short.curve.checks(&long.curve);
+    let mut reached = long.done;
+    for check in 1..=count {
+        let part = short.done + (1.0 - short.done) * f64::from(check) / f64::from(count);
+        let point = short.curve.at(part);
+        reached = long.curve.nearest(&point, reached);
+        let apart = curve::apart(&long.curve.at(reached), &point);
+        if apart > tolerance {
+            return Err(apart);
+        }
+    }
+    short.done = 1.0;
+    long.done = reached;
+    // What is left of the longer one is less than anybody looks at.
+    if long.left() <= tolerance {
+        long.done = 1.0;
+    }
+    Ok(())
+}
+
+/// Compares what is in effect while both move.
+fn settings(found: &mut Differences, a: &Piece, b: &Piece) {
+    let places = || (Some(a.place()), Some(b.place()));
+    let (of_a, of_b) = (&a.act.setting, &b.act.setting);
+    let mut compare = |aspect: Aspect, differs: bool, values: [Value; 2]| {
+        if differs {
+            found.add(aspect, places(), values.map(Some));
+        } else {
+            found.same(aspect);
+        }
+    };
+    compare(Aspect::Drive, a.driven != b.driven, [a.driven, b.driven].map(Value::Driven));
+    compare(Aspect::Tool, known_differ(of_a.tool, of_b.tool), [of_a.tool, of_b.tool].map(Value::Tool));
+    compare(
+        Aspect::WorkOffset,
+        known_differ(of_a.work, of_b.work),
+        [of_a.work, of_b.work].map(Value::WorkOffset),
+    );
+    compare(
+        Aspect::Length,
+        known_differ(of_a.length, of_b.length),
+        [of_a.length, of_b.length].map(Value::Length),
+    );
+    if a.driven == Driven::Rapid || b.driven == Driven::Rapid {
+        return;
+    }
+    compare(
+        Aspect::Cutter,
+        known_differ(of_a.cutter, of_b.cutter),
+        [of_a.cutter, of_b.cutter].map(Value::Cutter),
+    );
+    let feeds = [of_a.feed, of_b.feed];
+    let feeds_differ = matches!(feeds, [Some(one), Some(other)] if feed_differs(one, other));
+    compare(Aspect::Feed, feeds_differ, feeds.map(Value::Feed));
+    compare(Aspect::Spindle, spindle_differs(of_a, of_b), [of_a, of_b].map(Value::of_spindle));
+    let coolant_differs =
+        of_a.coolant.into_iter().zip(of_b.coolant).any(|(a, b)| a.unwrap_or(false) != b.unwrap_or(false));
+    compare(Aspect::Coolant, coolant_differs, [of_a.coolant, of_b.coolant].map(Value::Coolant));
+}
+
+fn known_differ<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
+    matches!((a, b), (Some(a), Some(b)) if a != b)
+}
+
+fn feed_differs(a: Feed, b: Feed) -> bool {
+    match (a, b) {
+        (Feed::PerMinute(a), Feed::PerMinute(b)) | (Feed::PerTurn(a), Feed::PerTurn(b)) => rate_differs(a, b),
+        (Feed::PerMinute(a), Feed::PerTurn(b)) | (Feed::PerTurn(a), Feed::PerMinute(b)) => {
+            !a.is_nan() && !b.is_nan()
+        }
+    }
+}
+
+/// An unknown rate differs from nothing.
+fn rate_differs(a: f64, b: f64) -> bool {
+    (a - b).abs() > SAME_RATE * a.abs().max(b.abs())
+}
+
+fn spindle_differs(a: &Setting, b: &Setting) -> bool {
+    use gcheck_engine::Spindle::Stopped;
+    let stands = |setting: &Setting| setting.spindle == Some(Stopped);
+    known_differ(a.spindle, b.spindle)
+        || !stands(a) && !stands(b) && (a.surface != b.surface || rate_differs(a.speed, b.speed))
+}

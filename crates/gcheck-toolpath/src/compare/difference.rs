@@ -1,0 +1,204 @@
+//! What two runs do differently.
+//!
+//! Knows: aspects, the first places of each, how often. Must not know: words, units of output.
+
+use std::sync::Arc as Shared;
+
+use gcheck_engine::{Position, Spindle};
+
+use crate::trail::{Driven, Feed, Setting, Stand};
+
+/// Differences of one aspect that are kept with their places; further ones are counted.
+const KEPT: usize = 5;
+
+/// In what two runs differ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Aspect {
+    /// Rapid, at feed, with the spindle, until a signal.
+    Drive,
+    /// The feed while cutting.
+    Feed,
+    /// Direction and speed of the spindle while cutting, and its orientation.
+    Spindle,
+    /// The tool.
+    Tool,
+    /// The work offset.
+    WorkOffset,
+    /// The number of the tool length offset.
+    Length,
+    /// The number of the cutter offset.
+    Cutter,
+    /// Coolant while cutting.
+    Coolant,
+    /// Time of standing still.
+    Dwell,
+    /// Stops, pallets and the end.
+    Stop,
+    /// Chuck, bar feeder, outputs, commands of the shop's own.
+    Other,
+}
+
+impl Aspect {
+    /// All, in the order of reports.
+    pub const ALL: [Self; 11] = [
+        Self::Drive,
+        Self::Feed,
+        Self::Spindle,
+        Self::Tool,
+        Self::WorkOffset,
+        Self::Length,
+        Self::Cutter,
+        Self::Coolant,
+        Self::Dwell,
+        Self::Stop,
+        Self::Other,
+    ];
+
+    /// Its name for people and other programs.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Drive => "drive",
+            Self::Feed => "feed",
+            Self::Spindle => "spindle",
+            Self::Tool => "tool",
+            Self::WorkOffset => "work-offset",
+            Self::Length => "length-offset",
+            Self::Cutter => "cutter-offset",
+            Self::Coolant => "coolant",
+            Self::Dwell => "dwell",
+            Self::Stop => "stop",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// A block.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// The file.
+    pub file: Shared<str>,
+    /// Line, from 1.
+    pub line: u32,
+}
+
+/// What one side does or has in effect.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// How a move is driven.
+    Driven(Driven),
+    /// A feed.
+    Feed(Option<Feed>),
+    /// Direction, speed if it is known, and whether that is a surface speed in metres a minute.
+    Spindle(Option<Spindle>, Option<f64>, bool),
+    /// A tool.
+    Tool(Option<u32>),
+    /// Number of a work coordinate system.
+    WorkOffset(Option<u16>),
+    /// Number of a tool length offset.
+    Length(Option<u32>),
+    /// Number of a cutter offset.
+    Cutter(Option<u32>),
+    /// Mist, flood, through the spindle.
+    Coolant([Option<bool>; 3]),
+    /// Something that happens while the axes stand.
+    Stand(Stand),
+}
+
+impl Value {
+    pub(super) fn of_spindle(setting: &Setting) -> Self {
+        Self::Spindle(setting.spindle, Some(setting.speed).filter(|speed| !speed.is_nan()), setting.surface)
+    }
+}
+
+/// One difference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// In what.
+    pub aspect: Aspect,
+    /// In the first run, where it has something there.
+    pub a: Option<Place>,
+    /// In the second.
+    pub b: Option<Place>,
+    /// What each of them does.
+    pub values: [Option<Value>; 2],
+}
+
+/// Where two paths part. Nothing behind it is compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parting {
+    /// The move of the first run, or its last one when it has none left; `None` when it has none at all.
+    pub a: Option<Place>,
+    /// The move of the second.
+    pub b: Option<Place>,
+    /// Where both were.
+    pub at: Position,
+    /// Where each of them goes; `None` where there is no move left.
+    pub to: [Option<Position>; 2],
+    /// How far they come apart, millimetres or degrees, on the axis where it is most; NaN where one does not go on.
+    pub apart: f64,
+}
+
+/// All differences of two runs.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Differences {
+    /// Where the paths part, if they do.
+    pub parting: Option<Parting>,
+    /// Pieces of path that were compared and are the same.
+    pub moves: u64,
+    /// A coordinate was unknown and not compared.
+    pub unknown: bool,
+    kept: Vec<Difference>,
+    counts: [u64; Aspect::ALL.len()],
+    /// The values that differ at the moment: that they differ still is no further difference.
+    current: [Option<[Option<Value>; 2]>; Aspect::ALL.len()],
+}
+
+impl Differences {
+    /// Do both move the machine the same way?
+    pub fn is_same(&self) -> bool {
+        self.parting.is_none() && self.counts.iter().all(|count| *count == 0)
+    }
+
+    /// The first differences of each aspect, in the order of the run.
+    pub fn kept(&self) -> &[Difference] {
+        &self.kept
+    }
+
+    /// How often something of an aspect becomes different.
+    pub fn count(&self, aspect: Aspect) -> u64 {
+        self.counts.get(aspect as usize).copied().unwrap_or(0)
+    }
+
+    pub(super) fn add(
+        &mut self,
+        aspect: Aspect,
+        places: (Option<Place>, Option<Place>),
+        values: [Option<Value>; 2],
+    ) {
+        let Some(current) = self.current.get_mut(aspect as usize) else { return };
+        if current.as_ref() != Some(&values) {
+            *current = Some(values.clone());
+            self.add_once(aspect, places, values);
+        }
+    }
+
+    /// The aspect is the same again.
+    pub(super) fn same(&mut self, aspect: Aspect) {
+        if let Some(current) = self.current.get_mut(aspect as usize) {
+            *current = None;
+        }
+    }
+
+    pub(super) fn add_once(
+        &mut self,
+        aspect: Aspect,
+        (a, b): (Option<Place>, Option<Place>),
+        values: [Option<Value>; 2],
+    ) {
+        let Some(count) = self.counts.get_mut(aspect as usize) else { return };
+        *count += 1;
+        if *count <= KEPT as u64 {
+            self.kept.push(Difference { aspect, a, b, values });
+        }
+    }
+}

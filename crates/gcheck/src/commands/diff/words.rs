@@ -1,0 +1,326 @@
+//! Differences of two programs as text and as JSON.
+//!
+//! Knows: the words of machinists, both programs' texts. Must not know: how differences are found.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use gcheck_controls::Control;
+use gcheck_engine::{Axis, Model, Position, Spindle, Units};
+use gcheck_toolpath::{Aspect, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value};
+use serde_json::{Value as Json, json};
+
+use super::Stopped;
+use crate::execution::Prepared;
+use crate::reading;
+
+/// Version of the JSON's shape.
+const VERSION: u32 = 1;
+/// Longer lines are cut.
+const SHOWN: usize = 100;
+
+/// Both programs.
+pub(super) struct Sides<'s> {
+    pub(super) prepared: [&'s Prepared; 2],
+    /// In which lengths are shown.
+    pub(super) units: Units,
+    /// Millimetres.
+    pub(super) tolerance: f64,
+    pub(super) faults: &'s [Option<Stopped>; 2],
+}
+
+impl Sides<'_> {
+    pub(super) fn text(&self, differences: &Differences) -> String {
+        let mut out = String::new();
+        if let Some(parting) = &differences.parting {
+            self.parting(&mut out, parting);
+        }
+        for aspect in Aspect::ALL {
+            let count = differences.count(aspect);
+            if count == 0 {
+                continue;
+            }
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                out,
+                "{}, {}",
+                title(aspect),
+                if count == 1 { "once".to_owned() } else { format!("{count} times") }
+            );
+            let kept: Vec<&Difference> =
+                differences.kept().iter().filter(|difference| difference.aspect == aspect).collect();
+            let more = count - kept.len() as u64;
+            for difference in kept {
+                self.difference(&mut out, difference);
+            }
+            if more > 0 {
+                let _ = writeln!(out, "  … and {more} more");
+            }
+        }
+        out.push_str(&self.verdict(differences));
+        out
+    }
+
+    fn verdict(&self, differences: &Differences) -> String {
+        let [a, b] = self.prepared.map(|prepared| prepared.shown.as_str());
+        let within = format!("within {} mm", self.tolerance);
+        let mut out = match (self.faults.iter().any(Option::is_some), &differences.parting) {
+            (true, _) => format!("{a} and {b} are compared up to where a run ends before its program\n"),
+            (false, Some(_)) => format!("{a} and {b} move differently; what follows is not compared\n"),
+            (false, None) if differences.is_same() => {
+                format!("{a} and {b} make the machine do the same, {within}\n")
+            }
+            (false, None) => format!("{a} and {b} move along the same path, {within}, with differences\n"),
+        };
+        if differences.unknown {
+            out.push_str("some cutting moves start or end at unknown coordinates, which were not compared\n");
+        }
+        out
+    }
+
+    fn parting(&self, out: &mut String, parting: &Parting) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(out, "the paths part at {}", self.point(&parting.at));
+        for (side, (place, to)) in [&parting.a, &parting.b].into_iter().zip(&parting.to).enumerate() {
+            let words = match (to, self.faults.get(side)) {
+                (Some(to), _) => format!("to {}", self.point(to)),
+                (None, Some(Some(fault))) => format!("stops: {}", fault.message),
+                (None, _) => "has no moves left".to_owned(),
+            };
+            self.one(out, side, place.as_ref(), &words);
+        }
+    }
+
+    fn difference(&self, out: &mut String, difference: &Difference) {
+        for (side, (place, value)) in
+            [&difference.a, &difference.b].into_iter().zip(&difference.values).enumerate()
+        {
+            let words = value.as_ref().map_or_else(|| "nothing".to_owned(), |value| self.value(value, side));
+            self.one(out, side, place.as_ref(), &words);
+        }
+    }
+
+    /// One line: place, what happens there, the block.
+    fn one(&self, out: &mut String, side: usize, place: Option<&Place>, words: &str) {
+        let mark = if side == 0 { '-' } else { '+' };
+        // Writing to a string cannot fail.
+        let _ = match place {
+            Some(place) => {
+                let block = self.block(side, place).map_or_else(String::new, |block| format!("   | {block}"));
+                writeln!(out, "  {mark} {}:{}  {words}{block}", place.file, place.line)
+            }
+            None => {
+                let shown = self.prepared.get(side).map_or("", |prepared| prepared.shown.as_str());
+                writeln!(out, "  {mark} {shown}  {words}")
+            }
+        };
+    }
+
+    /// The text of a line.
+    fn block(&self, side: usize, place: &Place) -> Option<String> {
+        let prepared = self.prepared.get(side)?;
+        let called;
+        let text = if *place.file == *prepared.shown {
+            prepared.source.text()
+        } else {
+            called = reading::file(Path::new(&*place.file)).ok()?;
+            called.text()
+        };
+        let line = text.lines().nth(place.line.checked_sub(1)? as usize)?.trim();
+        let shown: String = line.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        Some(shown)
+    }
+
+    fn point(&self, point: &Position) -> String {
+        let mut words: Vec<String> = Vec::new();
+        for axis in Axis::ALL {
+            if let Some(value) = point.get(axis) {
+                // Axes that the machine may not have stand at zero.
+                if value.abs() > 0.0 || matches!(axis, Axis::X | Axis::Y | Axis::Z) {
+                    words.push(format!(
+                        "{}{}",
+                        axis.name(),
+                        self.length(value, !axis.is_rotary())
+                            .trim_end_matches(" mm")
+                            .trim_end_matches(" inch")
+                    ));
+                }
+            }
+        }
+        if words.is_empty() { "an unknown place".to_owned() } else { words.join(" ") }
+    }
+
+    fn length(&self, mm: f64, is_length: bool) -> String {
+        match self.units {
+            Units::Inch if is_length => format!("{} inch", rounded(mm / 25.4, 5)),
+            Units::Mm if is_length => format!("{} mm", rounded(mm, 4)),
+            _ => rounded(mm, 4),
+        }
+    }
+
+    fn value(&self, value: &Value, side: usize) -> String {
+        let number = |number: Option<u32>, letter: char| match number {
+            Some(number) => format!("{letter}{number}"),
+            None => format!("{letter} unknown"),
+        };
+        match value {
+            Value::Driven(driven) => match driven {
+                Driven::Rapid => "rapid",
+                Driven::Feed => "at feed",
+                Driven::Probe => "probing",
+                Driven::Thread => "threading",
+                Driven::Tap => "tapping",
+            }
+            .to_owned(),
+            Value::Feed(None) => "no feed".to_owned(),
+            Value::Feed(Some(Feed::PerMinute(feed))) => format!("{}/min", self.length(*feed, true)),
+            Value::Feed(Some(Feed::PerTurn(feed))) => format!("{} a turn", self.length(*feed, true)),
+            Value::Spindle(direction, speed, is_surface) => {
+                let direction = match direction {
+                    Some(Spindle::Clockwise) => "clockwise",
+                    Some(Spindle::CounterClockwise) => "counter-clockwise",
+                    Some(Spindle::Stopped) => return "spindle stopped".to_owned(),
+                    None => "spindle not told",
+                };
+                let unit = if *is_surface { "m/min" } else { "rpm" };
+                let speed = speed.map_or_else(
+                    || "unknown speed".to_owned(),
+                    |speed| format!("{} {unit}", rounded(speed, 2)),
+                );
+                format!("{direction}, {speed}")
+            }
+            Value::Tool(tool) => number(*tool, 'T'),
+            Value::WorkOffset(None) => "work offset unknown".to_owned(),
+            Value::WorkOffset(Some(work)) => self.control(side).map_or_else(
+                || work.to_string(),
+                |control| gcheck_rules::work_offset_name(*work, &Model::new(control)),
+            ),
+            Value::Length(Some(0)) => "no tool length".to_owned(),
+            Value::Length(length) => number(*length, 'H'),
+            Value::Cutter(Some(0)) => "no cutter compensation".to_owned(),
+            Value::Cutter(cutter) => number(*cutter, 'D'),
+            Value::Coolant(coolant) => {
+                let on: Vec<&str> = ["mist", "flood", "through the spindle"]
+                    .into_iter()
+                    .zip(coolant)
+                    .filter(|(_, on)| **on == Some(true))
+                    .map(|(name, _)| name)
+                    .collect();
+                if on.is_empty() { "no coolant".to_owned() } else { on.join(" and ") }
+            }
+            Value::Stand(stand) => self.stand(stand),
+        }
+    }
+
+    fn stand(&self, stand: &Stand) -> String {
+        let seconds = |value: f64| if value.is_nan() { "?".to_owned() } else { rounded(value, 3) };
+        match stand {
+            Stand::Dwell(time) => format!("dwell {} s", seconds(*time)),
+            Stand::ToolChange(Some(tool)) => format!("change to T{tool}"),
+            Stand::ToolChange(None) => "change to an unknown tool".to_owned(),
+            Stand::Stop { optional: true } => "optional stop".to_owned(),
+            Stand::Stop { optional: false } => "stop".to_owned(),
+            Stand::Pallet => "pallet change".to_owned(),
+            Stand::Orient(angle) => format!("spindle turned to {} deg", seconds(*angle)),
+            Stand::Chuck(true) => "chuck clamps".to_owned(),
+            Stand::Chuck(false) => "chuck opens".to_owned(),
+            Stand::Bar(what, Some(by)) => format!("bar {what} {}", self.length(*by, true)),
+            Stand::Bar(what, None) => format!("bar {what}"),
+            Stand::Pocket(length) => format!("pocket cleared on {}", self.length(*length, true)),
+            Stand::Wrap(Some(diameter)) => format!("wrapped around {}", self.length(*diameter, true)),
+            Stand::Wrap(None) => "wrapped no longer".to_owned(),
+            Stand::Output { index, value } => format!("output {index} set to {value}"),
+            Stand::WaitInput(index) => format!("waits for input {index}"),
+            Stand::UserCommand(number, [p, q]) => format!("M{number} P{} Q{}", seconds(*p), seconds(*q)),
+            Stand::End => "program end".to_owned(),
+        }
+    }
+
+    fn control(&self, side: usize) -> Option<&Control> {
+        self.prepared.get(side).map(|prepared| &*prepared.control)
+    }
+
+    pub(super) fn json(&self, differences: &Differences) -> Json {
+        let place = |side: usize, place: Option<&Place>| {
+            place.map(
+                |place| json!({ "file": &*place.file, "line": place.line, "text": self.block(side, place) }),
+            )
+        };
+        let by_aspect: Vec<Json> = Aspect::ALL
+            .into_iter()
+            .filter(|aspect| differences.count(*aspect) > 0)
+            .map(|aspect| {
+                let kept = differences.kept().iter().filter(|difference| difference.aspect == aspect);
+                let first: Vec<Json> = kept
+                    .map(|difference| {
+                        let [of_a, of_b] = &difference.values;
+                        let value =
+                            |side, value: &Option<Value>| value.as_ref().map(|value| self.value(value, side));
+                        json!({
+                            "a": place(0, difference.a.as_ref()), "b": place(1, difference.b.as_ref()),
+                            "value_a": value(0, of_a), "value_b": value(1, of_b),
+                        })
+                    })
+                    .collect();
+                json!({ "aspect": aspect.name(), "count": differences.count(aspect), "first": first })
+            })
+            .collect();
+        let parting = differences.parting.as_ref().map(|parting| {
+            let [to_a, to_b] = parting.to.map(|to| to.map(|to| coordinates(&to)));
+            json!({
+                "a": place(0, parting.a.as_ref()), "b": place(1, parting.b.as_ref()),
+                "at": coordinates(&parting.at), "to_a": to_a, "to_b": to_b,
+                "apart": Some(parting.apart).filter(|apart| apart.is_finite()),
+            })
+        });
+        let side = |side: usize| {
+            self.prepared.get(side).map(|prepared| {
+                let fault = self.faults.get(side).and_then(Option::as_ref).map(|fault| &fault.message);
+                json!({ "file": prepared.shown, "control": prepared.choice, "fault": fault })
+            })
+        };
+        json!({
+            "version": VERSION,
+            "same": differences.is_same() && self.faults.iter().all(Option::is_none),
+            "tolerance": self.tolerance,
+            "unit": "mm",
+            "a": side(0), "b": side(1),
+            "moves": differences.moves,
+            "unknown": differences.unknown,
+            "parting": parting,
+            "differences": by_aspect,
+        })
+    }
+}
+
+fn title(aspect: Aspect) -> &'static str {
+    match aspect {
+        Aspect::Drive => "the path is the same but driven differently",
+        Aspect::Feed => "the feed differs",
+        Aspect::Spindle => "the spindle differs",
+        Aspect::Tool => "the tool differs",
+        Aspect::WorkOffset => "the work offset differs",
+        Aspect::Length => "the tool length offset differs",
+        Aspect::Cutter => "the cutter offset differs",
+        Aspect::Coolant => "coolant differs",
+        Aspect::Dwell => "dwells differ",
+        Aspect::Stop => "stops differ",
+        Aspect::Other => "other commands differ",
+    }
+}
+
+/// Known coordinates by axis, millimetres and degrees.
+fn coordinates(point: &Position) -> Json {
+    let known = Axis::ALL.into_iter().filter_map(|axis| {
+        let value = point.get(axis)?;
+        Some((axis.name().to_string(), json!((value * 1e6).round() / 1e6)))
+    });
+    Json::Object(known.collect())
+}
+
+/// A number without zeros at its end.
+fn rounded(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}

@@ -1,0 +1,144 @@
+//! `gcheck plot`: the toolpath of a program as a picture or as a page.
+//!
+//! Knows: which file gets what, what is said beside the picture. Must not know: how anything is drawn.
+
+mod findings;
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use gcheck_engine::RunResult;
+use gcheck_report::LineIndex;
+use gcheck_syntax::SourceText;
+use gcheck_toolpath::plot::{Drawing, MAX_POINTS, Page, Plot, Source};
+use gcheck_toolpath::{Names, Step, WorkCoordinates};
+
+use crate::args::{Global, PlotOptions};
+use crate::execution::{self, Session, Steps};
+use crate::{Problem, output};
+use findings::Found;
+
+/// What is written, as the output's name says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Svg,
+    Html,
+}
+
+impl Form {
+    fn of(path: &Path) -> Result<Self, Problem> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("svg") => Ok(Self::Svg),
+            Some("html" | "htm") => Ok(Self::Html),
+            _ => Err(Problem::with_file(path, "cannot tell what to draw")
+                .help("name a picture `.svg` or a page `.html`: `gcheck plot part.nc -o part.html`")),
+        }
+    }
+}
+
+/// Runs the command; the exit code is its result.
+pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem> {
+    let form = Form::of(&options.output_file)?;
+    let prepared = execution::prepare(global, &options.execution)?;
+    let found = match form {
+        Form::Html => findings::of(global, options, &prepared)?,
+        Form::Svg => Found::default(),
+    };
+    prepared.session(|session| {
+        if !global.quiet {
+            execution::say(&execution::control_line(session));
+        }
+        let (ran, drawing) = draw(session)?;
+        let mut notes: Vec<String> = stopped(session, &ran).into_iter().collect();
+        notes.extend(found.note());
+        output::to_file(&options.output_file, |out| match form {
+            Form::Svg => svg(session, &drawing, &notes, out),
+            Form::Html => page(session, &drawing, &found, &notes, out),
+        })?;
+        if !global.quiet {
+            execution::say(&drawing.notes().join("\n"));
+        }
+        execution::end_of_run(session, &ran);
+        Ok(execution::exit_code(&ran))
+    })
+}
+
+fn draw(session: &Session<'_>) -> Result<(RunResult, Drawing), Problem> {
+    let equipment = &session.prepared.equipment;
+    let number = session.work_at_start();
+    let offset = number.and_then(|number| equipment.machine.offsets.get(&number));
+    let work = offset.map_or(WorkCoordinates { number, ..WorkCoordinates::UNKNOWN }, |offset| {
+        WorkCoordinates { number, origin: offset.origin, rotation: offset.rotation }
+    });
+    let mut plot = Plot::new(session.all_axes(), equipment.timing, work, MAX_POINTS);
+    if session.model.control().machine() == gcheck_controls::Machine::Lathe {
+        plot = plot.for_lathe();
+    }
+    let (ran, plot) =
+        session.run(plot).map_err(|error| Problem::new(format!("cannot record the path: {error}")))?;
+    Ok((ran, plot.finish()))
+}
+
+/// That the picture is a part of the program's path, and why.
+fn stopped(session: &Session<'_>, ran: &RunResult) -> Option<String> {
+    let fault = execution::fault_of(session, ran)?;
+    let place = LineIndex::new(&fault.text).position(&fault.text, fault.range.start as u32);
+    Some(format!("the run ended in {}, line {}: {}", fault.name, place.line, fault.words.message))
+}
+
+fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
+    let tool = |tool| session.tool_name(tool);
+    with(&Names { tool: &tool, ..Names::NONE })
+}
+
+fn svg(session: &Session<'_>, drawing: &Drawing, notes: &[String], out: &mut dyn Write) -> io::Result<()> {
+    let svg = with_names(session, |names| drawing.to_svg(&session.prepared.shown, notes, names));
+    out.write_all(svg.as_bytes())
+}
+
+fn page(
+    session: &Session<'_>,
+    drawing: &Drawing,
+    found: &Found,
+    notes: &[String],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let shown = &session.prepared.shown;
+    let mut texts = vec![(shown.clone(), readable(session.prepared.source.text()))];
+    // The main file is 0, and the others follow without a gap.
+    let others: Vec<_> = (1..).map_while(|index| session.program.file(index)).collect();
+    let others: Vec<_> = others.iter().map(|file| (file.name.to_string(), file.loaded.text())).collect();
+    for (name, text) in &others {
+        texts.push((name.clone(), readable(text)));
+    }
+    let sources: Vec<Source<'_>> = texts.iter().map(|(name, text)| Source { name, text }).collect();
+    let findings: Vec<_> = found.findings(shown).collect();
+    let page = Page {
+        title: shown,
+        control: &session.prepared.choice.name,
+        sources: &sources,
+        findings: &findings,
+        notes,
+    };
+    // The page is written in small pieces.
+    let mut out = io::BufWriter::with_capacity(1 << 18, out);
+    with_names(session, |names| drawing.write_page(&page, names, &mut out))?;
+    out.flush()
+}
+
+/// Text with the sign for what cannot be read in place of the stand-ins for bytes.
+fn readable(text: &str) -> std::borrow::Cow<'_, str> {
+    if text.contains(SourceText::STAND_IN) {
+        text.replace(SourceText::STAND_IN, "\u{fffd}").into()
+    } else {
+        text.into()
+    }
+}
+
+impl Steps for Plot {
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
+        self.add(step);
+        Ok(())
+    }
+}

@@ -1,0 +1,187 @@
+//! `gcheck lsp`: the language server's surroundings, which are those of `gcheck check`.
+//!
+//! Knows: configuration, files, folders. Must not know: the protocol.
+
+use std::collections::HashMap;
+use std::fs::Metadata;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::UNIX_EPOCH;
+use std::{fs, io};
+
+use gcheck_db::Settings;
+use gcheck_report::{ControlChoice, ControlSource};
+use gcheck_rules::Execution;
+use gcheck_server::{Choice, ConfigurationProblem, Host, InForce, ProgramFile, ProgramQuery, serve};
+use gcheck_syntax::SourceText;
+
+use crate::args::{FUEL, Global};
+use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, validate_control};
+use crate::control_choice::choose;
+use crate::discovery::{self, EXTENSIONS, is_program_name};
+use crate::in_force::{self, Controls};
+use crate::programs::{ProgramFolders, Reachable};
+use crate::{Problem, paths, reading};
+
+/// Files of one folder that are told of.
+const MOST_FILES: usize = 5_000;
+
+/// Runs the server until the client ends it, or is gone.
+pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
+    if let Some(name) = &global.control {
+        validate_control(name).map_err(Problem::new)?;
+    }
+    // What is wrong with the command line is said where it was typed.
+    Configs::new(&global.config, global.isolated)?;
+    let host = Surroundings {
+        control: global.control.clone(),
+        config: global.config.clone(),
+        isolated: global.isolated,
+        configs: Mutex::default(),
+        folders: Mutex::default(),
+        controls: Controls::default(),
+    };
+    serve(Arc::new(host), io::stdin(), io::stdout())
+        .map(gcheck_server::Ending::code)
+        .map_err(|error| Problem::new(format!("cannot start threads: {error}")))
+}
+
+/// What the server is told of files and configuration. Everything read from disk is kept until it is to be forgotten.
+struct Surroundings {
+    /// From the command line.
+    control: Option<String>,
+    config: Vec<String>,
+    isolated: bool,
+    /// By the configuration that the editor's user has chosen.
+    configs: Mutex<HashMap<Option<PathBuf>, Result<Configs, Problem>>>,
+    folders: Mutex<Arc<ProgramFolders>>,
+    controls: Controls,
+}
+
+impl Surroundings {
+    /// The configuration of a program.
+    fn config(&self, program: &ProgramQuery<'_>) -> Result<Arc<Config>, Problem> {
+        let chosen = program.configuration.map(Path::to_owned);
+        self.with_configs(chosen, |configs| configs.of_file(program.path))
+    }
+
+    fn with_configs<T>(
+        &self,
+        chosen: Option<PathBuf>,
+        work: impl FnOnce(&mut Configs) -> Result<T, Problem>,
+    ) -> Result<T, Problem> {
+        let mut all = self.configs.lock().unwrap_or_else(PoisonError::into_inner);
+        let configs = all.entry(chosen).or_insert_with_key(|chosen| match chosen {
+            // The editor's choice stands over the command line's.
+            Some(path) => Configs::new(&[path.to_string_lossy().into_owned()], false),
+            None => Configs::new(&self.config, self.isolated),
+        });
+        configs.as_mut().map_err(|problem| problem.clone()).and_then(work)
+    }
+
+    fn folders(&self) -> Arc<ProgramFolders> {
+        Arc::clone(&self.folders.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// What is in force, filled in as far as it gets.
+    fn fill(&self, program: &ProgramQuery<'_>, in_force: &mut InForce) -> Result<(), Problem> {
+        let config = self.config(program)?;
+        in_force.configuration = config.path().map(Path::to_owned);
+        let settings = config.settings(program.path);
+        let programs = Reachable::new(self.folders(), program.path, &settings.search);
+        let programs = programs.with_open(Arc::clone(program.open));
+        in_force.folders = programs.folders().to_vec();
+        let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
+        let option = program.control.or(self.control.as_deref());
+        let ControlChoice { name, source, because } =
+            choose(program.path, &SourceText::from(program.head), option, from)?;
+        in_force.choice =
+            Choice { control: name.clone(), source: format!("{source:?}").to_lowercase(), because };
+        let control = self.controls.get(&name, &settings.codes)?;
+        in_force.style = Some(settings.format.style(&control));
+        let machine = in_force::machine(&settings, &control, &[])?;
+        let selection = settings
+            .selection(&RuleWishes::default())
+            .map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+        in_force.settings = Some(Settings {
+            control,
+            control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),
+            machine: Arc::new(machine),
+            selection: Arc::new(selection),
+            suppressions: true,
+            execution: Execution { fuel: FUEL, block_skip: None },
+            programs: Arc::new(programs),
+        });
+        Ok(())
+    }
+}
+
+impl Host for Surroundings {
+    fn in_force(&self, program: &ProgramQuery<'_>) -> InForce {
+        let mut in_force = InForce {
+            settings: None,
+            choice: Choice::default(),
+            style: None,
+            folders: program.path.parent().map(Path::to_owned).into_iter().collect(),
+            configuration: None,
+            problems: Vec::new(),
+        };
+        if let Err(problem) = self.fill(program, &mut in_force) {
+            in_force.problems.push(shown(&problem));
+        }
+        in_force
+    }
+
+    fn programs_in(&self, folder: &Path) -> Vec<ProgramFile> {
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let programs = entries.flatten().map(|entry| entry.path()).filter(|path| is_program_name(path));
+        let mut programs: Vec<PathBuf> = programs.collect();
+        programs.sort();
+        programs.into_iter().take(MOST_FILES).filter_map(program_file).collect()
+    }
+
+    fn programs_below(&self, folder: &Path) -> Vec<ProgramFile> {
+        let given = [folder.to_owned()];
+        let found = self.with_configs(None, |configs| Ok(discovery::find(&given, configs)));
+        let files = found.map(|found| found.files).unwrap_or_default();
+        files.into_iter().take(MOST_FILES).filter_map(program_file).collect()
+    }
+
+    fn read(&self, path: &Path) -> Option<String> {
+        Some(reading::file(path).ok()?.text().to_owned())
+    }
+
+    fn forget(&self) {
+        self.configs.lock().unwrap_or_else(PoisonError::into_inner).clear();
+        *self.folders.lock().unwrap_or_else(PoisonError::into_inner) = Arc::default();
+    }
+
+    fn watched(&self) -> Vec<String> {
+        vec![
+            format!("**/{{{}}}", FILE_NAMES.join(",")),
+            format!("**/*.{{{}}}", EXTENSIONS.join(",")),
+            "**/[Oo][0-9]*".to_owned(),
+        ]
+    }
+}
+
+/// A file on disk; `None` when it is none, or is gone.
+fn program_file(path: PathBuf) -> Option<ProgramFile> {
+    let data = fs::metadata(&path).ok().filter(Metadata::is_file)?;
+    let changed = data.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
+    let stamp = changed.map_or(0, |time| time.as_nanos() as u64) ^ data.len().rotate_left(48);
+    Some(ProgramFile { path, size: data.len(), stamp })
+}
+
+/// A problem as the server shows it.
+fn shown(problem: &Problem) -> ConfigurationProblem {
+    let count = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let (name, line, column, length) = problem.place().unwrap_or(("", 1, 1, 0));
+    ConfigurationProblem {
+        path: (!name.is_empty()).then(|| paths::absolute(Path::new(name))),
+        line: count(line - 1),
+        column: count(column - 1),
+        length: count(length),
+        message: problem.advice(),
+    }
+}

@@ -1,0 +1,251 @@
+//! `gcheck diff`: which programs make the machine do the same, and what is said of those that do not.
+
+use expect_test::expect;
+use serde_json::Value;
+
+use crate::shop::{Run, Shop};
+
+fn diff(a: &str, b: &str, arguments: &str) -> Run {
+    let shop = Shop::with(&[("a.nc", a), ("b.nc", b)]);
+    shop.gcheck(&format!("diff a.nc b.nc --control fanuc-mill -q {arguments}"))
+}
+
+/// A program around some blocks, from a known place.
+fn program(blocks: &str) -> String {
+    format!(
+        "%\nO1\nG21 G17 G90 G94 G54\nT1 M6\nG0 X0. Y0. S1000 M3\nG43 H1 Z5.\nG1 Z-1. F200.\n{blocks}\nM30\n%\n"
+    )
+}
+
+#[track_caller]
+fn same(a: &str, b: &str) {
+    let run = diff(&program(a), &program(b), "");
+    assert_eq!(
+        (run.code, run.stdout.as_str()),
+        (0, "a.nc and b.nc make the machine do the same, within 0.001 mm\n")
+    );
+}
+
+#[track_caller]
+fn different(a: &str, b: &str) -> String {
+    let run = diff(&program(a), &program(b), "");
+    assert_eq!(run.code, 1, "{}", run.stdout);
+    run.stdout
+}
+
+#[test]
+fn numbers_blanks_comments_and_leading_zeros_make_no_difference() {
+    same("N10 G01 X10. F100. (SIDE)\nN20 Y5.0", "G1X10.F100\n\n/ \nX10.000Y+5.");
+}
+
+#[test]
+fn a_line_in_pieces_is_the_line() {
+    same("G1 X10. Y10. Z-3.\nX0.", "G1 X5. Y5. Z-2.\nX7.5 Y7.5 Z-2.5\nX10. Y10. Z-3.\nX6.\nX3.\nX0.");
+    same("G0 Z10.", "G0 Z5.\nG0 Z10.");
+}
+
+#[test]
+fn an_arc_is_the_same_by_radius_and_by_centre() {
+    same("G2 X10. Y10. I10.", "G2 X10. Y10. R10.");
+    same("G3 X10. Y-10. R-10.", "G3 X10. Y-10. J-10.");
+}
+
+#[test]
+fn an_arc_in_pieces_is_the_arc() {
+    same("G2 I10.", "G2 X20. I10.\nX0. I-10.");
+    same("G3 X10. Y-10. I10.", "G3 X2.928932 Y-7.071068 I10.\nX10. Y-10. R10.");
+    same("G2 I10. Z-5.", "G2 X20. I10. Z-3.\nX0. I-10. Z-5.");
+}
+
+#[test]
+fn chords_that_stay_close_are_the_arc() {
+    // A hundredth of a degree on a radius of 10 m leaves the chord within a ten-thousandth.
+    same("G2 X1.745329 Y0. R10000.", "G1 X1.745329 Y0.");
+    assert!(different("G2 X10. Y10. I10.", "G1 X10. Y10.").contains("the paths part at X0 Y0 Z-1"));
+}
+
+#[test]
+fn a_cycle_is_its_moves() {
+    same(
+        "G0 Z5.\nG99 G82 X10. Y0. Z-6. R2. P500 F80.\nX20.\nG80",
+        "G0 Z5.\nX10.\nZ2.\nG1 Z-6. F80.\nG4 P500\nG0 Z2.\nX20.\nG1 Z-6.\nG4 P500\nG0 Z2.",
+    );
+}
+
+#[test]
+fn units_and_increments_make_no_difference() {
+    same("G1 X25.4 F254.\nY-50.8", "G20 G1 X1. F10.\nG91 Y-2.\nG90 G21");
+}
+
+#[test]
+fn a_local_shift_is_the_place_it_leads_to() {
+    same("G1 X15. Y5.", "G52 X10.\nG1 X5. Y5.\nG52 X0.");
+}
+
+#[test]
+fn paths_that_part_end_the_comparison() {
+    expect![[r"
+        the paths part at X10 Y0 Z-1
+          - a.nc:9  to X10 Y5 Z-1   | Y5.
+          + b.nc:9  to X10 Y6 Z-2   | Y6. Z-2.
+        a.nc and b.nc move differently; what follows is not compared
+    "]]
+    .assert_eq(&different("G1 X10.\nY5.\nX3.", "G1 X10.\nY6. Z-2.\nX4."));
+}
+
+#[test]
+fn a_circle_the_other_way_round_is_another_path() {
+    let text = different("G2 I10.", "G3 I10.");
+    assert!(text.contains("the paths part at X0 Y0 Z-1"), "{text}");
+}
+
+#[test]
+fn one_that_goes_on_is_another_path() {
+    expect![[r#"
+        the paths part at X10 Y0 Z-1
+          - a.nc:8  has no moves left   | G1 X10.
+          + b.nc:9  to X20 Y0 Z-1   | X20.
+        a.nc and b.nc move differently; what follows is not compared
+    "#]]
+    .assert_eq(&different("G1 X10.", "G1 X10.\nX20."));
+}
+
+#[test]
+fn down_before_across_is_another_way_than_across_before_down() {
+    let a = "%\nO1\nG21 G90 G54\nT1 M6\nG0 X0. Y0.\nG43 H1 Z5.\nM30\n%\n";
+    let b = "%\nO1\nG21 G90 G54\nT1 M6\nG43 H1 Z5.\nG0 X0. Y0.\nM30\n%\n";
+    assert_eq!(diff(a, b, "").code, 1);
+}
+
+#[test]
+fn settings_that_differ_are_told_once_each_time_they_begin() {
+    expect![[r#"
+        the feed differs, 2 times
+          - a.nc:8  100 mm/min   | G1 X10. F100.
+          + b.nc:8  120 mm/min   | M8 G1 X10. F120.
+          - a.nc:11  100 mm/min   | X30.
+          + b.nc:11  90 mm/min   | X30. F90.
+        the spindle differs, once
+          - a.nc:10  clockwise, 1000 rpm   | X20.
+          + b.nc:10  clockwise, 900 rpm   | X20. F100. S900
+        coolant differs, once
+          - a.nc:8  no coolant   | G1 X10. F100.
+          + b.nc:8  flood   | M8 G1 X10. F120.
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "#]]
+    .assert_eq(&different(
+        "G1 X10. F100.\nX15.\nX20.\nX30.",
+        "M8 G1 X10. F120.\nX15.\nX20. F100. S900\nX30. F90.",
+    ));
+}
+
+#[test]
+fn offsets_and_tools_that_differ_are_told() {
+    expect![[r"
+        the tool differs, 2 times
+          - a.nc:8  change to T2   | T2 M6
+          + b.nc:8  change to T3   | T3 M6
+          - a.nc:9  T2   | G0 X10. Y0.
+          + b.nc:9  T3   | G55 G0 X10. Y0.
+        the work offset differs, once
+          - a.nc:9  G54   | G0 X10. Y0.
+          + b.nc:9  G55   | G55 G0 X10. Y0.
+        the tool length offset differs, once
+          - a.nc:10  H2   | G43 H2 Z5.
+          + b.nc:10  H3   | G43 H3 Z5.
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "]]
+    .assert_eq(&different(
+        "T2 M6\nG0 X10. Y0.\nG43 H2 Z5.\nG1 Z-1. F100.",
+        "T3 M6\nG55 G0 X10. Y0.\nG43 H3 Z5.\nG1 Z-1. F100.",
+    ));
+}
+
+#[test]
+fn dwells_and_stops_are_matched_with_each_other() {
+    expect![[r"
+        dwells differ, once
+          - a.nc:9  dwell 0.5 s   | G4 P500
+          + b.nc:9  dwell 1 s   | G4 P1000
+        stops differ, once
+          - a.nc  nothing
+          + b.nc:10  stop   | M0
+        a.nc and b.nc move along the same path, within 0.001 mm, with differences
+    "]]
+    .assert_eq(&different("G1 X10.\nG4 P500\nX20.", "G1 X10.\nG4 P1000\nM0\nX20."));
+}
+
+#[test]
+fn rapid_in_place_of_feed_is_no_small_thing() {
+    let text = different("G1 X10.", "G0 X10.");
+    assert!(text.contains("the path is the same but driven differently, once"), "{text}");
+}
+
+#[test]
+fn the_tolerance_is_a_choice() {
+    let (a, b) = (program("G1 X10. Y10."), program("G1 X10. Y10.005"));
+    assert_eq!(diff(&a, &b, "").code, 1);
+    assert_eq!(diff(&a, &b, "--tolerance 0.01").code, 0);
+    assert_eq!(diff(&a, &b, "--tolerance -1").code, 2);
+}
+
+#[test]
+fn the_programs_may_be_of_two_controls() {
+    let a = "%\nO1\nG21 G90 G17 G94\nT1 M6\nG54 G0 X0. Y0. S1000 M3\nG43 H1 Z5.\nG81 G99 X10. Z-5. R2. F100.\nX20.\nG80\nM30\n%\n";
+    let b =
+        "G21 G90 G17 G94\nT1 M6\nG54 G0 X0 Y0 S1000 M3\nG43 H1 Z5\nG81 G99 X10 Z-5 R2 F100\nX20\nG80\nM30\n";
+    let shop = Shop::with(&[("a.nc", a), ("b.ngc", b), ("gcheck.toml", "[tools]\n1 = { length = 0.0 }\n")]);
+    let run =
+        shop.gcheck("diff a.nc b.ngc -q --control haas-mill --control-b linuxcnc --config machine.units=mm");
+    assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{}", run.stdout);
+}
+
+#[test]
+fn a_run_that_does_not_come_to_its_end_is_no_verdict() {
+    let (good, bad) = (program("G1 X10.\nX20."), program("G1 X10.\nG2 X20. I1.\nX30."));
+    let run = diff(&good, &bad, "");
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("error: b.nc:9:1: "), "{}", run.stderr);
+    assert!(run.stdout.contains("are compared up to where a run ends before its program"), "{}", run.stdout);
+    let endless = program("N1 G1 X10.\nX0.\nGOTO 1");
+    let run = diff(&endless, &endless, "--fuel 1000");
+    assert_eq!(run.code, 2, "{}", run.stdout);
+    assert_eq!(diff("", "", "").code, 2);
+}
+
+#[test]
+fn json_holds_places_lines_and_values() {
+    let (a, b) = (program("G1 X10. F100.\nX20."), program("G1 X10. F120.\nX21."));
+    let run = diff(&a, &b, "--output-format json");
+    let all: Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!((run.code, &all["same"], &all["version"]), (1, &Value::Bool(false), &1.into()));
+    assert_eq!(all["differences"][0]["aspect"], "feed");
+    assert_eq!(all["differences"][0]["first"][0]["value_b"], "120 mm/min");
+    assert_eq!(
+        all["parting"]["b"],
+        serde_json::json!({ "file": "b.nc", "line": 9, "text": "X21." }),
+        "{all:#}"
+    );
+}
+
+#[test]
+fn missing_files_and_two_standard_inputs_are_errors() {
+    let shop = Shop::with(&[("a.nc", "M30\n")]);
+    assert_eq!(shop.gcheck("diff a.nc b.nc").code, 2);
+    assert_eq!(shop.gcheck("diff - -").code, 2);
+}
+
+/// Moves to where the axes stand already, before the first that is known: a program is always the same as itself.
+#[test]
+fn a_program_is_the_same_as_itself() {
+    for program in [
+        "G20 G90\nG0 X0 Y0\nT1 M6\nG0 G54 X1. Y0.\nG43 H1 Z1.\nG1 Z-1. F10.\nX2.\nG53 G0 Z0.\nG4 P2\nM30\n",
+        "G91 G28 Z0\nT1 M6\nG91 G28 X0 Y0\nG90 G0 X1. Y1.\nM30\n",
+    ] {
+        for control in ["haas-mill", "linuxcnc", "fanuc-mill"] {
+            let shop = Shop::with(&[("a.nc", program)]);
+            let run = shop.gcheck(&format!("diff a.nc a.nc -q --control {control}"));
+            assert_eq!(run.code, 0, "{control}: {}{}", run.stdout, run.stderr);
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! `gcheck plot`: pictures and pages, looked at as text and in a real browser.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+use crate::shop::Shop;
+
+/// Faces, mills a round hole and drills; one comment tries to be markup.
+const PLATE: &str = "\
+%
+O0101 (PLATE)
+G21 G17 G40 G49 G80 G90
+T1 M6 (FACE MILL 40)
+G0 G54 X-60. Y-30. S2000 M3
+G43 H1 Z25.
+G1 Z-0.5 F600.
+X60. F1200.
+Y0.
+X-60.
+Y30.
+X60.
+G0 Z25. (</script><b>BOLD</b> & \"QUOTED\")
+T2 M6 (END MILL 8)
+G54 X0. Y0. S6000 M3
+G43 H2 Z25.
+Z1.
+G1 X18. F900.
+G3 I-18. Z-3. F800.
+I-18. Z-6.
+I-18.
+G1 X0.
+G0 Z25.
+T3 M6 (DRILL 6.8)
+G54 X-38. Y-24. S0 M3
+G43 H3 Z25.
+G98 G81 Z-14. R2. F250.
+X38.
+G80
+M30
+%
+";
+
+const SHAFT: &str = "\
+%
+O0200 (SHAFT)
+G21 G40 G99 G18
+T0101 (ROUGH)
+G97 S1200 M3
+G0 X62. Z3.
+G71 U2. R1.
+G71 P10 Q20 U0.4 W0.1 F0.25
+N10 G0 X20.
+G1 Z-15. F0.15
+X30. Z-25.
+N20 X62.
+G70 P10 Q20
+G0 X100. Z50.
+M30
+%
+";
+
+#[test]
+fn a_picture_shows_three_sides_and_the_whole() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.svg");
+    assert_eq!((run.code, run.stdout.as_str()), (0, ""), "{}", run.stderr);
+    let svg = shop.read("plate.svg");
+    for title in ["XY, from above", "XZ, from the front", "YZ, from the right", "isometric"] {
+        assert_eq!(svg.matches(&format!(">{title}<")).count(), 1, "{title}");
+    }
+    for words in
+        ["T1 FACE MILL 40", "T2 END MILL 8", "T3 DRILL 6.8", "rapid moves", "extents of what is cut, mm"]
+    {
+        assert!(svg.contains(words), "{words}");
+    }
+    // What is cut, not what is passed on the way there.
+    for words in ["X -60 to 60", "Y -30 to 30", "Z -14 to 25"] {
+        assert!(svg.contains(words), "{words}: {svg}");
+    }
+    assert!(svg.contains("class=\"rapid\"") && svg.contains("class=\"cut\""));
+}
+
+#[test]
+fn a_lathe_is_drawn_with_z_to_the_right_and_diameters() {
+    let shop = Shop::with(&[("shaft.nc", SHAFT)]);
+    assert_eq!(shop.gcheck("plot shaft.nc --control fanuc-lathe -o shaft.svg").code, 0);
+    let svg = shop.read("shaft.svg");
+    assert!(svg.contains(">ZX<") && !svg.contains("isometric"), "{svg}");
+    assert!(svg.contains("X 20 to 62") && svg.contains("class=\"axis\""), "{svg}");
+}
+
+#[test]
+fn pictures_are_the_same_every_time() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    for name in ["a.svg", "b.svg", "a.html", "b.html"] {
+        assert_eq!(shop.gcheck(&format!("plot plate.nc -q --control fanuc-mill -o {name}")).code, 0);
+    }
+    assert_eq!(shop.read("a.svg"), shop.read("b.svg"));
+    assert_eq!(shop.read("a.html"), shop.read("b.html"));
+}
+
+#[test]
+fn the_name_of_the_output_says_what_is_drawn() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.png");
+    assert_eq!(run.code, 2);
+    assert!(
+        run.stderr.contains("plate.png: cannot tell what to draw") && run.stderr.contains("`.html`"),
+        "{}",
+        run.stderr
+    );
+    assert_eq!(shop.names(), ["plate.nc"]);
+}
+
+#[test]
+fn a_run_that_faults_is_drawn_as_far_as_it_goes() {
+    let broken = PLATE.replace("I-18. Z-6.", "X50. I-18. Z-6.");
+    let shop = Shop::with(&[("plate.nc", broken.as_str())]);
+    let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html");
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    let page = shop.read("plate.html");
+    assert!(page.contains("the run ended in plate.nc, line 20: "), "the page says where the path ends");
+}
+
+#[test]
+fn a_program_that_moves_nothing_is_no_mistake() {
+    let shop = Shop::with(&[("none.nc", "%\nO1\nM30\n%\n")]);
+    for name in ["none.svg", "none.html"] {
+        let run = shop.gcheck(&format!("plot none.nc --control fanuc-mill -o {name}"));
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        assert!(shop.read(name).contains("the program moves nothing"), "{name}");
+    }
+}
+
+/// Of text that is no UTF-8, of names with quotes, of markup in comments nothing becomes a part of the page.
+#[test]
+fn text_of_a_program_stays_text() {
+    let shop = Shop::new();
+    let mut bytes = PLATE.as_bytes().to_vec();
+    bytes.extend_from_slice(b"(FR\xc4SER <!-- <script>alert(1)</script>)\n");
+    shop.file("a&b <i>'x'\".nc", &bytes);
+    let mut command = shop.command();
+    command.args(["plot", "a&b <i>'x'\".nc", "--control", "fanuc-mill", "-o", "page.html"]);
+    assert_eq!(shop.finish(&mut command, b"").code, 0);
+    let page = shop.read("page.html");
+    // The data's and the page's own.
+    assert_eq!(page.matches("</script").count(), 2);
+    assert_eq!(page.matches("<script").count(), 2);
+    assert!(!page.contains("<!--") && !page.contains("<b>BOLD") && !page.contains("<i>"));
+    assert!(page.contains("FR\u{fffd}SER"));
+    let data = page.split_once("id=\"data\">").unwrap().1.split_once("</script>").unwrap().0;
+    let data: Value = serde_json::from_str(data).unwrap();
+    assert_eq!(data["title"], "a&b <i>'x'\".nc");
+    assert!(data["sources"][0]["text"].as_str().unwrap().contains("</script><b>BOLD</b>"));
+    let mut command = shop.command();
+    command.args(["plot", "a&b <i>'x'\".nc", "--control", "fanuc-mill", "-o", "page.svg"]);
+    assert_eq!(shop.finish(&mut command, b"").code, 0);
+    assert!(shop.read("page.svg").contains("<title>a&amp;b &lt;i&gt;&#39;x&#39;&quot;.nc</title>"));
+}
+
+/// The page loads nothing, and would not be allowed to.
+#[test]
+fn a_page_needs_nothing_else() {
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
+    let page = shop.read("plate.html");
+    assert!(page.contains("Content-Security-Policy\" content=\"default-src 'none'"));
+    for address in ["http://", "https://", "src=", "@import", "fetch("] {
+        assert!(!page.contains(address), "{address}");
+    }
+}
+
+#[test]
+fn many_moves_are_thinned_and_the_page_says_so() {
+    let mut text = String::from("%\nO1\nG21 G90 G17\nT1 M6\nG0 X0. Y0. S100 M3\nG43 H1 Z5.\nG1 Z-1. F500.\n");
+    for at in 0..600_000_u64 {
+        text.push_str(&format!(
+            "X{}.{:03} Y{}.{:03}\n",
+            at / 1000,
+            at * 7919 % 1000,
+            at * 31 % 97,
+            at * 17 % 1000
+        ));
+    }
+    text.push_str("M30\n%\n");
+    let shop = Shop::with(&[("long.nc", text.as_str())]);
+    let run = shop.gcheck("plot long.nc --control fanuc-mill -o long.html");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stderr.contains("moves are drawn with"), "{}", run.stderr);
+    let length = fs::metadata(shop.path("long.html")).unwrap().len();
+    assert!(length < 40_000_000, "{length}");
+}
+
+/// Where a browser may be.
+const BROWSERS: [&str; 4] = [
+    "/usr/bin/chromium",
+    "/usr/bin/chromium-browser",
+    "/usr/bin/google-chrome",
+    "/usr/bin/google-chrome-stable",
+];
+
+#[test]
+fn a_page_works_in_a_browser() {
+    let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let tools = crate_folder.join("../../.test-tools");
+    let browser = BROWSERS.iter().map(Path::new).find(|path| path.exists());
+    let (Some(browser), true) = (browser, tools.join("node_modules/playwright-core").exists()) else {
+        eprintln!(
+            "skipped: a_page_works_in_a_browser (no Chromium, or no playwright-core in {}; `cargo xtask test` installs both)",
+            tools.display()
+        );
+        return;
+    };
+    let shop = Shop::with(&[("plate.nc", PLATE)]);
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html").code, 0);
+    // Pictures of the last run stay for people to look at.
+    let pictures = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("plot-pictures");
+    fs::create_dir_all(&pictures).unwrap();
+    let output = Command::new("node")
+        .arg(crate_folder.join("tests/browser/look.mjs"))
+        .args([tools.as_path(), browser, &shop.path("plate.html"), &pictures])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let seen: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let text = |key: &str| seen[key].as_str().unwrap_or_else(|| panic!("{key}: {seen:#}")).to_owned();
+
+    assert_eq!(seen["problems"], Value::Array(Vec::new()), "{seen:#}");
+    assert_eq!(seen["requests"], serde_json::json!(["plate.html"]), "nothing else is loaded");
+    assert_eq!(seen["message"], 0, "the path is drawn");
+    assert_eq!(text("title"), "plate.nc");
+    assert!(
+        text("summary").starts_with("fanuc-mill") && text("summary").contains("X -60.000 to 60.000"),
+        "{seen:#}"
+    );
+    assert_eq!(seen["legend"][0], "T1 FACE MILL 40");
+
+    assert_eq!(seen["lines"][1], "O0101 (PLATE)");
+    assert_eq!(seen["lines"][12], "G0 Z25. (</script><b>BOLD</b> & \"QUOTED\")");
+    assert_eq!(seen["boldElements"], 0);
+
+    assert_eq!(text("readoutOfLine8"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
+    assert_eq!(text("chosen"), "8");
+    assert_eq!(text("picked"), "line 8 feed to X60.000 Y-30.000 Z-0.500 · T1 · 0:14");
+
+    assert!(seen["findings"].as_array().unwrap().len() == 1 && seen["marked"] == 1, "{seen:#}");
+    assert_eq!(text("lineOfFinding"), "27");
+
+    assert_eq!(text("playStops"), "Play");
+    // The first place that is known comes behind a tool change.
+    assert_eq!(text("clockAtStart"), "0:05");
+    assert_ne!(text("clockInPlay"), text("clockAtEnd"));
+    assert!(text("afterOneStep").starts_with("line "), "{seen:#}");
+
+    assert_eq!((text("theme").as_str(), text("backgroundLight").as_str()), ("dark", "251,251,250"));
+    assert_eq!(seen["scrollsSideways"], false);
+}

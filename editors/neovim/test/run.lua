@@ -1,0 +1,170 @@
+-- Tests inside Neovim with the real server: `nvim --headless --clean -c 'luafile run.lua'`, from a folder of programs.
+--
+-- GCHECK_PATH names the program, GCHECK_PLUGIN the folder of this plugin. Works on 0.7.2 as on 0.11.
+
+local folder = vim.fn.getcwd()
+vim.opt.runtimepath:prepend(vim.env.GCHECK_PLUGIN)
+vim.cmd("filetype plugin on")
+vim.cmd("source " .. vim.env.GCHECK_PLUGIN .. "/ftdetect/gcode.vim")
+vim.cmd("source " .. vim.env.GCHECK_PLUGIN .. "/plugin/gcheck.lua")
+
+local WAIT = 30000
+local failed = 0
+
+local function say(line)
+  io.stdout:write(line .. "\n")
+end
+
+local function test(name, run)
+  local ok, message = xpcall(run, debug.traceback)
+  if ok then
+    say("ok " .. name)
+  else
+    failed = failed + 1
+    say("FAILED " .. name .. ": " .. tostring(message))
+  end
+end
+
+local function until_(what, ask)
+  local answer
+  local met = vim.wait(WAIT, function()
+    answer = ask()
+    return answer ~= nil and answer ~= false
+  end, 20)
+  assert(met, "waited in vain for " .. what)
+  return answer
+end
+
+local function open(name)
+  vim.cmd("edit " .. vim.fn.fnameescape(folder .. "/" .. name))
+  assert(vim.bo.filetype == "gcode", name .. " is " .. vim.bo.filetype)
+end
+
+local function finding(rule)
+  for _, diagnostic in ipairs(vim.diagnostic.get(0)) do
+    local code = diagnostic.code or (diagnostic.user_data and diagnostic.user_data.lsp and diagnostic.user_data.lsp.code)
+    if code == rule then
+      return diagnostic
+    end
+  end
+end
+
+local function cursor_on(text)
+  for number, line in ipairs(vim.api.nvim_buf_get_lines(0, 0, -1, false)) do
+    local at = line:find(text, 1, true)
+    if at then
+      vim.api.nvim_win_set_cursor(0, { number, at })
+      return
+    end
+  end
+  error("the program has no " .. text)
+end
+
+local function client()
+  local get = vim.lsp.get_clients or vim.lsp.get_active_clients
+  for _, found in pairs(get()) do
+    if found.name == "gcheck" then
+      return found
+    end
+  end
+end
+
+local function ask(method, more)
+  local running = until_("a client", client)
+  local parameters = vim.lsp.util.make_position_params(0, running.offset_encoding)
+  parameters = vim.tbl_extend("force", parameters, more or {})
+  local answers = vim.lsp.buf_request_sync(0, method, parameters, WAIT)
+  for _, answer in pairs(answers or {}) do
+    assert(not answer.error and not answer.err, vim.inspect(answer))
+    if answer.result then
+      return answer.result
+    end
+  end
+end
+
+test("a finding appears", function()
+  open("part.nc")
+  local found = until_("the finding", function()
+    return finding("unknown-code")
+  end)
+  assert(found.lnum == 5, "on line " .. found.lnum)
+  assert(found.source == "gcheck", found.source)
+end)
+
+test("hover tells a code and the state", function()
+  cursor_on("G43")
+  local hover = ask("textDocument/hover")
+  assert(hover and hover.contents.value:find("G43", 1, true), vim.inspect(hover))
+end)
+
+test("an edit clears a finding and another brings it back", function()
+  open("typed.nc")
+  until_("a client", client)
+  vim.api.nvim_buf_set_lines(0, 4, 5, false, { "G999 X10. Y10. (µ 日本 😀)" })
+  until_("the finding", function()
+    return finding("unknown-code")
+  end)
+  vim.api.nvim_buf_set_lines(0, 4, 5, false, { "G00 X10. Y10. (µ 日本 😀) G998" })
+  local found = until_("the finding behind the comment", function()
+    local found = finding("unknown-code")
+    return found and found.col > 20 and found
+  end)
+  local line = vim.api.nvim_buf_get_lines(0, 4, 5, false)[1]
+  assert(line:sub(found.col + 1, found.end_col) == "G998", line:sub(found.col + 1, found.end_col))
+  vim.api.nvim_buf_set_lines(0, 4, 5, false, { "G00 X10. Y10." })
+  until_("no finding", function()
+    return finding("unknown-code") == nil
+  end)
+end)
+
+test("a fix clears its finding", function()
+  open("fixable.nc")
+  local found = until_("the finding", function()
+    return finding("code-given-twice")
+  end)
+  local running = client()
+  vim.api.nvim_win_set_cursor(0, { found.lnum + 1, found.col })
+  local raw = found.user_data and found.user_data.lsp
+  local range = {
+    start = { line = found.lnum, character = found.col },
+    ["end"] = { line = found.end_lnum, character = found.end_col },
+  }
+  local diagnostic = raw and raw.range and raw
+    or { range = range, message = found.message, code = found.code, source = "gcheck", severity = found.severity }
+  local actions = ask("textDocument/codeAction", { range = range, context = { diagnostics = { diagnostic } } })
+  local fix
+  for _, action in ipairs(actions or {}) do
+    if action.edit and action.kind == "quickfix" and action.diagnostics then
+      fix = fix or action
+    end
+  end
+  assert(fix, "no fix in " .. vim.inspect(actions))
+  vim.lsp.util.apply_workspace_edit(fix.edit, running.offset_encoding)
+  until_("the finding to go", function()
+    return finding("code-given-twice") == nil
+  end)
+end)
+
+test("a program is renamed across files", function()
+  open("main.nc")
+  cursor_on("P2000")
+  local edit = ask("textDocument/rename", { newName = "2500" })
+  assert(edit, "no rename")
+  local files = 0
+  for _ in pairs(edit.changes or edit.documentChanges or {}) do
+    files = files + 1
+  end
+  assert(files == 2, vim.inspect(edit))
+  vim.lsp.util.apply_workspace_edit(edit, client().offset_encoding)
+  local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")
+  assert(text:find("M98 P2500", 1, true), text)
+end)
+
+test("the health check passes", function()
+  vim.cmd("silent checkhealth gcheck")
+  local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")
+  assert(text:find("server(s) running", 1, true), text)
+end)
+
+say(failed == 0 and "all tests passed" or failed .. " tests failed")
+vim.cmd(failed == 0 and "qall!" or "cquit 1")

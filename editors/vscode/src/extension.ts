@@ -1,0 +1,23 @@
+// The extension: starts the server, and adds what the protocol has no words for.
+
+import * as vscode from "vscode";
+
+import { registerCommands } from "./commands";
+import { Server } from "./server";
+import { ControlStatus } from "./status";
+import { ToolpathPreview } from "./preview/panel";
+
+/** What tests reach in. */
+export interface Api {
+  server: Server;
+  preview: ToolpathPreview;
+}
+
+export async function activate(context: vscode.ExtensionContext): Promise<Api> {
+  const server = new Server(context);
+  const status = new ControlStatus(server);
+  const preview = new ToolpathPreview(context, server);
+  context.subscriptions.push(server, status, preview, ...registerCommands(server, preview));
+  await server.start();
+  return { server, preview };
+}

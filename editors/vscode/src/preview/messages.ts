@@ -1,0 +1,29 @@
+// What the extension and the page of the preview say to each other.
+
+import type { Drawing } from "gcheck-viewer";
+
+/** The server's answer to `gcheck/toolpath`. */
+export interface Toolpath {
+  data: Drawing;
+  /** Moves of the run; more than are drawn when it was thinned. */
+  moves: number;
+  /** Seconds, as far as they are known. */
+  seconds: number;
+  /** What a reader of the picture has to know, one sentence each. */
+  notes: string[];
+  /** Lowest and highest machine coordinates of X, Y and Z, where the machine's travel is told: millimetres. */
+  travel: ([number, number] | null)[];
+  /** How the run ended, where it did not reach the program's end. */
+  stopped: string | null;
+}
+
+export type ToPage =
+  | { kind: "toolpath"; name: string; toolpath: Toolpath }
+  | { kind: "nothing"; why: string }
+  | { kind: "lines"; first: number; last: number };
+
+export type FromPage =
+  | { kind: "ready" }
+  | { kind: "line"; file: string; line: number }
+  /** For tests: what is drawn. */
+  | { kind: "drawn"; pieces: number };

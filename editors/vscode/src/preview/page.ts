@@ -1,0 +1,146 @@
+// The page of the preview: the viewer, and its controls.
+
+import { createViewer, type Drawing, lengthText, THEMES, type Viewer } from "gcheck-viewer";
+
+import type { FromPage, ToPage, Toolpath } from "./messages";
+
+declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
+
+const host = acquireVsCodeApi();
+
+function element<T extends HTMLElement>(id: string): T {
+  const found = document.getElementById(id);
+  if (found === null) {
+    throw new Error(`the page has no #${id}`);
+  }
+  return found as T;
+}
+
+const canvas = element<HTMLCanvasElement>("canvas");
+const nothing = element("nothing");
+const figures = element("figures");
+const tools = element("tools");
+const play = element<HTMLButtonElement>("play");
+const time = element<HTMLInputElement>("time");
+const speed = element<HTMLSelectElement>("speed");
+const view = element<HTMLSelectElement>("view");
+const rapids = element<HTMLInputElement>("rapids");
+
+let viewer: Viewer | undefined;
+let drawing: Drawing | undefined;
+
+function theme(): Record<string, string> {
+  const isLight = document.body.classList.contains("vscode-light") || document.body.classList.contains("vscode-high-contrast-light");
+  const own = isLight ? THEMES.light : THEMES.dark;
+  const background = getComputedStyle(document.body).getPropertyValue("--vscode-editor-background").trim();
+  return /^#[0-9a-f]{6}$/i.test(background) ? { ...own, background } : own;
+}
+
+function show(toolpath: Toolpath): void {
+  nothing.textContent = "";
+  drawing = toolpath.data;
+  if (viewer === undefined) {
+    viewer = createViewer(canvas, drawing, {
+      onPick(place) {
+        if (place !== null) {
+          host.postMessage({ kind: "line", file: drawing?.files[place.file] ?? "", line: place.line });
+        }
+      },
+      onProgress(place) {
+        const duration = viewer?.duration() ?? 0;
+        time.value = String(duration > 0 ? Math.round((place.seconds / duration) * 1000) : 1000);
+      },
+      onPlay(isPlaying) {
+        play.textContent = isPlaying ? "⏸" : "▶";
+        play.ariaLabel = isPlaying ? "Pause" : "Play";
+      },
+    });
+    viewer.setTheme(theme());
+    viewer.setSpeed(Number(speed.value));
+    if (drawing.lathe) {
+      view.value = "lathe";
+    }
+  } else {
+    viewer.setData(drawing);
+  }
+  viewer.showRapids(rapids.checked);
+  describe(toolpath);
+  legend(drawing);
+  host.postMessage({ kind: "drawn", pieces: viewer.pieces() });
+}
+
+/** Extents of the cut, time, and what a reader has to know. */
+function describe(toolpath: Toolpath): void {
+  const { data, travel, seconds, notes } = toolpath;
+  const lines: string[] = [];
+  const box = data.cut ?? data.all;
+  ["X", "Y", "Z"].forEach((axis, index) => {
+    const [low, high] = [box?.[0][index], box?.[1][index]];
+    if (low === undefined || high === undefined) {
+      return;
+    }
+    const factor = axis === "X" && data.diameter ? 2 : 1;
+    lines.push(`${axis} ${lengthText(low * factor, data.units)} … ${lengthText(high * factor, data.units)}`);
+  });
+  ["X", "Y", "Z"].forEach((axis, index) => {
+    const range = travel[index];
+    const [low, high] = [data.all?.[0][index], data.all?.[1][index]];
+    // Where the work stands on the table is not known here; that the path is longer than the travel is.
+    if (range && low !== undefined && high !== undefined && high - low > range[1] - range[0]) {
+      lines.push(`${axis} needs more than the machine's travel`);
+    }
+  });
+  if (seconds > 0) {
+    const whole = Math.round(seconds);
+    lines.push(`${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")} min`);
+  }
+  figures.replaceChildren(
+    ...[...lines, ...notes].map((line) => Object.assign(document.createElement("div"), { textContent: line })),
+  );
+}
+
+function legend(drawing: Drawing): void {
+  const rows = drawing.tools.map((tool, index) => {
+    const label = document.createElement("label");
+    const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: true });
+    box.addEventListener("change", () => viewer?.showTool(index, box.checked));
+    const swatch = document.createElement("span");
+    swatch.className = "swatch";
+    swatch.style.background = tool.color;
+    const name = [tool.number === null ? "no tool" : `T${tool.number}`, tool.name].filter(Boolean).join(" ");
+    label.append(box, swatch, ` ${name}`);
+    return label;
+  });
+  tools.replaceChildren(...rows);
+}
+
+window.addEventListener("message", (event: MessageEvent<ToPage>) => {
+  const message = event.data;
+  switch (message.kind) {
+    case "toolpath":
+      show(message.toolpath);
+      break;
+    case "nothing":
+      nothing.textContent = message.why;
+      break;
+    case "lines":
+      viewer?.select(0, message.first, message.last);
+      break;
+  }
+});
+
+play.addEventListener("click", () => (viewer?.isPlaying() ? viewer.pause() : viewer?.play()));
+time.addEventListener("input", () => viewer?.goToTime((Number(time.value) / 1000) * viewer.duration()));
+speed.addEventListener("change", () => viewer?.setSpeed(Number(speed.value)));
+view.addEventListener("change", () => viewer?.setView(view.value));
+rapids.addEventListener("change", () => viewer?.showRapids(rapids.checked));
+element("fit").addEventListener("click", () => viewer?.fit());
+canvas.addEventListener("keydown", (event) => {
+  if (event.key === " ") {
+    event.preventDefault();
+    play.click();
+  }
+});
+new MutationObserver(() => viewer?.setTheme(theme())).observe(document.body, { attributes: true, attributeFilter: ["class"] });
+
+host.postMessage({ kind: "ready" });

@@ -1,0 +1,138 @@
+// The language server's process: where it is found, how it is started again.
+
+import { spawnSync } from "node:child_process";
+import * as fs from "node:fs";
+import * as path from "node:path";
+
+import * as vscode from "vscode";
+import { LanguageClient, type LanguageClientOptions, type ServerOptions, State } from "vscode-languageclient/node";
+
+/** Which control reads a program, as the server says it. */
+export interface Status {
+  uri: string;
+  /** Name of the control: `haas-mill`. */
+  control: string;
+  /** What the control is, in words. */
+  title: string;
+  /** How it was chosen: `configuration`, `option`, `comment`, `detected` or `default`. */
+  source: string;
+}
+
+export class Server implements vscode.Disposable {
+  private readonly output = vscode.window.createOutputChannel("gcheck");
+  private readonly statusEmitter = new vscode.EventEmitter<Status>();
+  private readonly startedEmitter = new vscode.EventEmitter<void>();
+  private client: LanguageClient | undefined;
+  private program: string | undefined;
+
+  /** The server says which control reads a program. */
+  readonly onStatus = this.statusEmitter.event;
+  /** The server runs, for the first time or again. */
+  readonly onStarted = this.startedEmitter.event;
+
+  constructor(private readonly context: vscode.ExtensionContext) {
+    context.subscriptions.push(
+      vscode.workspace.onDidChangeConfiguration((change) => {
+        if (change.affectsConfiguration("gcheck.path")) {
+          void this.restart();
+        }
+      }),
+      vscode.workspace.onDidGrantWorkspaceTrust(() => void this.restart()),
+    );
+  }
+
+  dispose(): void {
+    void this.client?.stop();
+    this.statusEmitter.dispose();
+    this.startedEmitter.dispose();
+    this.output.dispose();
+  }
+
+  async start(): Promise<void> {
+    const program = this.find();
+    if (program === undefined) {
+      const choice = await vscode.window.showErrorMessage(
+        "The gcheck program was not found. Install it, or say in the settings where it is.",
+        "Open Settings",
+      );
+      if (choice !== undefined) {
+        await vscode.commands.executeCommand("workbench.action.openSettings", "gcheck.path");
+      }
+      return;
+    }
+    this.program = program;
+    const run: ServerOptions = { command: program, args: ["lsp"] };
+    const options: LanguageClientOptions = {
+      documentSelector: [
+        { scheme: "file", language: "gcode" },
+        { scheme: "untitled", language: "gcode" },
+      ],
+      outputChannel: this.output,
+      synchronize: { configurationSection: "gcheck" },
+      markdown: { isTrusted: false, supportHtml: false },
+    };
+    const client = new LanguageClient("gcheck", "gcheck", run, options);
+    client.onNotification("gcheck/status", (status: Status) => this.statusEmitter.fire(status));
+    this.client = client;
+    try {
+      await client.start();
+      this.startedEmitter.fire();
+    } catch (error) {
+      this.output.appendLine(`${program} does not start: ${String(error)}`);
+      void vscode.window.showErrorMessage(`gcheck does not start: ${String(error)}`);
+    }
+  }
+
+  async restart(): Promise<void> {
+    const client = this.client;
+    this.client = undefined;
+    if (client !== undefined) {
+      await client.dispose();
+    }
+    await this.start();
+  }
+
+  showOutput(): void {
+    this.output.show(true);
+  }
+
+  get isRunning(): boolean {
+    return this.client?.state === State.Running;
+  }
+
+  /** Asks the server; `undefined` when it does not run or has no answer. */
+  async request<T>(method: string, parameters: unknown, token?: vscode.CancellationToken): Promise<T | undefined> {
+    if (this.client === undefined || !this.isRunning) {
+      return undefined;
+    }
+    const answer: T | null = await this.client.sendRequest(method, parameters, token);
+    return answer ?? undefined;
+  }
+
+  /** Runs the command line and gives what it prints; `undefined` when it fails. */
+  run(args: string[], folder?: string): string | undefined {
+    if (this.program === undefined) {
+      return undefined;
+    }
+    const result = spawnSync(this.program, args, { cwd: folder, encoding: "utf8", timeout: 10_000 });
+    return result.status === 0 ? result.stdout : undefined;
+  }
+
+  /** A document's address as the protocol writes it. */
+  address(document: vscode.TextDocument): { uri: string } {
+    return { uri: this.client?.code2ProtocolConverter.asUri(document.uri) ?? document.uri.toString() };
+  }
+
+  private find(): string | undefined {
+    const name = process.platform === "win32" ? "gcheck.exe" : "gcheck";
+    const isFile = (file: string | undefined): file is string =>
+      file !== undefined && file !== "" && fs.statSync(file, { throwIfNoEntry: false })?.isFile() === true;
+    // What a folder names is run only in a folder that is trusted.
+    const configured = vscode.workspace.isTrusted
+      ? vscode.workspace.getConfiguration("gcheck").get<string>("path")
+      : vscode.workspace.getConfiguration("gcheck").inspect<string>("path")?.globalValue;
+    const inPath = (process.env.PATH ?? "").split(path.delimiter).map((folder) => path.join(folder, name));
+    const bundled = this.context.asAbsolutePath(path.join("server", name));
+    return [configured, process.env.GCHECK_PATH, bundled, ...inPath].find(isFile);
+  }
+}

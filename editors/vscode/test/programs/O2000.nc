@@ -1,0 +1,6 @@
+%
+O2000 (sub)
+(gcheck: control=haas-mill)
+G00 X10. Y10.
+M99
+%

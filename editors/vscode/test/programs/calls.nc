@@ -1,0 +1,7 @@
+%
+O1005 (calls)
+(gcheck: control=haas-mill)
+G21 G17 G40 G49 G80 G90 G54
+M98 P3000
+M30
+%

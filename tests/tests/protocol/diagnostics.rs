@@ -1,0 +1,179 @@
+//! Findings in the editor: when they come, what they look like, when they go.
+//!
+//! Knows: the protocol's two ways of diagnostics. Must not know: rules, but for the few that the programs here show.
+
+use std::fs;
+
+use expect_test::expect;
+use serde_json::{Value, json};
+
+use crate::session::{Session, pulling, usual};
+
+/// Nobody has said a feed.
+const NO_FEED: &str = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\nM30\n%\n";
+
+#[test]
+fn findings_follow_the_text() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", NO_FEED);
+    expect!["5:0-5:6 warning feed-missing"].assert_eq(&session.published("a.nc", 1).join("\n"));
+    session.edit("a.nc", 2, [5, 6, 5, 6], " F100.");
+    expect![[r""]].assert_eq(&session.published("a.nc", 2).join("\n"));
+    session.edit("a.nc", 3, [5, 6, 5, 12], "");
+    assert!(session.published("a.nc", 3).join("\n").contains("feed-missing"));
+}
+
+#[test]
+fn a_diagnostic_says_where_why_and_where_to_read_more() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", "(gcheck: control=haas-mill)\n%\nO1\nG90 G1 G0 X1. F100.\nM30\n%\n");
+    let all = session.published_whole("a.nc", 1);
+    let found = all.iter().find(|found| found["code"] == "two-codes-of-one-group").unwrap();
+    let shown = serde_json::to_string_pretty(found).unwrap().replace(&session.uri(""), "file:///work/");
+    expect![[r#"
+        {
+          "code": "two-codes-of-one-group",
+          "codeDescription": {
+            "href": "https://github.com/gcheck/gcheck/blob/main/docs/rules/two-codes-of-one-group.md"
+          },
+          "message": "`G1` and `G0` belong to one modal group\nrapid positioning, the same group\nnote: `G1` and `G0` both set motion (group 01); only one can be active  [HM17 p.243; general knowledge (default)]\nhelp: keep one of the two, or put them in separate blocks",
+          "range": {
+            "end": {
+              "character": 9,
+              "line": 3
+            },
+            "start": {
+              "character": 7,
+              "line": 3
+            }
+          },
+          "relatedInformation": [
+            {
+              "location": {
+                "range": {
+                  "end": {
+                    "character": 6,
+                    "line": 3
+                  },
+                  "start": {
+                    "character": 4,
+                    "line": 3
+                  }
+                },
+                "uri": "file:///work/a.nc"
+              },
+              "message": "straight cut at feed"
+            }
+          ],
+          "severity": 1,
+          "source": "gcheck"
+        }"#]].assert_eq(&shown);
+}
+
+#[test]
+fn a_client_without_them_gets_no_related_places_tags_or_links() {
+    let mut session = Session::with(&json!({}), &[]);
+    session.open("a.nc", "(gcheck: control=haas-mill)\n%\nO1\nG90 G1 G0 X1. F100.\nM30\nG0 X1.\n%\n");
+    for found in session.published_whole("a.nc", 1) {
+        for member in ["relatedInformation", "tags", "codeDescription"] {
+            assert!(found.get(member).is_none(), "{found}");
+        }
+    }
+}
+
+#[test]
+fn a_document_that_is_closed_has_no_findings() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", NO_FEED);
+    assert!(!session.published("a.nc", 1).is_empty());
+    let uri = session.uri("a.nc");
+    session.client.notify("textDocument/didClose", json!({ "textDocument": { "uri": uri } }));
+    session.client.notification("textDocument/publishDiagnostics", |params| {
+        params["uri"] == uri.as_str() && params["diagnostics"] == json!([])
+    });
+}
+
+#[test]
+fn no_more_than_a_thousand_are_shown_and_the_rest_counted() {
+    let mut session = Session::new(&[]);
+    let text = format!("(gcheck: control=haas-mill)\n%\nO1\n{}M30\n%\n", "G0 G1 X1. F100.\n".repeat(1_500));
+    session.open("a.nc", &text);
+    let all = session.published_whole("a.nc", 1);
+    assert_eq!(all.len(), 1_001);
+    let last = all.last().unwrap();
+    assert_eq!(last["severity"], 3);
+    let message = last["message"].as_str().unwrap();
+    assert!(message.contains("not shown: two-codes-of-one-group"), "{message}");
+}
+
+#[test]
+fn who_asks_for_findings_is_not_sent_them() {
+    let mut session = Session::with(&pulling(), &[]);
+    assert_eq!(session.capabilities["diagnosticProvider"]["workspaceDiagnostics"], true);
+    session.open("a.nc", NO_FEED);
+    let document = session.document("a.nc");
+    let report = session.pull(&document);
+    assert_eq!(report["kind"], "full");
+    let findings = session.pulled("a.nc");
+    assert!(findings.iter().any(|finding| finding.contains("feed-missing")), "{findings:?}");
+
+    let asked_again = json!({
+        "textDocument": { "uri": session.uri("a.nc") }, "previousResultId": report["resultId"],
+    });
+    let report = session.pull(&asked_again);
+    assert_eq!(report["kind"], "unchanged");
+    session.edit("a.nc", 2, [5, 6, 5, 6], " F100.");
+    let report = session.pull(&asked_again);
+    assert_eq!(report["kind"], "full");
+    assert!(!session.pulled("a.nc").iter().any(|finding| finding.contains("feed-missing")));
+    session.client.receive_waiting();
+    let pushed = |message: &Value| {
+        message["method"] == "textDocument/publishDiagnostics"
+            && message["params"]["uri"] == session.uri("a.nc")
+    };
+    assert!(!session.client.notifications.iter().any(pushed));
+    let pushes = Session::with(&usual(), &[]);
+    assert!(pushes.capabilities.get("diagnosticProvider").is_none());
+}
+
+#[test]
+fn programs_of_the_workspace_are_checked_without_being_open() {
+    let files = [("a.nc", NO_FEED), ("sub/b.nc", "%\nO2\nM30\n%\n"), ("sub/read.me", "G1 X1.")];
+    let mut session = Session::with(&pulling(), &files);
+    let report = session.client.request("workspace/diagnostic", json!({ "previousResultIds": [] }));
+    let items = report["items"].as_array().unwrap().clone();
+    let of = |items: &[Value], uri: &str| items.iter().find(|item| item["uri"] == uri).cloned();
+    assert_eq!(items.len(), 2, "{items:?}");
+    let first = of(&items, &session.uri("a.nc")).unwrap();
+    let rules: Vec<&Value> = first["items"].as_array().unwrap().iter().map(|found| &found["code"]).collect();
+    assert!(rules.contains(&&json!("feed-missing")), "{rules:?}");
+
+    // What has not changed is not said again.
+    fs::write(session.path("sub/b.nc"), "%\nO2\nG1 X1.\nM30\n%\n").unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(2_100));
+    let known: Vec<Value> =
+        items.iter().map(|item| json!({ "uri": item["uri"], "value": item["resultId"] })).collect();
+    let report = session.client.request("workspace/diagnostic", json!({ "previousResultIds": known }));
+    let items = report["items"].as_array().unwrap().clone();
+    assert_eq!(of(&items, &session.uri("a.nc")).unwrap()["kind"], "unchanged");
+    assert_eq!(of(&items, &session.uri("sub/b.nc")).unwrap()["kind"], "full");
+}
+
+#[test]
+fn a_caller_is_checked_again_when_what_it_calls_is_typed() {
+    let caller = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nM98 P100\nM30\n%\n";
+    let mut session = Session::new(&[]);
+    session.open("a.nc", caller);
+    assert!(session.published("a.nc", 1).join("\n").contains("subprogram-missing"));
+    session.open("b.nc", "%\nO100\nM99\n%\n");
+    let uri = session.uri("a.nc");
+    session.client.notification("textDocument/publishDiagnostics", |params| {
+        let all = params["diagnostics"].to_string();
+        params["uri"] == uri.as_str() && !all.contains("subprogram-missing")
+    });
+    session.edit("b.nc", 2, [1, 1, 1, 4], "200");
+    session.client.notification("textDocument/publishDiagnostics", |params| {
+        let all = params["diagnostics"].to_string();
+        params["uri"] == uri.as_str() && all.contains("subprogram-missing")
+    });
+}

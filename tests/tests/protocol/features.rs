@@ -1,0 +1,292 @@
+//! Every request once, in its form.
+//!
+//! Knows: what the protocol wants an answer to look like. Must not know: how features come to their answers; what they say
+//! is tested where they are made.
+
+use serde_json::{Value, json};
+
+use crate::session::{Session, in_bytes, range_of, shown};
+
+const PROGRAM: &str = "\
+%
+O1 (µ PLATE)
+(gcheck: control=haas-mill)
+G21 G17 G40 G49 G80 G90 G94
+(POCKET)
+T1 M6 (END MILL D10)
+G54 G0 X0. Y0.
+S5000 M3
+G43 H1 Z50.
+#100=2.5
+G1 Z-1. F300.
+N10 X#100 (日本 😀) Y10.
+G2 X20. Y20. I10. J0.
+IF [#100 LT 5.] GOTO 20
+GOTO 10
+N20 G0 Z50.
+G81 X1. Y1. Z-5. R2. F200.
+G80
+M30
+%
+";
+
+fn opened() -> Session {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", PROGRAM);
+    session
+}
+
+fn ask(session: &mut Session, method: &str, params: Value) -> Value {
+    session.client.request(method, params)
+}
+
+#[test]
+fn hover_tells_of_the_code() {
+    let mut session = opened();
+    let at = session.at("a.nc", 8, 1);
+    let hover = ask(&mut session, "textDocument/hover", at);
+    assert_eq!(hover["contents"]["kind"], "markdown");
+    assert!(hover["contents"]["value"].as_str().unwrap().contains("G43"), "{hover}");
+    assert_eq!(shown(&hover["range"]), "8:0-8:3");
+}
+
+#[test]
+fn columns_are_those_of_the_client() {
+    // The word behind an emoji: 3 characters beyond the ASCII before it, in 4 units of UTF-16 or 10 bytes.
+    let at = |session: &Session, column| session.at("a.nc", 11, column);
+    let column = |in_bytes: bool| {
+        let line = PROGRAM.lines().nth(11).unwrap();
+        let before = &line[..line.find("Y10").unwrap()];
+        if in_bytes { before.len() } else { before.encode_utf16().count() }
+    };
+    let mut session = opened();
+    let params = at(&session, u32::try_from(column(false)).unwrap() + 1);
+    let hover = ask(&mut session, "textDocument/hover", params);
+    assert_eq!(hover["range"]["start"]["character"], column(false), "{hover}");
+    let mut session = Session::with(&in_bytes(), &[]);
+    session.open("a.nc", PROGRAM);
+    let params = at(&session, u32::try_from(column(true)).unwrap() + 1);
+    let hover = ask(&mut session, "textDocument/hover", params);
+    assert_eq!(hover["range"]["start"]["character"], column(true), "{hover}");
+}
+
+#[test]
+fn completion_offers_codes_that_replace_what_is_typed() {
+    let mut session = opened();
+    session.edit("a.nc", 2, [17, 0, 17, 3], "G8");
+    let at = session.at("a.nc", 17, 2);
+    let list = ask(&mut session, "textDocument/completion", at);
+    let items = list["items"].as_array().unwrap();
+    let found = items.iter().find(|item| item["label"] == "G83").unwrap_or_else(|| panic!("{list}"));
+    assert_eq!(shown(&found["textEdit"]["range"]), "17:0-17:2");
+}
+
+#[test]
+fn signature_help_names_the_words_of_a_cycle() {
+    let mut session = opened();
+    let at = session.at("a.nc", 16, 5);
+    let help = ask(&mut session, "textDocument/signatureHelp", at);
+    assert!(help["signatures"][0]["label"].as_str().unwrap().starts_with("G81"), "{help}");
+    let parameters = help["signatures"][0]["parameters"].as_array().unwrap();
+    assert!(parameters[0]["label"].is_array(), "{help}");
+}
+
+#[test]
+fn a_label_is_found_marked_and_renamed() {
+    let mut session = opened();
+    let at = session.at("a.nc", 13, 22);
+    let found = ask(&mut session, "textDocument/definition", at.clone());
+    assert_eq!(found[0]["range"]["start"]["line"], 15, "{found}");
+    let marks = ask(&mut session, "textDocument/documentHighlight", at.clone());
+    let kinds: Vec<&Value> = marks.as_array().unwrap().iter().map(|mark| &mark["kind"]).collect();
+    assert_eq!(kinds, [2, 3], "{marks}");
+    let mut params = at.clone();
+    params["context"] = json!({ "includeDeclaration": false });
+    let uses = ask(&mut session, "textDocument/references", params);
+    assert_eq!(uses.as_array().unwrap().len(), 1, "{uses}");
+    let target = ask(&mut session, "textDocument/prepareRename", at.clone());
+    assert!(target["placeholder"].as_str().unwrap().contains("20"), "{target}");
+    let mut params = at;
+    params["newName"] = json!("30");
+    let edit = ask(&mut session, "textDocument/rename", params.clone());
+    assert_eq!(edit["documentChanges"][0]["edits"].as_array().unwrap().len(), 2, "{edit}");
+    params["newName"] = json!("10");
+    let refused = session.client.refused("textDocument/rename", params);
+    assert_eq!(refused["code"], -32803, "a name that is taken: {refused}");
+}
+
+#[test]
+fn the_outline_is_a_tree_where_the_client_can_show_one() {
+    let mut session = opened();
+    let document = session.document("a.nc");
+    let symbols = ask(&mut session, "textDocument/documentSymbol", document);
+    assert!(symbols[0]["children"].is_array(), "{symbols}");
+    assert!(symbols.to_string().contains("END MILL"), "{symbols}");
+    let mut session = Session::with(&json!({}), &[]);
+    session.open("a.nc", PROGRAM);
+    let document = session.document("a.nc");
+    let symbols = ask(&mut session, "textDocument/documentSymbol", document);
+    assert!(symbols[0]["location"]["uri"].is_string(), "{symbols}");
+}
+
+#[test]
+fn sections_fold_and_selections_grow() {
+    let mut session = opened();
+    let document = session.document("a.nc");
+    let folds = ask(&mut session, "textDocument/foldingRange", document);
+    assert!(!folds.as_array().unwrap().is_empty());
+    let params = json!({
+        "textDocument": { "uri": session.uri("a.nc") },
+        "positions": [{ "line": 12, "character": 4 }, { "line": 99, "character": 0 }],
+    });
+    let ranges = ask(&mut session, "textDocument/selectionRange", params);
+    assert_eq!(ranges.as_array().unwrap().len(), 2);
+    assert_eq!(shown(&ranges[0]["range"]), "12:3-12:7");
+    assert!(ranges[0]["parent"].is_object());
+}
+
+/// Tokens as `line:column length type`.
+fn tokens(session: &Session, data: &Value) -> Vec<String> {
+    let legend = session.capabilities["semanticTokensProvider"]["legend"]["tokenTypes"].clone();
+    let (mut line, mut column) = (0, 0);
+    let numbers: Vec<u64> = data["data"].as_array().unwrap().iter().map(|n| n.as_u64().unwrap()).collect();
+    let one = |token: &[u64]| {
+        if token[0] > 0 {
+            column = 0;
+        }
+        line += token[0];
+        column += token[1];
+        let kind = legend[usize::try_from(token[3]).unwrap()].as_str().unwrap();
+        format!("{line}:{column} {} {kind}", token[2])
+    };
+    numbers.chunks(5).map(one).collect()
+}
+
+#[test]
+fn colours_are_told_for_the_whole_or_what_is_in_view() {
+    let mut session = opened();
+    let document = session.document("a.nc");
+    let all = ask(&mut session, "textDocument/semanticTokens/full", document.clone());
+    let all = tokens(&session, &all);
+    assert!(all.iter().any(|token| token == "6:4 2 rapid"), "{all:?}");
+    let mut params = document;
+    params["range"] = range_of([11, 0, 12, 0]);
+    let part = ask(&mut session, "textDocument/semanticTokens/range", params);
+    let part = tokens(&session, &part);
+    assert!(!part.is_empty() && part.iter().all(|token| token.starts_with("11:")), "{part:?}");
+    assert!(part.iter().all(|token| all.contains(token)), "{part:?}");
+}
+
+#[test]
+fn hints_stand_beside_the_text_where_they_are_switched_on() {
+    let mut session = opened();
+    let mut params = session.document("a.nc");
+    params["range"] = range_of([0, 0, 30, 0]);
+    let hints = ask(&mut session, "textDocument/inlayHint", params.clone());
+    assert!(!hints.as_array().unwrap().is_empty());
+    session.published("a.nc", 1);
+    session.client.settings = json!({ "inlayHints": false });
+    session.client.notify("workspace/didChangeConfiguration", json!({ "settings": null }));
+    session.published("a.nc", 1);
+    assert_eq!(ask(&mut session, "textDocument/inlayHint", params), json!([]));
+}
+
+#[test]
+fn lenses_tell_what_a_tool_does() {
+    let mut session = opened();
+    let document = session.document("a.nc");
+    let lenses = ask(&mut session, "textDocument/codeLens", document.clone());
+    assert!(!lenses.as_array().unwrap().is_empty());
+    assert!(lenses[0]["command"]["title"].is_string(), "{lenses}");
+    // Once known they are there at once.
+    assert_eq!(ask(&mut session, "textDocument/codeLens", document), lenses);
+}
+
+fn actions(session: &mut Session, range: [u32; 4], only: Option<&str>) -> Vec<Value> {
+    let mut params = session.document("a.nc");
+    params["range"] = range_of(range);
+    params["context"] = json!({ "diagnostics": [] });
+    if let Some(only) = only {
+        params["context"]["only"] = json!([only]);
+    }
+    let found = ask(session, "textDocument/codeAction", params);
+    found.as_array().unwrap().clone()
+}
+
+#[test]
+fn actions_mend_silence_and_explain() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", "%\nO1\n(gcheck: control=haas-mill)\nG90 G1 G0 X1. F100.\nM30\n%\n");
+    session.published("a.nc", 1);
+    let all = actions(&mut session, [3, 4, 3, 8], None);
+    let kinds: Vec<&str> = all.iter().map(|action| action["kind"].as_str().unwrap()).collect();
+    assert!(kinds.contains(&"quickfix"), "{all:#?}");
+    let silence = all.iter().find(|action| action["edit"].to_string().contains("gcheck: ignore")).unwrap();
+    assert_eq!(silence["edit"]["documentChanges"][0]["textDocument"]["version"], 1);
+    let page = all.iter().find(|action| action["command"]["command"] == "gcheck.openPage").unwrap();
+    let command = json!({ "command": "gcheck.openPage", "arguments": page["command"]["arguments"] });
+    ask(&mut session, "workspace/executeCommand", command);
+    assert!(session.client.requests.iter().any(|request| request["method"] == "window/showDocument"));
+    let of_source = actions(&mut session, [0, 0, 6, 0], Some("source"));
+    assert!(
+        of_source.iter().all(|action| action["kind"].as_str().unwrap().starts_with("source")),
+        "{of_source:#?}"
+    );
+}
+
+#[test]
+fn text_is_formatted_whole_in_part_and_while_it_is_typed() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", "%\nO1\ng0x1.y2.\ng1x2.f100.\nM30\n%\n");
+    let options = json!({ "tabSize": 2, "insertSpaces": true });
+    let mut params = session.document("a.nc");
+    params["options"] = options.clone();
+    let whole = ask(&mut session, "textDocument/formatting", params.clone());
+    assert!(!whole.as_array().unwrap().is_empty());
+    params["range"] = range_of([3, 0, 3, 4]);
+    let part = ask(&mut session, "textDocument/rangeFormatting", params);
+    let lines: Vec<&Value> =
+        part.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
+    assert!(!lines.is_empty() && lines.iter().all(|line| **line == 3), "{part}");
+    let mut params = session.at("a.nc", 3, 0);
+    params["ch"] = json!("\n");
+    params["options"] = options;
+    let typed = ask(&mut session, "textDocument/onTypeFormatting", params);
+    let lines: Vec<&Value> =
+        typed.as_array().unwrap().iter().map(|edit| &edit["range"]["start"]["line"]).collect();
+    assert!(!lines.is_empty() && lines.iter().all(|line| **line == 2), "{typed}");
+}
+
+#[test]
+fn our_own_requests_answer() {
+    let mut session = opened();
+    let at = session.at("a.nc", 11, 5);
+    let state = ask(&mut session, "gcheck/stateAt", at);
+    assert!(state.is_object(), "{state}");
+    assert!(!state.to_string().contains("\"setAt\":1"), "places are lines and columns: {state}");
+    let document = session.document("a.nc");
+    let path = ask(&mut session, "gcheck/toolpath", document.clone());
+    assert!(path.is_object(), "{path}");
+    assert_eq!(session.text("a.nc"), PROGRAM);
+    let at = session.at("a.nc", 12, 0);
+    let block = ask(&mut session, "gcheck/syntaxTree", at);
+    assert!(block.as_str().unwrap().starts_with("BLOCK"), "{block}");
+}
+
+#[test]
+fn long_work_is_shown_where_the_client_agrees() {
+    let mut session = Session::new(&[]);
+    // Each block asks whether it is the one, so the analysis has a while to go.
+    session.open("a.nc", &gcheck_testkit::inputs::macros(60_000));
+    session.published("a.nc", 1);
+    session.client.receive_waiting();
+    let creates = session.client.requests.iter().filter(|r| r["method"] == "window/workDoneProgress/create");
+    let tokens: Vec<&Value> = creates.map(|request| &request["params"]["token"]).collect();
+    let told: Vec<&Value> =
+        session.client.notifications.iter().filter(|m| m["method"] == "$/progress").collect();
+    for message in &told {
+        assert!(tokens.contains(&&message["params"]["token"]), "{message}");
+    }
+    let kind = |kind: &str| told.iter().filter(|m| m["params"]["value"]["kind"] == kind).count();
+    assert_eq!(kind("begin"), kind("end"));
+}
