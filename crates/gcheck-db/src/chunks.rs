@@ -29,9 +29,12 @@ impl fmt::Debug for Storage {
     }
 }
 
+/// Is called with the name of each query that is executed.
+pub(crate) type Told = Box<dyn Fn(&str) + Send + Sync>;
+
 impl Storage {
     /// `told` is called with the name of each query that is executed.
-    pub(crate) fn new(told: Option<Box<dyn Fn(&str) + Send + Sync>>) -> Self {
+    pub(crate) fn new(told: Option<Told>) -> Self {
         let told = told.map(|told| -> Box<dyn Fn(salsa::Event) + Send + Sync> {
             Box::new(move |event: salsa::Event| {
                 if let salsa::EventKind::WillExecute { database_key } = event.kind {

@@ -5,7 +5,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use gcheck_engine::{Model, Options, Program, flow};
+use gcheck_engine::{Look, Model, Options, Program, flow};
 use gcheck_program::{Dialect, Loaded};
 use gcheck_rules::{Edited, Finding, Incremental, Ledger, RuleMeta, Severity, Work};
 use gcheck_syntax::{Document, OutOfRange};
@@ -220,26 +220,47 @@ impl Database {
         blocks: Range<u32>,
         stop: &dyn Fn() -> bool,
     ) -> Result<Vec<StateAt>, Cancelled> {
+        let mut states = Vec::new();
+        self.look(id, blocks, stop, &mut |state, _| states.push(state.clone()))?;
+        Ok(states)
+    }
+
+    /// Hands each of [`Database::states`] on with what can look into it: values of expressions and variables, what a block
+    /// would do.
+    ///
+    /// # Errors
+    /// As [`Database::analysis`].
+    pub fn look(
+        &mut self,
+        id: DocumentId,
+        blocks: Range<u32>,
+        stop: &dyn Fn() -> bool,
+        with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
+    ) -> Result<(), Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
         open.analyse(&mut self.storage, stop)?;
         let settings = &open.settings;
         let dialect = Dialect::new(&settings.control);
         let source = Asking { storage: &self.storage, chunks: &open.chunks };
         let edited = edited(&open.document, settings, &dialect, &source, stop);
+        let mut hand_on = |keeper: &mut Keeper, look: &mut Look<'_, '_>| {
+            // What was cut short is not all that comes by.
+            if !stop() {
+                keeper.seen.values().for_each(|state| with(state, look));
+            }
+        };
         let mut keeper = Keeper::new(blocks.clone());
-        if !open.incremental.show_again(&edited, &blocks, &mut keeper) {
+        if !open.incremental.show_again(&edited, &blocks, &mut keeper, &mut hand_on) {
             // The analysis had no path rules, or the switches of block delete are on for good.
-            keeper = Keeper::new(blocks);
+            let mut keeper = Keeper::new(blocks);
             let model = Model::new(&settings.control);
             let library = Others(settings);
             let loaded = Loaded::new(open.document.text(), &dialect, |_, _, _| ());
             let program = Program::new(loaded, &dialect, &library);
             let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
             flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
+            hand_on(&mut keeper, &mut Look::new(&program, &model, machine));
         }
-        if stop() {
-            return Err(Cancelled);
-        }
-        Ok(keeper.seen.into_values().collect())
+        if stop() { Err(Cancelled) } else { Ok(()) }
     }
 }

@@ -19,7 +19,7 @@
 
 mod chunks;
 mod database;
-mod looking;
+mod executable;
 mod settings;
 mod snapshot;
 mod states;

@@ -53,6 +53,8 @@ pub(crate) enum Target {
     Computed,
     /// No block: it reads the number of one.
     Reads,
+    /// No block: it is a number that does not stand in front of its block, or a second one.
+    Stray,
     /// The block has a mistake in form, so that what it names is not certain.
     Unclear,
 }
@@ -227,6 +229,11 @@ impl Found {
             let digits = place.digits(&label.range()).unwrap_or(range.end..range.end);
             let value = label.integer().filter(|_| !digits.is_empty());
             self.labels.push((number, Label { number: value, range, digits, program: 0 }));
+        }
+        let is_number = |word: &&Word| word.letter == Letter::of('N');
+        let stray = words.iter().filter(is_number).find(|word| head(words) != Some(*word));
+        if let Some(word) = stray {
+            self.refer(number, Target::Stray, place.shift(&word.range()));
         }
         let references = self.references.len();
         // A block may be as long as a file: what its codes ask for is gathered once.

@@ -261,7 +261,8 @@ impl<'s> Writer<'s> {
             has_code |= matches!(item.kind, ItemKind::Word | ItemKind::Statement | ItemKind::ProgramNumber);
             before = Some(item.kind);
         }
-        let end = items.last().map_or(0, |item| item.range.end);
+        let head = parts.first().map_or(0, |part| part.range.start);
+        let end = items.last().map_or(head, |item| item.range.end);
         let tail = end..parts.last().map_or(end, |part| part.range.end);
         if self.style.drop_trailing_blanks {
             self.blanks(text, &tail, 0);

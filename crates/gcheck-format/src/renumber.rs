@@ -56,6 +56,8 @@ pub enum Refusal {
     TakenByProgram(u32),
     /// A variable is read that holds the number of a block.
     ReadsNumber,
+    /// A number does not stand in front of its block, or is its second one.
+    StrayNumber,
     /// A block with a mistake in form has a jump.
     Unclear,
     /// The number would be this, and the control takes no more than that.
@@ -95,6 +97,9 @@ impl fmt::Display for Refusal {
                 write!(f, "this names program O{number}, and a block would get that number")
             }
             Self::ReadsNumber => f.write_str("this reads the number of a block, which would be another one"),
+            Self::StrayNumber => f.write_str(
+                "this number does not stand in front of its block, so it is not certain that a jump leads to it",
+            ),
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
             }
@@ -190,6 +195,7 @@ fn follow<'l>(
         Target::Other => return Err(Refusal::OtherProgram),
         Target::Computed => return Err(Refusal::Computed),
         Target::Reads => return Err(Refusal::ReadsNumber),
+        Target::Stray => return Err(Refusal::StrayNumber),
         Target::Unclear => return Err(Refusal::Unclear),
     };
     let mut new = None;

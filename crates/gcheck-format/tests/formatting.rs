@@ -152,6 +152,19 @@ fn blank_lines_stay_where_a_program_asks_for_the_number_of_its_line() {
 }
 
 #[test]
+fn a_byte_order_mark_stays_wherever_it_stands() {
+    check(
+        "haas-mill",
+        "\u{FEFF}g0x1.\n\u{FEFF}  \ng0 \u{FEFF} x2.\n",
+        &expect![[r#"
+        ﻿G0 X1.
+        ﻿
+        g0 ﻿ x2.
+    "#]],
+    );
+}
+
+#[test]
 fn line_ends_stay() {
     check("haas-mill", "g0x1.\r\n\r\n\r\n\r\nx2. \rx3.", &expect![["G0 X1.\r\n\r\nX2.\rX3."]]);
 }

@@ -167,112 +167,47 @@ fn an_outline_is_a_block_or_a_program() {
     );
 }
 
+fn refuses(control: &str, text: &str, place: &str, reason: &str) {
+    assert_eq!(renumbered(control, text, 10, 10), format!("refused at `{place}`: {reason}\n"), "{text:?}");
+}
+
 #[test]
-fn what_is_not_certain_is_refused_at_its_place() {
-    for (control, text, expected) in [
-        (
-            "haas-mill",
-            "N1 GOTO #1\n",
-            expect![[r#"
-            refused at `GOTO #1`: the block that this names is computed, so its number cannot be followed
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 GOTO[#1+1]\n",
-            expect![[r#"
-            refused at `GOTO[#1+1]`: the block that this names is computed, so its number cannot be followed
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 M97 P#1\nM30\n",
-            expect![[r#"
-            refused at `P#1`: the block that this names is computed, so its number cannot be followed
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 GOTO 5\n",
-            expect![[r#"
-            refused at `GOTO 5`: block N5, which this names, does not exist
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 GOTO 1\nN1 G0\n",
-            expect![[r#"
-            refused at `GOTO 1`: block N1, which this names, exists more than once in its program
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 GOTO N1\n",
-            expect![[r#"
-            refused at `N1 GOTO N1`: this block has a mistake in form, so which block it names is not certain
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 G0 X1.2.3 M97 P1\n",
-            expect![[r#"
-            refused at `N1 G0 X1.2.3 M97 P1`: this block has a mistake in form, so which block it names is not certain
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 G4 P1 M97\n",
-            expect![[r#"
-            refused at `P1`: this may name a block of another program, which would not be renumbered with it
-        "#]],
-        ),
-        // Nobody in the file calls it, and nothing says that it is a main program.
-        (
-            "fanuc-mill",
-            "O9000\nN1 G0\nM99 P1\n",
-            expect![[r#"
-            refused at `P1`: this may name a block of another program, which would not be renumbered with it
-        "#]],
-        ),
-        // Two programs call it, and their blocks get different numbers.
-        (
-            "fanuc-mill",
-            "O1\nN1 M98 P2\nM30\nO3\nN4 G0\nN1 M98 P2\nM99\nO2\nM99 P1\n",
-            expect![[r#"
-            refused at `P1`: this may name a block of another program, which would not be renumbered with it
-        "#]],
-        ),
-        (
-            "fanuc-mill",
-            "O1\nN1 M98 P#1\nM98 P2\nM30\nO2\nM99 P1\n",
-            expect![[r#"
-            refused at `P1`: this may name a block of another program, which would not be renumbered with it
-        "#]],
-        ),
-        (
-            "fanuc-mill",
-            "N1 #1=[#4114+1]\n",
-            expect![[r#"
-            refused at `[#4114+1]`: this reads the number of a block, which would be another one
-        "#]],
-        ),
-        (
-            "haas-mill",
-            "N1 G0 X[#4114]\n",
-            expect![[r#"
-            refused at `[#4114]`: this reads the number of a block, which would be another one
-        "#]],
-        ),
-        (
-            "fanuc-mill",
-            "O1\nN1 M98 P2 H5\nM30\n",
-            expect![[r#"
-            refused at `H5`: this may name a block of another program, which would not be renumbered with it
-        "#]],
-        ),
-    ] {
-        check(control, text, &expected);
-    }
+fn targets_that_are_not_certain_are_refused_at_their_place() {
+    let computed = "the block that this names is computed, so its number cannot be followed";
+    refuses("haas-mill", "N1 GOTO #1\n", "GOTO #1", computed);
+    refuses("haas-mill", "N1 GOTO[#1+1]\n", "GOTO[#1+1]", computed);
+    refuses("haas-mill", "N1 M97 P#1\nM30\n", "P#1", computed);
+    let missing = "block N5, which this names, does not exist";
+    refuses("haas-mill", "N1 GOTO 5\n", "GOTO 5", missing);
+    let several = "block N1, which this names, exists more than once in its program";
+    refuses("haas-mill", "N1 GOTO 1\nN1 G0\n", "GOTO 1", several);
+    let mistake = "this block has a mistake in form, so which block it names is not certain";
+    refuses("haas-mill", "N1 GOTO N1\n", "N1 GOTO N1", mistake);
+    refuses("haas-mill", "N1 G0 X1.2.3 M97 P1\n", "N1 G0 X1.2.3 M97 P1", mistake);
+}
+
+#[test]
+fn blocks_of_other_programs_are_refused() {
+    let other = "this may name a block of another program, which would not be renumbered with it";
+    refuses("haas-mill", "N1 G4 P1 M97\n", "P1", other);
+    // Nobody in the file calls it, and nothing says that it is a main program.
+    refuses("fanuc-mill", "O9000\nN1 G0\nM99 P1\n", "P1", other);
+    // Two programs call it, and their blocks get different numbers.
+    let text = "O1\nN1 M98 P2\nM30\nO3\nN4 G0\nN1 M98 P2\nM99\nO2\nM99 P1\n";
+    refuses("fanuc-mill", text, "P1", other);
+    refuses("fanuc-mill", "O1\nN1 M98 P#1\nM98 P2\nM30\nO2\nM99 P1\n", "P1", other);
+    refuses("fanuc-mill", "O1\nN1 M98 P2 H5\nM30\n", "H5", other);
+}
+
+#[test]
+fn numbers_that_are_read_or_do_not_stand_in_front_are_refused() {
+    let read = "this reads the number of a block, which would be another one";
+    refuses("fanuc-mill", "N1 #1=[#4114+1]\n", "[#4114+1]", read);
+    refuses("haas-mill", "N1 G0 X[#4114]\n", "[#4114]", read);
+    let stray =
+        "this number does not stand in front of its block, so it is not certain that a jump leads to it";
+    refuses("haas-mill", "N1 GOTO 1\nN2 N5 G0\n", "N5", stray);
+    refuses("haas-mill", "N1 GOTO 1\nG0 N5\n", "N5", stray);
 }
 
 #[test]

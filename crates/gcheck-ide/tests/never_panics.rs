@@ -211,7 +211,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     }
     for item in gcheck_ide::completion(&mut world.database, &world.workspace, id, offset, &go).unwrap() {
         world.inside(id, &item.edit.range);
-        assert!(item.edit.range.end <= end.min(offset));
+        assert!(item.edit.range.end <= end.min(offset), "{item:?} at {offset} of {:?}", snapshot.text());
     }
     for signature in gcheck_ide::signature_help(&world.workspace, id, offset) {
         for word in &signature.parameters {
@@ -285,7 +285,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn any_feature_at_any_place(

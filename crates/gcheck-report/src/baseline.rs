@@ -97,7 +97,7 @@ impl Baseline {
             return Err(Malformed {
                 reason: format!("is of version {}; this gcheck reads version {VERSION}", form.version),
                 line: 1,
-                help: WRITE_ANEW,
+                help: "use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`",
             });
         }
         let mut baseline = Self::default();
@@ -402,7 +402,7 @@ mod tests {
         all += &why("{\"version\": 1, \"findings\": [{\"file\": \"a\", \"rule\": \"r\"}]}");
         expect![[r#"
             1: is no baseline: EOF while parsing a value (delete it, and `--update-baseline` writes it anew)
-            1: is of version 2; this gcheck reads version 1 (delete it, and `--update-baseline` writes it anew)
+            1: is of version 2; this gcheck reads version 1 (use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`)
             4: a merge left conflict marks (keep the entries of both sides and delete the marks)
             4: entry 1 has no fingerprint but `xd83bb959ae86b76009503b31cb70d96f` (delete it, and `--update-baseline` writes it anew)
             4: is no baseline: unknown field `rul`, expected one of `file`, `rule`, `fingerprint`, `omitted` (delete it, and `--update-baseline` writes it anew)

@@ -4,6 +4,8 @@
 //! their weights are data. The scan is lexical and reads only the head of a file, so that it can run before a control is
 //! chosen.
 
+use std::rc::Rc;
+
 use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet};
 use gcheck_syntax::SourceText;
 
@@ -20,8 +22,8 @@ pub fn collect_evidence(source: &SourceText) -> Evidence {
 }
 
 /// As [`collect_evidence`], from a text that may come in chunks.
-pub(crate) fn evidence_of(text: &ProgramText<'_>) -> Evidence {
-    collect_from(&text.head(EVIDENCE_BYTES as u32))
+pub(crate) fn evidence_of(text: &ProgramText<'_>) -> Rc<Evidence> {
+    Rc::clone(text.evidence(|text| collect_from(&text.head(EVIDENCE_BYTES as u32))))
 }
 
 fn collect_from(text: &str) -> Evidence {

@@ -11,10 +11,11 @@ mod paths;
 mod tests;
 
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
 
-use gcheck_controls::{CodeNumber, LetterSet};
-use gcheck_engine::{FlowObserver, LookedUp, Model, Program};
+use gcheck_controls::{CodeNumber, Evidence, LetterSet};
+use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
 pub use chunk::{ChunkFacts, ChunkFindings};
@@ -25,6 +26,7 @@ pub use paths::Work;
 use paths::{Broken, Ground, Paths};
 
 use crate::check::{Collector, Omitted, Plan, Remarks, check_file, conclude, switch_positions};
+use crate::evidence::EVIDENCE_BYTES;
 use crate::paths::SceneLibrary;
 use crate::{Execution, Outcome, ProgramText, Scene, Selection};
 
@@ -68,6 +70,8 @@ pub struct Incremental {
     looked_up: LookedUp,
     ground: Option<(Same, Skeleton)>,
     whole: Option<Arc<Whole>>,
+    /// What the head of the file shows of its control, with the chunks that it was read from.
+    evidence: Option<(Vec<Arc<str>>, Rc<Evidence>)>,
     work: Work,
 }
 
@@ -226,13 +230,24 @@ impl Incremental {
                 edited.source.findings(chunk, end).add_to(&mut collector, *base);
             }
         }
-        let text = ProgramText::chunks(edited.chunks);
+        // The head of a large file is as it was most of the time.
+        let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= EVIDENCE_BYTES as u32;
+        let head: Vec<Arc<str>> =
+            whole.starts.iter().zip(edited.chunks).take_while(is_head).map(|(_, c)| Arc::clone(c)).collect();
+        let mut text = ProgramText::chunks(edited.chunks);
+        if let Some((known, evidence)) = self.evidence.take()
+            && known.len() == head.len()
+            && known.iter().zip(&head).all(|(own, other)| Arc::ptr_eq(own, other))
+        {
+            text = text.with_evidence(evidence);
+        }
         check_file(edited.scene, &plan, &text, 0..whole.region_end, &whole.survey, &mut collector);
         let whole = Arc::new(whole);
         let (ledger, out_of_fuel) = self.check_paths(edited, &plan, &whole, &mut collector)?;
         let remarks = Remarks { suppressions: edited.suppressions, directives: &directives, lines };
         let mut outcome = conclude(&plan, &text, &whole.survey, collector, &remarks);
         self.whole = Some(whole);
+        self.evidence = text.into_evidence().map(|evidence| (head, evidence));
         outcome.ledger = ledger;
         outcome.out_of_fuel = out_of_fuel;
         Ok(outcome)
@@ -348,12 +363,14 @@ impl Incremental {
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
-    /// an observer. `false` when nothing is known of the paths of the text as it is.
+    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when nothing is
+    /// known of the paths of the text as it is.
     pub fn show_again<O: FlowObserver>(
         &mut self,
         edited: &Edited<'_>,
         blocks: &Range<u32>,
         observer: &mut O,
+        then: impl FnOnce(&mut O, &mut Look<'_, '_>),
     ) -> bool {
         let Some(whole) = self.whole.clone() else { return false };
         let texts = edited.chunks.get(..whole.chunks).unwrap_or_default();
@@ -381,7 +398,11 @@ impl Incremental {
             layout: &self.layout,
             stop: edited.stop,
         };
-        let shown = self.paths.show_again(&ground, &edited.scene.machine.engine, blocks, observer);
+        let machine = &edited.scene.machine.engine;
+        let shown = self.paths.show_again(&ground, machine, blocks, observer);
+        if shown {
+            then(observer, &mut Look::new(&program, &model, machine));
+        }
         self.looked_up = program.into_looked_up();
         shown
     }

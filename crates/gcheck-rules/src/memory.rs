@@ -5,6 +5,7 @@
 
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::hash::{BuildHasher, Hash};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -144,7 +145,7 @@ impl<T: Placed + Ord> Placed for BTreeSet<T> {
     }
 }
 
-impl<T: Placed + Ord + std::hash::Hash> Placed for HashSet<T> {
+impl<T: Placed + Ord + Hash, S: BuildHasher + Default> Placed for HashSet<T, S> {
     fn visit(&mut self, places: &mut dyn Places) {
         // In order, so that the same memory shows its places in the same order.
         let ordered: BTreeSet<T> = std::mem::take(self).into_iter().collect();
@@ -208,7 +209,7 @@ impl<T> Default for SharedList<T> {
 
 impl<T: Clone> SharedList<T> {
     pub(crate) fn push(&mut self, entry: T) {
-        if self.len % PART == 0 {
+        if self.len.is_multiple_of(PART) {
             self.parts.push(Rc::new(Vec::with_capacity(PART)));
         }
         if let Some(last) = self.parts.last_mut() {

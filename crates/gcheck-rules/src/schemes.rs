@@ -70,7 +70,7 @@ impl Scheme {
 }
 
 /// So many tools with the offset of their own number make another number odd, whoever it belongs to.
-const MANY: usize = 3;
+const MANY: usize = 2;
 
 /// More pairs than this say nothing clear.
 const MOST_PAIRS: usize = 1000;

@@ -5,11 +5,18 @@
 use std::borrow::Cow;
 use std::cell::OnceCell;
 use std::ops::Range;
+use std::rc::Rc;
 use std::sync::Arc;
+
+use gcheck_controls::Evidence;
 
 /// The text of a file, as rules ask for parts of it.
 #[derive(Debug)]
-pub struct ProgramText<'a>(Kind<'a>);
+pub struct ProgramText<'a> {
+    kind: Kind<'a>,
+    /// What the text shows of its control, once somebody asked.
+    evidence: OnceCell<Rc<Evidence>>,
+}
 
 #[derive(Debug)]
 enum Kind<'a> {
@@ -26,7 +33,7 @@ enum Kind<'a> {
 impl<'a> ProgramText<'a> {
     /// In one piece.
     pub fn whole(text: &'a str) -> Self {
-        Self(Kind::Whole(text))
+        Self { kind: Kind::Whole(text), evidence: OnceCell::new() }
     }
 
     /// In chunks of whole lines.
@@ -37,12 +44,27 @@ impl<'a> ProgramText<'a> {
             at
         });
         let starts = std::iter::once(0).chain(ends).collect();
-        Self(Kind::Chunks { chunks, starts, whole: OnceCell::new() })
+        Self { kind: Kind::Chunks { chunks, starts, whole: OnceCell::new() }, evidence: OnceCell::new() }
+    }
+
+    /// Takes over what was found out of the same [head](Self::head) before.
+    pub(crate) fn with_evidence(self, known: Rc<Evidence>) -> Self {
+        Self { evidence: OnceCell::from(known), ..self }
+    }
+
+    /// What the text shows of its control.
+    pub(crate) fn evidence(&self, collect: impl FnOnce(&Self) -> Evidence) -> &Rc<Evidence> {
+        self.evidence.get_or_init(|| Rc::new(collect(self)))
+    }
+
+    /// What was found out, if anybody asked.
+    pub(crate) fn into_evidence(self) -> Option<Rc<Evidence>> {
+        self.evidence.into_inner()
     }
 
     /// Length in bytes.
     pub fn len(&self) -> u32 {
-        match &self.0 {
+        match &self.kind {
             Kind::Whole(text) => text.len() as u32,
             Kind::Chunks { starts, .. } => starts.last().copied().unwrap_or(0),
         }
@@ -59,7 +81,7 @@ impl<'a> ProgramText<'a> {
         let in_chunk = |base: u32, text: &'a str| {
             text.get(range.start.checked_sub(base)? as usize..range.end.checked_sub(base)? as usize)
         };
-        match &self.0 {
+        match &self.kind {
             Kind::Chunks { chunks, whole, .. } if in_chunk(base, chunk).is_none() => {
                 let all = whole.get_or_init(|| chunks.iter().map(AsRef::as_ref).collect());
                 all.get(range.start as usize..range.end as usize).unwrap_or_default()
@@ -70,7 +92,7 @@ impl<'a> ProgramText<'a> {
 
     /// A part of the text that holds the whole line of a byte, and its offset.
     pub fn around(&self, at: u32) -> (u32, &'a str) {
-        match &self.0 {
+        match &self.kind {
             Kind::Whole(text) => (0, text),
             Kind::Chunks { chunks, starts, .. } => {
                 let behind = starts.partition_point(|start| *start <= at);
@@ -94,7 +116,7 @@ impl<'a> ProgramText<'a> {
 
     /// Whole lines from the beginning: more than `len` bytes, unless the file is shorter.
     pub fn head(&self, len: u32) -> Cow<'a, str> {
-        match &self.0 {
+        match &self.kind {
             Kind::Whole(text) => Cow::Borrowed(text),
             Kind::Chunks { .. } => Cow::Owned(
                 self.from(0).take_while(|(from, _)| *from <= len).map(|(_, piece)| piece).collect(),

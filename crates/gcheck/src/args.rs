@@ -161,8 +161,8 @@ pub struct CheckOptions {
     /// Check anew whatever is there, and remember nothing
     #[arg(long)]
     pub no_cache: bool,
-    /// Where results of earlier runs are kept; the user's folder for caches without it
-    #[arg(long, value_name = "DIR", env = "GCHECK_CACHE")]
+    /// Where results of earlier runs are kept; without it `GCHECK_CACHE` says so, or they are among the user's caches
+    #[arg(long, value_name = "DIR")]
     pub cache_dir: Option<PathBuf>,
     /// Check again whenever a program or a configuration changes, until Ctrl-C
     #[arg(long, conflicts_with_all = ["fix", "diff", "update_baseline", "show_files", "show_settings", "stdin_filename"])]

@@ -11,6 +11,7 @@ mod settings_page;
 mod watch;
 
 use std::collections::BTreeSet;
+use std::env;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -100,7 +101,7 @@ impl Check<'_> {
         }
         self.outputs.refuse_inputs(&looked.programs, &looked.configs, options.baseline.as_deref())?;
         let is_cached = !(options.no_cache || options.show_settings);
-        let cache = if is_cached { Cache::open(options.cache_dir.as_deref())? } else { None };
+        let cache = if is_cached { Cache::open(cache_dir(options).as_deref())? } else { None };
         let bench = Bench::new(global, options, self.wishes.clone(), cache);
         if options.show_settings {
             output::print(&settings_page::page(&bench, &targets, &mut problems))?;
@@ -127,6 +128,12 @@ impl Check<'_> {
         let summary = report.summary();
         Ok(finish(&problems, u8::from(fails(&summary, options))))
     }
+}
+
+/// The folder for results, if somebody names one. A variable that is empty names none: CI servers leave them so.
+fn cache_dir(options: &CheckOptions) -> Option<PathBuf> {
+    let named = || env::var_os("GCHECK_CACHE").filter(|name| !name.is_empty()).map(PathBuf::from);
+    options.cache_dir.clone().or_else(named)
 }
 
 /// What came out of the files so far, in their order.

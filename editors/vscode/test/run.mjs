@@ -102,9 +102,11 @@ try {
     const line = args.map(String).join(" ");
     const wanted = /^@screenshot (\S+)$/.exec(line);
     if (wanted === null) {
-      // Modules of VS Code's own that are not built here complain, and nothing depends on them.
-      if (!line.includes("Could not locate the bindings file")) {
-        console.log(line);
+      const told = /^@test (.*)$/s.exec(line);
+      if (told !== null) {
+        console.log(told[1]);
+      } else {
+        said += `${line}\n`;
       }
     } else if (pictures !== undefined) {
       fs.mkdirSync(pictures, { recursive: true });

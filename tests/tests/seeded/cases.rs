@@ -76,7 +76,10 @@ pub(crate) fn of_the_corpus() -> Option<Vec<Subject>> {
 pub(crate) fn of_ours(subjects: &[Subject]) -> Vec<Case> {
     let mut cases = Vec::new();
     for kind in kinds::all() {
-        let fits = |subject: &&Subject| !kind.needs_machine || subject.config.contains("travel");
+        let fits = |subject: &&Subject| {
+            let is_told = subject.config.contains("travel");
+            if is_told { !kind.is_settled_by_machine } else { !kind.needs_machine }
+        };
         cases.extend(subjects.iter().filter(fits).filter_map(|subject| case(kind, subject)));
     }
     cases

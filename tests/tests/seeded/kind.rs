@@ -20,6 +20,8 @@ pub(crate) struct Kind {
     pub(crate) found_by: &'static [&'static str],
     /// It shows only to those who are told about the machine: limits, offsets, tools.
     pub(crate) needs_machine: bool,
+    /// Who tells about the machine has made it none.
+    pub(crate) is_settled_by_machine: bool,
     /// Every place of a program where it can be made.
     pub(crate) seeds: fn(&Program) -> Vec<Seed>,
 }
@@ -33,7 +35,7 @@ impl Kind {
         found_by: &'static [&'static str],
         seeds: fn(&Program) -> Vec<Seed>,
     ) -> Self {
-        Self { id, says, fear, place: Place::Near, found_by, needs_machine: false, seeds }
+        Self { id, says, fear, place: Place::Near, found_by, needs_machine: false, is_settled_by_machine: false, seeds }
     }
 
     /// It shows where it strikes, not where it was made.
@@ -44,6 +46,11 @@ impl Kind {
     /// It shows only to those who are told about the machine.
     pub(crate) const fn with_machine(self) -> Self {
         Self { needs_machine: true, ..self }
+    }
+
+    /// A machine file makes it no mistake.
+    pub(crate) const fn without_machine(self) -> Self {
+        Self { is_settled_by_machine: true, ..self }
     }
 }
 

@@ -33,7 +33,6 @@ impl Checkpoint {
 
 /// What an analysis did from one checkpoint to the next, or to its end.
 #[derive(Debug, Default)]
-#[expect(clippy::struct_excessive_bools, reason = "independent facts of a leg, named one by one")]
 pub struct Leg {
     pub(super) reached: Marks,
     pub(super) always: Marks,

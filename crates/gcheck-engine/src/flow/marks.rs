@@ -46,7 +46,7 @@ impl Marks {
             let end = index.saturating_add(1).saturating_mul(64).min(to.block);
             // From the block up, and not past the end.
             let above = u64::MAX << (block % 64);
-            let below = if end % 64 == 0 { u64::MAX } else { (1 << (end % 64)) - 1 };
+            let below = if end.is_multiple_of(64) { u64::MAX } else { (1 << (end % 64)) - 1 };
             self.insert_bits(from.file, index, above & below);
             block = end;
         }

@@ -2,9 +2,8 @@
 //!
 //! Knows: block tables in order, and what of a block matters to control flow. Must not know: how pairs are made.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
-
-use rustc_hash::FxHashMap;
 
 use super::chunk::{ChunkOutline, Item, scan};
 use super::loops::LoopBuilder;
@@ -34,7 +33,7 @@ pub struct OutlineBuilder {
     /// A subprogram may return to a computed sequence number of whatever program called it.
     has_computed_return: bool,
     /// By sequence number, or `None` for computed ones: the last block that jumps there.
-    sites: FxHashMap<Option<u32>, u32>,
+    sites: BTreeMap<Option<u32>, u32>,
     /// Variables whose assignment is an alarm, known from the first assignment on.
     alarms: Option<Vec<Range<u32>>>,
 }
@@ -52,7 +51,7 @@ impl Default for OutlineBuilder {
             has_computed_call: false,
             computed: Vec::new(),
             has_computed_return: false,
-            sites: FxHashMap::default(),
+            sites: BTreeMap::new(),
             alarms: None,
         }
     }
@@ -221,7 +220,7 @@ impl OutlineBuilder {
 
 /// Runs of blocks that the text may lead through more than once: from the first block that a jump back may lead to, to the
 /// last that may jump there.
-fn turns(outline: &Outline, sites: &FxHashMap<Option<u32>, u32>) -> Vec<(u32, u32)> {
+fn turns(outline: &Outline, sites: &BTreeMap<Option<u32>, u32>) -> Vec<(u32, u32)> {
     let mut turns: Vec<(u32, u32)> = Vec::new();
     for (target, site) in sites {
         let first = match target {

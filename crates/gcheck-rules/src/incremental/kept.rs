@@ -12,10 +12,13 @@ use crate::memory::{Memory, Placed, Places};
 use crate::paths::Lists;
 use crate::{Finding, Severity};
 
+/// A copy of a rule's memory.
+type Copied = Box<dyn Memory>;
+
 /// What the rules remember at a checkpoint. Blocks stand in it by their names, bytes beside it.
 pub(crate) struct Kept {
     /// By rule; none of rules that remember nothing.
-    pub(crate) memories: Vec<Option<Box<dyn Memory>>>,
+    pub(crate) memories: Vec<Option<Copied>>,
     /// Names of the bytes of each range in the memories, in their order.
     pub(crate) bytes: Vec<[u64; 2]>,
     pub(crate) lists: Lists,
@@ -30,7 +33,7 @@ impl std::fmt::Debug for Kept {
 
 impl PartialEq for Kept {
     fn eq(&self, other: &Self) -> bool {
-        let same = |pair: (&Option<Box<dyn Memory>>, &Option<Box<dyn Memory>>)| match pair {
+        let same = |pair: (&Option<Copied>, &Option<Copied>)| match pair {
             (Some(own), Some(other)) => own.is_as(&**other),
             (None, None) => true,
             _ => false,

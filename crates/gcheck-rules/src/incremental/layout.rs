@@ -384,7 +384,9 @@ mod tests {
     fn chunks_that_are_cut_anew_keep_their_names() {
         let mut layout = layout(&["A\nB\n", "C\nD\n"]);
         let mut names: Vec<At> = (0..4).map(|block| At { file: 0, block }).collect();
-        names.iter_mut().for_each(|at| layout.name(at));
+        for at in &mut names {
+            layout.name(at);
+        }
         let left = Left { bytes_before: 8, bytes_behind: 0, blocks_before: 4, blocks_behind: 0 };
         layout.replace(0..2, vec![shape("A\n"), shape("B\nC\nD\n")], left);
         assert!(names.iter_mut().all(|at| layout.number_again(at)));

@@ -2,6 +2,7 @@
 
 use std::cell::RefCell;
 use std::collections::HashMap;
+use std::fmt::Write as _;
 use std::sync::Arc;
 
 use gcheck_program::Dialect;
@@ -55,7 +56,7 @@ fn cut(text: &str, lines: usize) -> Vec<Arc<str>> {
         chunk.push_str(line);
         rest = behind;
         let sum: usize = line.bytes().map(usize::from).sum();
-        if sum % lines == 0 {
+        if sum.is_multiple_of(lines) {
             chunks.push(Arc::from(std::mem::take(&mut chunk)));
         }
     }
@@ -94,7 +95,7 @@ struct Bench<'a> {
     execution: Execution,
 }
 
-impl<'a> Bench<'a> {
+impl Bench<'_> {
     fn check(&mut self, text: &str, lines: usize) -> (Outcome, Work) {
         let chunks = cut(text, lines);
         let source = Fresh { chunks: &chunks, scene: self.scene, selection: self.selection };
@@ -178,7 +179,7 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
                 line.match_indices(|c: char| c.is_ascii_digit()).map(|(i, _)| i).collect();
             if let Some(place) = digits.get(dice.roll(digits.len())) {
                 let digit = dice.roll(10).to_string();
-                line.replace_range(*place..place + 1, &digit);
+                line.replace_range(*place..=*place, &digit);
             }
             told = format!("another digit in line {at}");
         }
@@ -282,9 +283,9 @@ fn every_rule_says_what_it_remembers() {
 fn long_program(tools: usize) -> String {
     let mut text = "%\nO1\nG90 G54 G17 G40 G49 G80\n".to_owned();
     for tool in 1..=tools {
-        text += &format!("T{tool} M6\nG43 H{tool} Z50.\nM3 S1000\nG0 X0. Y0.\nG1 Z-1. F100.\n");
+        let _ = write!(text, "T{tool} M6\nG43 H{tool} Z50.\nM3 S1000\nG0 X0. Y0.\nG1 Z-1. F100.\n");
         for step in 0..90 {
-            text += &format!("X{step}.5 Y{}.25\n", step % 7);
+            let _ = writeln!(text, "X{step}.5 Y{}.25", step % 7);
         }
         text += "G0 Z50.\nM5\n";
     }

@@ -166,6 +166,7 @@ pub(crate) mod motion {
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
+    pub(crate) mod feed_implausible;
     pub(crate) mod feed_missing;
     pub(crate) mod feed_of_another_mode;
     pub(crate) mod feed_zero;
@@ -462,6 +463,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
+    &motion::feed_implausible::RULE,
     &motion::feed_missing::RULE,
     &motion::feed_of_another_mode::RULE,
     &motion::feed_zero::RULE,

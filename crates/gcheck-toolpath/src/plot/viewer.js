@@ -5,6 +5,8 @@
 //
 //   const viewer = createViewer(canvas, data, callbacks);
 //
+// The canvas fills a positioned element; what is written on the path stands on a canvas that the viewer puts behind it.
+//
 // `data` (`Drawing::to_json` in plot/data.rs writes it), version 1; lengths are millimetres whatever `units` says:
 //
 //   version    1

@@ -53,8 +53,11 @@ fn every_format_is_the_same_byte_for_byte() {
     assert_eq!(entries(&shop).len(), 5, "one for each program, whatever the format");
 }
 
+/// What becomes of an entry.
+type Damage = fn(&[u8]) -> Vec<u8>;
+
 /// Puts something else into every entry that only a reader of the cache would notice.
-fn poison(shop: &Shop, with: impl Fn(&[u8]) -> Vec<u8>) {
+fn poison(shop: &Shop, with: Damage) {
     for entry in entries(shop) {
         let bytes = with(&fs::read(&entry).unwrap());
         fs::write(entry, bytes).unwrap();
@@ -66,7 +69,7 @@ fn damaged_entries_are_ignored_and_written_anew() {
     let shop = shop();
     let fresh = check(&shop, "").to_string();
     let good: Vec<Vec<u8>> = entries(&shop).iter().map(|entry| fs::read(entry).unwrap()).collect();
-    let damages: [(&str, fn(&[u8]) -> Vec<u8>); 6] = [
+    let damages: [(&str, Damage); 6] = [
         ("empty", |_| Vec::new()),
         ("torn", |bytes| bytes[..bytes.len() / 2].to_vec()),
         ("of another version", |bytes| [b"gcheck result 9\n", &bytes[16..]].concat()),
@@ -232,6 +235,8 @@ fn the_environment_names_the_folder_and_a_flag_wins() {
     let cache = [("GCHECK_CACHE", ".cache/gcheck")];
     shop.gcheck_with(&cache, "check --control haas-mill --no-cache");
     assert!(!shop.path(".cache").exists());
+    let run = shop.gcheck_with(&[("GCHECK_CACHE", "")], "check --control haas-mill");
+    assert!(run.code == 1 && !shop.path(".cache").exists(), "{run}");
     shop.gcheck_with(&cache, "check --control haas-mill");
     assert_eq!(entries(&shop).len(), 5);
 }

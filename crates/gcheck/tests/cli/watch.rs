@@ -44,15 +44,13 @@ impl Watching {
     fn until(&self, end: &str) -> Vec<String> {
         let mut said = Vec::new();
         loop {
-            match self.lines.recv_timeout(PATIENCE) {
-                Ok(line) => {
-                    let is_end = line.contains(end);
-                    said.push(line);
-                    if is_end {
-                        return said;
-                    }
-                }
-                Err(_) => panic!("`{end}` was not said; but {said:#?}"),
+            let Ok(line) = self.lines.recv_timeout(PATIENCE) else {
+                panic!("`{end}` was not said; but {said:#?}");
+            };
+            let is_end = line.contains(end);
+            said.push(line);
+            if is_end {
+                return said;
             }
         }
     }

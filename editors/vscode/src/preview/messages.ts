@@ -4,13 +4,17 @@ import type { Drawing } from "gcheck-viewer";
 
 /** The server's answer to `gcheck/toolpath`. */
 export interface Toolpath {
-  drawing: Drawing;
-  /** How the run ended, when it did not come to its end. */
-  remark: string | null;
+  data: Drawing;
   /** Moves of the run; more than are drawn when it was thinned. */
   moves: number;
-  /** Travel limits of the machine in work coordinates, millimetres, where they are known. */
-  travel: [number[], number[]] | null;
+  /** Seconds, as far as they are known. */
+  seconds: number;
+  /** What a reader of the picture has to know, one sentence each. */
+  notes: string[];
+  /** Lowest and highest machine coordinates of X, Y and Z, where the machine's travel is told: millimetres. */
+  travel: ([number, number] | null)[];
+  /** How the run ended, where it did not reach the program's end. */
+  stopped: string | null;
 }
 
 export type ToPage =

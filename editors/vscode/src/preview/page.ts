@@ -38,7 +38,7 @@ function theme(): Record<string, string> {
 
 function show(toolpath: Toolpath): void {
   nothing.textContent = "";
-  drawing = toolpath.drawing;
+  drawing = toolpath.data;
   if (viewer === undefined) {
     viewer = createViewer(canvas, drawing, {
       onPick(place) {
@@ -69,32 +69,34 @@ function show(toolpath: Toolpath): void {
   host.postMessage({ kind: "drawn", pieces: viewer.pieces() });
 }
 
+/** Extents of the cut, time, and what a reader has to know. */
 function describe(toolpath: Toolpath): void {
-  const { drawing, travel, remark, moves } = toolpath;
+  const { data, travel, seconds, notes } = toolpath;
   const lines: string[] = [];
-  const box = drawing.cut ?? drawing.all;
-  if (box !== null) {
-    const [low, high] = box;
-    ["X", "Y", "Z"].forEach((axis, index) => {
-      const factor = axis === "X" && drawing.diameter ? 2 : 1;
-      const text = (value: number | undefined) => lengthText((value ?? 0) * factor, drawing.units);
-      lines.push(`${axis} ${text(low[index])} … ${text(high[index])}`);
-    });
+  const box = data.cut ?? data.all;
+  ["X", "Y", "Z"].forEach((axis, index) => {
+    const [low, high] = [box?.[0][index], box?.[1][index]];
+    if (low === undefined || high === undefined) {
+      return;
+    }
+    const factor = axis === "X" && data.diameter ? 2 : 1;
+    lines.push(`${axis} ${lengthText(low * factor, data.units)} … ${lengthText(high * factor, data.units)}`);
+  });
+  ["X", "Y", "Z"].forEach((axis, index) => {
+    const range = travel[index];
+    const [low, high] = [data.all?.[0][index], data.all?.[1][index]];
+    // Where the work stands on the table is not known here; that the path is longer than the travel is.
+    if (range && low !== undefined && high !== undefined && high - low > range[1] - range[0]) {
+      lines.push(`${axis} needs more than the machine's travel`);
+    }
+  });
+  if (seconds > 0) {
+    const whole = Math.round(seconds);
+    lines.push(`${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")} min`);
   }
-  if (travel !== null && drawing.all !== null) {
-    const [low, high] = drawing.all;
-    const outside = ["X", "Y", "Z"].filter(
-      (_, index) => (low[index] ?? 0) < (travel[0][index] ?? -Infinity) || (high[index] ?? 0) > (travel[1][index] ?? Infinity),
-    );
-    lines.push(outside.length === 0 ? "within the machine's travel" : `${outside.join(", ")} beyond the machine's travel`);
-  }
-  if (drawing.thinned) {
-    lines.push(`${moves.toLocaleString()} moves, thinned to ${(drawing.count - 1).toLocaleString()}`);
-  }
-  if (remark !== null) {
-    lines.push(remark);
-  }
-  figures.replaceChildren(...lines.map((line) => Object.assign(document.createElement("div"), { textContent: line })));
+  figures.replaceChildren(
+    ...[...lines, ...notes].map((line) => Object.assign(document.createElement("div"), { textContent: line })),
+  );
 }
 
 function legend(drawing: Drawing): void {

@@ -174,8 +174,8 @@ export class ToolpathPreview implements vscode.Disposable {
       if (asking.token.isCancellationRequested) {
         return;
       }
-      if (toolpath === undefined || toolpath.drawing.count === 0) {
-        this.post({ kind: "nothing", why: toolpath?.remark ?? "The program makes no move." });
+      if (toolpath === undefined || toolpath.data.count === 0) {
+        this.post({ kind: "nothing", why: toolpath?.stopped ?? "The program makes no move." });
       } else {
         this.post({ kind: "toolpath", name, toolpath });
       }

@@ -49,6 +49,7 @@ pub(super) const KINDS: &[Kind] = &[
             if all.is_empty() { Vec::new() } else { vec![all.into()] }
         },
     )
+    .without_machine()
     .anywhere(),
     Kind::new(
         "units-of-another-program",
@@ -190,7 +191,7 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-per-turn-for-per-minute",
         Fear::Crash,
         "feed a turn (`G95`) is on while the numbers are feed a minute",
-        &["feed-of-another-mode", "feed-above-machine-limit", "maybe-feed-of-another-mode", "feed-missing"],
+        &["feed-of-another-mode", "feed-above-machine-limit", "maybe-feed-of-another-mode", "feed-missing", "feed-implausible"],
         |p| {
             p.each(|block| {
                 block

@@ -274,7 +274,8 @@ pub(super) const KINDS: &[Kind] = &[
         "coolant is not switched on for a tool",
         &["tool-cuts-dry"],
         |p| p.each(|block| block.code(&[Effect::FloodOn]).map(|word| p.without(word))),
-    ),
+    )
+    .anywhere(),
     Kind::new(
         "spindle-left-for-tapping",
         Fear::Crash,

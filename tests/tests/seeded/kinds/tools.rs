@@ -177,7 +177,7 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let tool = block.word(b'T').filter(|_| block.code(&[Effect::ToolChange]).is_some())?;
-                p.is_for(&["haas"]).then(|| p.value(tool, "399"))
+                p.is_for(&["haas"]).then(|| p.value(tool, "9999"))
             })
         },
     )
@@ -209,5 +209,6 @@ pub(super) const KINDS: &[Kind] = &[
             }
             p.each(|block| block.code(&[Effect::WorkOffset(1)]).map(|word| p.instead(word, "G56")))
         },
-    ),
+    )
+    .anywhere(),
 ];

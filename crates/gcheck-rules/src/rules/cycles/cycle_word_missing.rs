@@ -68,7 +68,13 @@ impl PathRule for CycleWordMissing {
         let Some(code) = cycle_code(cx) else { return };
         // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
-        let needed = word.is_some_and(|word| word.need == Need::Conditional);
+        let told_by_text = cx.survey.never_given.iter().any(|missing| {
+            missing.letter == letter && cx.model.effect(missing.code) == code.effect()
+        });
+        // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
+        let needed = word.is_some_and(|word| {
+            word.need == Need::Conditional || word.need == Need::Modal && !told_by_text
+        });
         let stands = cx.origin().letters.contains(letter);
         let was_given =
             is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));
@@ -102,6 +108,19 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn the_radius_of_an_arc_is_no_plane_of_a_cycle() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
+            &expect![[r#"
+                5 | G81 Z-0.5 F5.
+                  | ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
+            "#]],
+        );
+    }
 
     #[test]
     fn the_code_is_marked() {

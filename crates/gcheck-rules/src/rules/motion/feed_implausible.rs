@@ -1,0 +1,127 @@
+//! A feed that cannot be meant in the feed mode that is on.
+
+use gcheck_controls::Letter;
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
+
+use super::feed_of_another_mode::goes_by_feed;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A cut at more than 10 mm (0.4 inch) a turn of the spindle, or at less than 1 mm (0.04 inch) a minute.
+    ///
+    /// ## Why it matters
+    /// Nobody cuts so: the number is meant for the other feed mode. 300 mm a minute read as 300 mm a turn breaks the tool, and
+    /// 0.2 mm a turn read as 0.2 mm a minute rubs for hours.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G21 G90 G54 S2000 M3
+    /// G95 G1 X10. F300.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-lathe
+    /// G20 G98 T101
+    /// G97 S900 M3
+    /// G1 X1. F0.012
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G21 G90 G54 S2000 M3
+    /// G95 G1 X10. F0.3
+    /// G94 X20. F300.
+    /// M30
+    /// ```
+    /// A thread goes by its lead.
+    /// ```nc,quiet,fanuc-lathe
+    /// G21 G99 T101
+    /// G97 S50 M3
+    /// G32 Z-50. F12.
+    /// M30
+    /// ```
+    rule "feed-implausible" in "motion" {
+        summary: "feed that cannot be meant in the feed mode that is on",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::CUTS, make: || Box::new(FeedImplausible { told: None }) },
+    }
+}
+
+/// Millimetres a turn: more than any milling cutter or turning tool takes.
+const MOST_A_TURN: f64 = 10.0;
+/// Millimetres a minute: less than anybody waits for.
+const LEAST_A_MINUTE: f64 = 1.0;
+
+struct FeedImplausible {
+    /// The block whose feed was told of.
+    told: Option<At>,
+}
+
+impl PathRule for FeedImplausible {
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let state = cx.state();
+        let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
+        let (reads, other) = match state.feed_mode(cx.model) {
+            Some(FeedMode::PerRevolution) if feed > MOST_A_TURN => ("a turn of the spindle", "a minute"),
+            Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("a minute", "a turn of the spindle"),
+            _ => return,
+        };
+        let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
+        // A feed that was given under the other mode is told as that, and a lost point as a lost point.
+        let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
+        let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
+        let lost = |w: &gcheck_program::Word| word(w) && !w.shape.point && w.number().is_some();
+        if now != then || !goes_by_feed(event) || cx.find_word(given, lost).is_some() && feed < LEAST_A_MINUTE {
+            return;
+        }
+        if self.told.replace(given) == Some(given) {
+            return;
+        }
+        let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
+        let finding = cx
+            .finding(&META, range, format!("feed of {} mm {reads} (`F`)", told(feed)))
+            .label(format!("looks meant for {other}"))
+            .help("check the feed mode and the number");
+        let name = cx.code_name(Role::FeedMode).unwrap_or_default();
+        report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`")));
+    }
+}
+
+/// A length for people.
+fn told(length: f64) -> String {
+    let text = if length < 1.0 { format!("{length:.3}") } else { format!("{length:.0}") };
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn each_feed_is_told_once() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G95 S900 M3\nG1 X1. F30.\nX2.\nG1 X3. F0.01\nM30\n",
+            &expect![[r#"
+                2 | G1 X1. F30.
+                  |        ^^^^ warning[feed-implausible] feed of 762 mm a turn of the spindle (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_lost_point_is_told_as_that() {
+        check_rule(&RULE, "haas-mill", "G20 G90 G94 S900 M3\nG1 X1. F10\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_feed_of_the_other_mode_is_told_as_that() {
+        check_rule(&RULE, "generic-mill", "G21 G90 S900 M3\nG1 X1. F300.\nG95\nX2.\nM30\n", &expect![[""]]);
+    }
+}
