@@ -62,6 +62,8 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     );
     let rows = String::from_utf8(output.stdout).context("judge.py writes no text")?;
     fs::write(workspace::root().join(TABLE), about + &rows)?;
-    println!("wrote  {TABLE}\nnow write docs/recall.md: UPDATE_EXPECT=1 cargo test -p gcheck-tests --test seeded");
+    println!(
+        "wrote  {TABLE}\nnow write docs/recall.md: UPDATE_EXPECT=1 cargo test -p gcheck-tests --test seeded"
+    );
     Ok(ExitCode::SUCCESS)
 }

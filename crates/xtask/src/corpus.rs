@@ -66,7 +66,12 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
 }
 
 /// What `gcheck check` says about programs of the corpus, as JSON.
-pub(crate) fn check(gcheck: &Path, folder: &Path, options: &[&str], paths: &[&str]) -> anyhow::Result<Output> {
+pub(crate) fn check(
+    gcheck: &Path,
+    folder: &Path,
+    options: &[&str],
+    paths: &[&str],
+) -> anyhow::Result<Output> {
     let output = Command::new(gcheck)
         .current_dir(folder)
         .args(["check", "--isolated", "--output-format", "json"])

@@ -149,9 +149,8 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
 
 fn read(report: &Value, control: &str) -> Vec<Found> {
     let findings = report.get("findings").and_then(Value::as_array).into_iter().flatten();
-    let field = |finding: &Value, name: &str| {
-        finding.get(name).and_then(Value::as_str).unwrap_or("?").to_owned()
-    };
+    let field =
+        |finding: &Value, name: &str| finding.get(name).and_then(Value::as_str).unwrap_or("?").to_owned();
     findings
         .map(|finding| Found {
             stratum: Stratum {
@@ -196,8 +195,7 @@ fn key(one: &Found) -> (String, String) {
 fn verdicts(table: &str) -> anyhow::Result<BTreeMap<(String, String), Verdict>> {
     let mut verdicts = BTreeMap::new();
     for (number, line) in table.lines().enumerate().skip(1) {
-        let [_, _, _, severity, _, fingerprint, verdict, reason] =
-            line.split('\t').collect::<Vec<_>>()[..]
+        let [_, _, _, severity, _, fingerprint, verdict, reason] = line.split('\t').collect::<Vec<_>>()[..]
         else {
             bail!("{TABLE}:{}: eight columns are needed", number + 1);
         };
@@ -288,7 +286,8 @@ fn page(
     );
     text.push_str("\n## Findings for 1,000 lines\n\n| control | programs | lines | errors | warnings | infos | hints |\n|---|---|---|---|---|---|---|\n");
     for (control, count) in counts {
-        let per = |severity: &str| per_thousand(count.by_severity.get(severity).copied().unwrap_or(0), count.lines);
+        let per =
+            |severity: &str| per_thousand(count.by_severity.get(severity).copied().unwrap_or(0), count.lines);
         let _ = writeln!(
             text,
             "| `{control}` | {} | {} | {} | {} | {} | {} |",

@@ -53,9 +53,8 @@ pub(crate) fn ours() -> Vec<Subject> {
             subjects.push(Subject { program, config: config.clone() });
         }
     }
-    subjects.sort_by(|a, b| {
-        (&a.program.control, &a.program.name).cmp(&(&b.program.control, &b.program.name))
-    });
+    subjects
+        .sort_by(|a, b| (&a.program.control, &a.program.name).cmp(&(&b.program.control, &b.program.name)));
     subjects
 }
 
@@ -117,7 +116,8 @@ fn case(kind: &'static Kind, subject: &Subject) -> Option<Case> {
 /// A number that depends on both names alone (FNV-1a).
 fn drawn(kind: &str, program: &str) -> u64 {
     let bytes = kind.bytes().chain([b'/']).chain(program.bytes());
-    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)) >> 7
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+        >> 7
 }
 
 impl Case {

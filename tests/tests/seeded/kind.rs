@@ -35,7 +35,16 @@ impl Kind {
         found_by: &'static [&'static str],
         seeds: fn(&Program) -> Vec<Seed>,
     ) -> Self {
-        Self { id, says, fear, place: Place::Near, found_by, needs_machine: false, is_settled_by_machine: false, seeds }
+        Self {
+            id,
+            says,
+            fear,
+            place: Place::Near,
+            found_by,
+            needs_machine: false,
+            is_settled_by_machine: false,
+            seeds,
+        }
     }
 
     /// It shows where it strikes, not where it was made.
@@ -145,7 +154,8 @@ impl Program {
     pub(crate) fn without(&self, word: &Word) -> Edit {
         let before = &self.text[..word.range.start];
         let blanks = before.len() - before.trim_end_matches(' ').len();
-        let line_begins = before.trim_end_matches(' ').ends_with('\n') || before.trim_end_matches(' ').is_empty();
+        let line_begins =
+            before.trim_end_matches(' ').ends_with('\n') || before.trim_end_matches(' ').is_empty();
         let (start, mut end) = (word.range.start - blanks, word.range.end);
         if line_begins {
             let rest = &self.text[end..];
@@ -168,7 +178,8 @@ impl Program {
     /// The line is left out.
     pub(crate) fn without_line(&self, block: &Block) -> Edit {
         let start = self.text[..block.range.start].rfind('\n').map_or(0, |at| at + 1);
-        let end = self.text[block.range.end..].find('\n').map_or(self.text.len(), |at| block.range.end + at + 1);
+        let end =
+            self.text[block.range.end..].find('\n').map_or(self.text.len(), |at| block.range.end + at + 1);
         Edit { range: start..end, text: String::new() }
     }
 

@@ -67,7 +67,11 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
         let tenths = (found * 1_000 + made / 2).checked_div(made).unwrap_or_default();
         format!("{found} of {made} ({}.{} %)", tenths / 10, tenths % 10)
     };
-    let _ = writeln!(page, "\n| {} kinds of mistakes | found by default | found by the strict rules |", kinds::all().count());
+    let _ = writeln!(
+        page,
+        "\n| {} kinds of mistakes | found by default | found by the strict rules |",
+        kinds::all().count()
+    );
     page.push_str("|---|---|---|\n");
     for (name, Row { made, found, strictly }) in [("ours", ours.total()), ("corpus", corpus.total())] {
         let _ = writeln!(page, "| {name} | {} | {} |", share(made, found), share(made, strictly));

@@ -29,20 +29,22 @@ struct Found {
 
 /// What is said about programs without mistakes.
 pub(crate) fn check_clean(subjects: &[Subject]) -> Vec<String> {
-    let files = subjects.iter().map(|s| (s.program.control.as_str(), s.config.as_str(), s.program.text.as_str()));
+    let files =
+        subjects.iter().map(|s| (s.program.control.as_str(), s.config.as_str(), s.program.text.as_str()));
     let findings = check(&files.collect::<Vec<_>>(), BY_DEFAULT);
     let said = subjects.iter().zip(findings);
     said.flat_map(|(subject, found)| {
-        found.into_iter().map(move |f| {
-            format!("{}:{}: {}[{}]", subject.program.name, f.lines.0, f.severity, f.rule)
-        })
+        found
+            .into_iter()
+            .map(move |f| format!("{}:{}: {}[{}]", subject.program.name, f.lines.0, f.severity, f.rule))
     })
     .collect()
 }
 
 /// The programs about which nothing is said, not even where each stands alone in its folder.
 pub(crate) fn only_clean(subjects: Vec<Subject>) -> Vec<Subject> {
-    let files = subjects.iter().map(|s| (s.program.control.as_str(), s.config.as_str(), s.program.text.as_str()));
+    let files =
+        subjects.iter().map(|s| (s.program.control.as_str(), s.config.as_str(), s.program.text.as_str()));
     let findings = check(&files.collect::<Vec<_>>(), BY_DEFAULT);
     subjects.into_iter().zip(findings).filter(|(_, found)| found.is_empty()).map(|(s, _)| s).collect()
 }
@@ -54,8 +56,7 @@ pub(crate) fn found(cases: &[Case], set: &str) -> Vec<bool> {
     let is_found = |case: &Case, found: &Found| {
         let (first, last) = found.lines;
         let is_near = case.lines.iter().any(|line| first <= line + NEAR && *line <= last + NEAR);
-        case.kind.found_by.contains(&found.rule.as_str())
-            && (case.kind.place == Place::Anywhere || is_near)
+        case.kind.found_by.contains(&found.rule.as_str()) && (case.kind.place == Place::Anywhere || is_near)
     };
     let mut seen = Vec::new();
     for (case, findings) in cases.iter().zip(findings) {
@@ -82,7 +83,8 @@ fn tell(case: &Case, said: &[String]) {
 /// Checks programs, each in a folder of its own; the findings of each.
 fn check(files: &[(&str, &str, &str)], set: &str) -> Vec<Vec<Found>> {
     let folder = tempfile::tempdir().unwrap();
-    let configs: BTreeSet<(&str, &str)> = files.iter().map(|(control, config, _)| (*control, *config)).collect();
+    let configs: BTreeSet<(&str, &str)> =
+        files.iter().map(|(control, config, _)| (*control, *config)).collect();
     let mut findings: Vec<Vec<Found>> = files.iter().map(|_| Vec::new()).collect();
     for (number, (control, config)) in configs.into_iter().enumerate() {
         let top = folder.path().join(number.to_string());

@@ -128,8 +128,11 @@ impl Program {
     pub(crate) fn is_whole(&self) -> bool {
         let ends = [Effect::ProgramEnd, Effect::ProgramEndWithPallet];
         let cuts = |block: &Block| block.moves(&[Effect::Linear]) && !block.before.is_subprogram;
-        let is_called = self.blocks.iter().find(|block| block.is_plain()).is_some_and(|first| first.before.is_subprogram);
-        self.blocks.iter().any(|block| block.code(&ends).is_some()) && self.blocks.iter().any(cuts) && !is_called
+        let is_called =
+            self.blocks.iter().find(|block| block.is_plain()).is_some_and(|first| first.before.is_subprogram);
+        self.blocks.iter().any(|block| block.code(&ends).is_some())
+            && self.blocks.iter().any(cuts)
+            && !is_called
     }
 
     /// A number without a point counts smallest steps.

@@ -32,53 +32,46 @@ fn moved(p: &Program, word: &Word) -> String {
 }
 
 pub(super) const KINDS: &[Kind] = &[
-    Kind::new(
-        "arc-end-mistyped",
-        Fear::Alarm,
-        "the end of an arc is mistyped",
-        OFF,
-        |p| {
-            p.each(|block| {
-                arc(p, block).filter(|_| by_centre(block))?;
-                let word = block.words.iter().find(|word| matches!(word.letter, b'X' | b'Y'))?;
-                Some(p.value(word, moved(p, word)))
-            })
-        },
-    ),
-    Kind::new(
-        "arc-centre-mistyped",
-        Fear::Alarm,
-        "the centre of an arc is mistyped",
-        OFF,
-        |p| {
-            p.each(|block| {
-                arc(p, block).filter(|_| by_centre(block))?;
-                // A full circle closes about any centre.
-                let full = !block.has(b"XYZ") || p.previous(block).is_some_and(|above| {
-                    let same = |letter| block.word(letter).is_none_or(|w| above.word(letter).is_none_or(|a| a.number == w.number));
+    Kind::new("arc-end-mistyped", Fear::Alarm, "the end of an arc is mistyped", OFF, |p| {
+        p.each(|block| {
+            arc(p, block).filter(|_| by_centre(block))?;
+            let word = block.words.iter().find(|word| matches!(word.letter, b'X' | b'Y'))?;
+            Some(p.value(word, moved(p, word)))
+        })
+    }),
+    Kind::new("arc-centre-mistyped", Fear::Alarm, "the centre of an arc is mistyped", OFF, |p| {
+        p.each(|block| {
+            arc(p, block).filter(|_| by_centre(block))?;
+            // A full circle closes about any centre.
+            let full = !block.has(b"XYZ")
+                || p.previous(block).is_some_and(|above| {
+                    let same = |letter| {
+                        block
+                            .word(letter)
+                            .is_none_or(|w| above.word(letter).is_none_or(|a| a.number == w.number))
+                    };
                     same(b'X') && same(b'Y')
                 });
-                let word = block.words.iter().find(|word| matches!(word.letter, b'I' | b'J') && word.number != Some(0.0))?;
-                (!full).then(|| p.value(word, moved(p, word)))
-            })
-        },
-    ),
-    Kind::new(
-        "arc-sign-of-centre",
-        Fear::Scrap,
-        "the sign of `I` or `J` is lost",
-        OFF,
-        |p| {
-            p.each(|block| {
-                arc(p, block).filter(|_| by_centre(block) && block.has(b"X") && block.has(b"Y"))?;
-                let above = p.previous(block)?;
-                let full = block.word(b'X')?.number == above.word(b'X').and_then(|word| word.number)
-                    && block.word(b'Y')?.number == above.word(b'Y').and_then(|word| word.number);
-                let word = block.words.iter().find(|word| matches!(word.letter, b'I' | b'J') && word.number.is_some_and(|v| v < 0.0))?;
-                (!full).then(|| p.value(word, &p.words_of(word)[2..]))
-            })
-        },
-    ),
+            let word = block
+                .words
+                .iter()
+                .find(|word| matches!(word.letter, b'I' | b'J') && word.number != Some(0.0))?;
+            (!full).then(|| p.value(word, moved(p, word)))
+        })
+    }),
+    Kind::new("arc-sign-of-centre", Fear::Scrap, "the sign of `I` or `J` is lost", OFF, |p| {
+        p.each(|block| {
+            arc(p, block).filter(|_| by_centre(block) && block.has(b"X") && block.has(b"Y"))?;
+            let above = p.previous(block)?;
+            let full = block.word(b'X')?.number == above.word(b'X').and_then(|word| word.number)
+                && block.word(b'Y')?.number == above.word(b'Y').and_then(|word| word.number);
+            let word = block
+                .words
+                .iter()
+                .find(|word| matches!(word.letter, b'I' | b'J') && word.number.is_some_and(|v| v < 0.0))?;
+            (!full).then(|| p.value(word, &p.words_of(word)[2..]))
+        })
+    }),
     Kind::new(
         "arc-radius-slip",
         Fear::Scrap,
@@ -87,8 +80,13 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 arc(p, block)?;
-                let word = block.word(b'R').filter(|word| word.number.is_some_and(|r| r > 0.0) && word.has_point | !p.counts_steps())?;
-                Some(p.value(word, format!("{:.5}", word.number.unwrap() / 10.0).trim_end_matches('0').to_owned()))
+                let word = block.word(b'R').filter(|word| {
+                    word.number.is_some_and(|r| r > 0.0) && word.has_point | !p.counts_steps()
+                })?;
+                Some(p.value(
+                    word,
+                    format!("{:.5}", word.number.unwrap() / 10.0).trim_end_matches('0').to_owned(),
+                ))
             })
         },
     ),
@@ -121,7 +119,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 arc(p, block).filter(|_| block.has(b"XYZ"))?;
-                let words = block.words.iter().filter(|word| matches!(word.letter, b'I' | b'J' | b'K' | b'R'));
+                let words =
+                    block.words.iter().filter(|word| matches!(word.letter, b'I' | b'J' | b'K' | b'R'));
                 let edits: Vec<_> = words.map(|word| p.without(word)).collect();
                 (!edits.is_empty()).then_some(edits)
             })
@@ -131,14 +130,26 @@ pub(super) const KINDS: &[Kind] = &[
         "arc-centre-and-radius",
         Fear::Alarm,
         "an arc has both a centre and a radius",
-        &["arc-centre-and-radius", "words-exclude-each-other", "arc-radius-too-small", "full-circle-by-radius", "arc-end-off-circle"],
+        &[
+            "arc-centre-and-radius",
+            "words-exclude-each-other",
+            "arc-radius-too-small",
+            "full-circle-by-radius",
+            "arc-end-off-circle",
+        ],
         |p| p.each(|block| arc(p, block).filter(|_| by_centre(block)).map(|_| p.behind_words(block, "R5."))),
     ),
     Kind::new(
         "arc-word-of-another-plane",
         Fear::Scrap,
         "`K` is typed for `J` in an XY arc",
-        &["arc-wrong-plane-word", "arc-end-off-circle", "arc-without-centre", "zero-radius-arc", "word-not-read"],
+        &[
+            "arc-wrong-plane-word",
+            "arc-end-off-circle",
+            "arc-without-centre",
+            "zero-radius-arc",
+            "word-not-read",
+        ],
         |p| {
             p.each(|block| {
                 arc(p, block).filter(|_| by_centre(block) && !p.is_lathe())?;

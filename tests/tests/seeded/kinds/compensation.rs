@@ -26,7 +26,9 @@ fn on_the_contour(p: &Program, block: &Block) -> bool {
     block.before.is_compensating
         && block.after.is_compensating
         && block.moves(&[Effect::Linear])
-        && above.is_some_and(|above| above.moves(&[Effect::Linear, Effect::ArcClockwise, Effect::ArcCounterClockwise]))
+        && above.is_some_and(|above| {
+            above.moves(&[Effect::Linear, Effect::ArcClockwise, Effect::ArcCounterClockwise])
+        })
 }
 
 pub(super) const KINDS: &[Kind] = &[
@@ -34,12 +36,19 @@ pub(super) const KINDS: &[Kind] = &[
         "compensation-left-on",
         Fear::Crash,
         "`G40` is forgotten",
-        &["compensation-left-on", "maybe-compensation-left-on", "refused-under-compensation", "compensation-gouge", "cycle-under-compensation"],
+        &[
+            "compensation-left-on",
+            "maybe-compensation-left-on",
+            "refused-under-compensation",
+            "compensation-gouge",
+            "cycle-under-compensation",
+        ],
         |p| {
             p.each(|block| {
                 off(block)?;
                 // A tool change or the next tool's first line would mend it: every G40 behind is forgotten.
-                let all = p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
+                let all =
+                    p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
                 Some(all.map(|word| p.without(word)).collect::<Vec<_>>())
             })
         },
@@ -52,10 +61,20 @@ pub(super) const KINDS: &[Kind] = &[
         &["compensation-on-in-arc"],
         |p| {
             p.each(|block| {
-                let code = block.code(&ON).filter(|_| !block.before.is_compensating && !p.is_lathe() && !p.is_for(&["linuxcnc"]))?;
-                let arc = p.behind(block).iter().take(6).find(|next| next.moves(&ARCS) && next.code(&ARCS).is_some())?;
+                let code = block
+                    .code(&ON)
+                    .filter(|_| !block.before.is_compensating && !p.is_lathe() && !p.is_for(&["linuxcnc"]))?;
+                let arc = p
+                    .behind(block)
+                    .iter()
+                    .take(6)
+                    .find(|next| next.moves(&ARCS) && next.code(&ARCS).is_some())?;
                 let size = block.word(b'D');
-                let both = format!("{}{}", p.words_of(code), size.map(|d| format!(" {}", p.words_of(d))).unwrap_or_default());
+                let both = format!(
+                    "{}{}",
+                    p.words_of(code),
+                    size.map(|d| format!(" {}", p.words_of(d))).unwrap_or_default()
+                );
                 let edits = [p.without(code)].into_iter().chain(size.map(|word| p.without(word)));
                 Some(edits.chain([p.behind_words(arc, both)]).collect::<Vec<_>>())
             })
@@ -70,7 +89,11 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let code = off(block).filter(|_| !p.is_lathe())?;
-                let arc = p.blocks[..block.ix].iter().rev().take(6).find(|b| b.moves(&ARCS) && b.code(&ARCS).is_some() && b.before.is_compensating)?;
+                let arc = p.blocks[..block.ix]
+                    .iter()
+                    .rev()
+                    .take(6)
+                    .find(|b| b.moves(&ARCS) && b.code(&ARCS).is_some() && b.before.is_compensating)?;
                 Some(vec![p.without(code), p.behind_words(arc, p.words_of(code))])
             })
         },
@@ -81,7 +104,12 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the plane is changed while compensation is on, on a control that refuses it",
         &["refused-under-compensation"],
-        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc", "fanuc"])).then(|| p.line_above(block, "G18"))),
+        |p| {
+            p.each(|block| {
+                (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc", "fanuc"]))
+                    .then(|| p.line_above(block, "G18"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -89,7 +117,12 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "`G28` while compensation is on, on a control that refuses it",
         &["refused-under-compensation", "compensation-left-on", "reference-return-through-point"],
-        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc"])).then(|| p.line_above(block, "G28 Z5"))),
+        |p| {
+            p.each(|block| {
+                (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc"]))
+                    .then(|| p.line_above(block, "G28 Z5"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -97,7 +130,9 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "a tool change while compensation is on",
         &["compensation-left-on", "refused-under-compensation"],
-        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe()).then(|| p.line_above(block, "T1 M06"))),
+        |p| {
+            p.each(|block| (on_the_contour(p, block) && !p.is_lathe()).then(|| p.line_above(block, "T1 M06")))
+        },
     )
     .anywhere(),
     Kind::new(
@@ -107,13 +142,24 @@ pub(super) const KINDS: &[Kind] = &[
         &["lead-in-too-short", "compensation-gouge"],
         |p| {
             p.each(|block| {
-                block.code(&ON).filter(|_| !p.is_lathe() && !block.before.is_subprogram && block.moves(&[Effect::Linear]) && block.has(b"X") && block.has(b"Y"))?;
+                block.code(&ON).filter(|_| {
+                    !p.is_lathe()
+                        && !block.before.is_subprogram
+                        && block.moves(&[Effect::Linear])
+                        && block.has(b"X")
+                        && block.has(b"Y")
+                })?;
                 let above = p.blocks[..block.ix].iter().rev().find(|b| b.has(b"X") && b.has(b"Y"))?;
                 let (x, y) = (block.word(b'X')?, block.word(b'Y')?);
                 let (from_x, from_y) = (above.word(b'X')?.number?, above.word(b'Y')?.number?);
                 // Begin a hair away from where the contour is to begin.
                 let (to_x, to_y) = (x.number?, y.number?);
-                let near = |from: f64, to: f64| format!("{:.3}", from + (to - from).signum() * 0.05 * f64::from(u8::from((to - from).abs() > 1e-9)));
+                let near = |from: f64, to: f64| {
+                    format!(
+                        "{:.3}",
+                        from + (to - from).signum() * 0.05 * f64::from(u8::from((to - from).abs() > 1e-9))
+                    )
+                };
                 Some(vec![p.value(x, near(from_x, to_x)), p.value(y, near(from_y, to_y))])
             })
         },
@@ -129,7 +175,9 @@ pub(super) const KINDS: &[Kind] = &[
                 let circle = block.before.is_compensating && block.moves(&ARCS) && !p.is_lathe();
                 let (x, i) = (block.word(b'X').filter(|_| circle)?, block.word(b'I')?);
                 let above = p.previous(block).filter(|above| above.code(&ON).is_some())?;
-                let start = above.word(b'X').filter(|word| word.number == x.number && i.number == x.number.map(|x| -x))?;
+                let start = above
+                    .word(b'X')
+                    .filter(|word| word.number == x.number && i.number == x.number.map(|x| -x))?;
                 let small = |word: &Word| p.value(word, format!("{:.3}", word.number.unwrap() / 5.0));
                 Some(vec![small(start), small(x), small(i)])
             })

@@ -12,7 +12,10 @@ const ENDS: [Effect; 2] = [Effect::ProgramEnd, Effect::ProgramEndWithPallet];
 const CALLS: [Effect; 2] = [Effect::CallProgram, Effect::MacroCall];
 
 /// Statements that are of a kind.
-fn statements(p: &Program, seed: impl Fn(&Block, &std::ops::Range<usize>, &StatementKind) -> Option<Edit>) -> Vec<Seed> {
+fn statements(
+    p: &Program,
+    seed: impl Fn(&Block, &std::ops::Range<usize>, &StatementKind) -> Option<Edit>,
+) -> Vec<Seed> {
     let all = p.blocks.iter().flat_map(|block| block.statements.iter().map(move |s| (block, s)));
     all.filter_map(|(block, (range, kind))| seed(block, range, kind).map(Into::into)).collect()
 }
@@ -60,7 +63,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["unreachable-block"],
         |p| {
             p.each(|block| {
-                let fits = block.code(&[Effect::ToolChange]).is_some() && block.before.section > 0 && !block.before.is_subprogram;
+                let fits = block.code(&[Effect::ToolChange]).is_some()
+                    && block.before.section > 0
+                    && !block.before.is_subprogram;
                 fits.then(|| p.line_above(block, "M30"))
             })
         },
@@ -86,7 +91,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["program-number-missing"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'O').filter(|_| p.is_for(&["fanuc", "haas"]) && block.words.len() == 1)?;
+                let word =
+                    block.word(b'O').filter(|_| p.is_for(&["fanuc", "haas"]) && block.words.len() == 1)?;
                 let first = p.blocks[..block.ix].iter().all(|before| before.words.is_empty());
                 first.then(|| p.without(word))
             })
@@ -98,7 +104,11 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the sequence number that a jump looks for was renumbered",
         &["jump-target-missing"],
-        |p| p.each(|block| target(p, block).map(|word| p.value(word, format!("{}", word.number.unwrap() + 7.0)))),
+        |p| {
+            p.each(|block| {
+                target(p, block).map(|word| p.value(word, format!("{}", word.number.unwrap() + 7.0)))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -109,8 +119,14 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let word = target(p, block)?;
-                let next = p.behind(block).iter().find(|next| next.is_plain() && !next.has(b"NO") && next.words.len() > 1)?;
-                Some(Edit { range: next.range.start..next.range.start, text: format!("{} ", p.words_of(word)) })
+                let next = p
+                    .behind(block)
+                    .iter()
+                    .find(|next| next.is_plain() && !next.has(b"NO") && next.words.len() > 1)?;
+                Some(Edit {
+                    range: next.range.start..next.range.start,
+                    text: format!("{} ", p.words_of(word)),
+                })
             })
         },
     )
@@ -150,7 +166,10 @@ pub(super) const KINDS: &[Kind] = &[
             // Where each subprogram of the file has one return.
             let called = p.blocks.iter().any(|block| block.code(&CALLS).is_some());
             p.each(|block| {
-                let fits = called && block.before.is_subprogram && block.code(&[Effect::Return]).is_some() && block.words.len() == 1;
+                let fits = called
+                    && block.before.is_subprogram
+                    && block.code(&[Effect::Return]).is_some()
+                    && block.words.len() == 1;
                 fits.then(|| p.without_line(block))
             })
         },
@@ -163,7 +182,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["fall-into-subprogram", "program-end-missing", "return-outside-subroutine"],
         |p| {
             p.each(|block| {
-                block.code(&ENDS).filter(|_| !block.before.is_subprogram && block.words.len() == 1 && !block.is_skippable)?;
+                block.code(&ENDS).filter(|_| {
+                    !block.before.is_subprogram && block.words.len() == 1 && !block.is_skippable
+                })?;
                 let behind = p.behind(block).iter().any(|next| next.code(&[Effect::Return]).is_some());
                 behind.then(|| p.without_line(block))
             })
@@ -177,8 +198,12 @@ pub(super) const KINDS: &[Kind] = &[
         &["calls-nested-too-deep", "endless-loop"],
         |p| {
             p.each(|block| {
-                let number = block.word(b'O').filter(|_| block.before.is_subprogram && p.is_for(&["fanuc", "haas"]))?;
-                let called = p.blocks.iter().any(|b| b.code(&CALLS).is_some() && b.word(b'P').is_some_and(|w| w.number == number.number));
+                let number = block
+                    .word(b'O')
+                    .filter(|_| block.before.is_subprogram && p.is_for(&["fanuc", "haas"]))?;
+                let called = p.blocks.iter().any(|b| {
+                    b.code(&CALLS).is_some() && b.word(b'P').is_some_and(|w| w.number == number.number)
+                });
                 let next = p.next(block)?;
                 called.then(|| p.line_above(next, format!("M98 P{}", &p.words_of(number)[1..])))
             })
@@ -192,7 +217,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["loop-end-missing", "o-word-unmatched"],
         |p| {
             statements(p, |block, _, kind| {
-                let ends = matches!(kind, StatementKind::End { .. }) || keyword(kind) == Some(OKeyword::EndWhile);
+                let ends =
+                    matches!(kind, StatementKind::End { .. }) || keyword(kind) == Some(OKeyword::EndWhile);
                 ends.then(|| p.without_line(block))
             })
         },
@@ -205,7 +231,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["loop-begin-missing", "o-word-unmatched"],
         |p| {
             statements(p, |block, _, kind| {
-                let begins = matches!(kind, StatementKind::Do { .. }) || keyword(kind) == Some(OKeyword::While);
+                let begins =
+                    matches!(kind, StatementKind::Do { .. }) || keyword(kind) == Some(OKeyword::While);
                 begins.then(|| p.without_line(block))
             })
         },
@@ -238,29 +265,25 @@ pub(super) const KINDS: &[Kind] = &[
                 let counts = value.trim_start_matches('[').starts_with(&format!("{name}+"));
                 let rest = p.behind(block);
                 let in_loop = rest.iter().take(3).any(|next| {
-                    next.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::End { .. }) || keyword(kind) == Some(OKeyword::EndWhile))
+                    next.statements.iter().any(|(_, kind)| {
+                        matches!(kind, StatementKind::End { .. }) || keyword(kind) == Some(OKeyword::EndWhile)
+                    })
                 });
                 (counts && in_loop && block.words.is_empty()).then(|| p.without_line(block))
             })
         },
     )
     .anywhere(),
-    Kind::new(
-        "jump-into-loop",
-        Fear::Alarm,
-        "a jump leads into a loop",
-        &["jump-into-loop"],
-        |p| {
-            p.each(|block| {
-                let begins = block.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::Do { .. }));
-                let inside = p.next(block).filter(|next| begins && !next.has(b"N"))?;
-                Some(vec![
-                    p.line_above(block, "IF [#519 EQ 1.] GOTO7777"),
-                    Edit { range: inside.range.start..inside.range.start, text: "N7777 ".to_owned() },
-                ])
-            })
-        },
-    )
+    Kind::new("jump-into-loop", Fear::Alarm, "a jump leads into a loop", &["jump-into-loop"], |p| {
+        p.each(|block| {
+            let begins = block.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::Do { .. }));
+            let inside = p.next(block).filter(|next| begins && !next.has(b"N"))?;
+            Some(vec![
+                p.line_above(block, "IF [#519 EQ 1.] GOTO7777"),
+                Edit { range: inside.range.start..inside.range.start, text: "N7777 ".to_owned() },
+            ])
+        })
+    })
     .anywhere(),
     Kind::new(
         "subroutine-mistyped",
@@ -271,7 +294,10 @@ pub(super) const KINDS: &[Kind] = &[
             statements(p, |_, range, kind| {
                 let text = &p.text[range.clone()];
                 let named = text.find('<').filter(|_| keyword(kind) == Some(OKeyword::Call))?;
-                Some(Edit { range: range.start + named + 1..range.start + named + 1, text: "the_".to_owned() })
+                Some(Edit {
+                    range: range.start + named + 1..range.start + named + 1,
+                    text: "the_".to_owned(),
+                })
             })
         },
     ),
@@ -280,16 +306,18 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "a subroutine has no `endsub`",
         &["o-word-unmatched"],
-        |p| statements(p, |block, _, kind| (keyword(kind) == Some(OKeyword::EndSub)).then(|| p.without_line(block))),
+        |p| {
+            statements(p, |block, _, kind| {
+                (keyword(kind) == Some(OKeyword::EndSub)).then(|| p.without_line(block))
+            })
+        },
     )
     .anywhere(),
-    Kind::new(
-        "branch-end-forgotten",
-        Fear::Alarm,
-        "an `if` has no `endif`",
-        &["o-word-unmatched"],
-        |p| statements(p, |block, _, kind| (keyword(kind) == Some(OKeyword::EndIf)).then(|| p.without_line(block))),
-    )
+    Kind::new("branch-end-forgotten", Fear::Alarm, "an `if` has no `endif`", &["o-word-unmatched"], |p| {
+        statements(p, |block, _, kind| {
+            (keyword(kind) == Some(OKeyword::EndIf)).then(|| p.without_line(block))
+        })
+    })
     .anywhere(),
     Kind::new(
         "jump-without-number",

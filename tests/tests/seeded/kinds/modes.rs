@@ -12,15 +12,23 @@ const MOVES: [Effect; 2] = [Effect::Rapid, Effect::Linear];
 /// A line in front of the first cut of a tool, and what must be there for it to matter.
 fn before_a_cut(p: &Program, line: &str) -> Vec<Seed> {
     p.each(|block| {
-        let first = block.moves(&[Effect::Linear]) && block.code(&[Effect::Linear]).is_some() && block.after.feed;
-        let fits = first && !block.before.is_subprogram && !block.before.is_compensating && !block.before.is_incremental;
+        let first =
+            block.moves(&[Effect::Linear]) && block.code(&[Effect::Linear]).is_some() && block.after.feed;
+        let fits = first
+            && !block.before.is_subprogram
+            && !block.before.is_compensating
+            && !block.before.is_incremental;
         fits.then(|| p.line_above(block, line))
     })
 }
 
 /// As [`before_a_cut`], where another tool comes behind.
 fn before_a_cut_of_several(p: &Program, line: &str) -> Vec<Seed> {
-    let last = p.blocks.iter().rfind(|block| block.code(&[Effect::ToolChange]).is_some()).map_or(0, |block| block.range.start);
+    let last = p
+        .blocks
+        .iter()
+        .rfind(|block| block.code(&[Effect::ToolChange]).is_some())
+        .map_or(0, |block| block.range.start);
     before_a_cut(p, line).into_iter().filter(|seed| seed.edits[0].range.start < last).collect()
 }
 
@@ -49,10 +57,12 @@ pub(super) const KINDS: &[Kind] = &[
         "a tool was pasted from a program in the other units (`G21` among inches)",
         &["units-changed"],
         |p| {
-            let inch = p.blocks.iter().find_map(|block| block.code(&[Effect::Inch, Effect::Millimetre])?.effect);
+            let inch =
+                p.blocks.iter().find_map(|block| block.code(&[Effect::Inch, Effect::Millimetre])?.effect);
             let other = if inch == Some(Effect::Inch) { "G21" } else { "G20" };
             p.each(|block| {
-                let fits = block.code(&[Effect::ToolChange]).is_some() && block.before.section > 0 && inch.is_some();
+                let fits =
+                    block.code(&[Effect::ToolChange]).is_some() && block.before.section > 0 && inch.is_some();
                 fits.then(|| p.behind_words(block, other))
             })
         },
@@ -62,11 +72,18 @@ pub(super) const KINDS: &[Kind] = &[
         "increments-left-on",
         Fear::Crash,
         "`G90` is forgotten after `G91 G28`: the next moves are increments",
-        &["incremental-left-on", "maybe-incremental-left-on", "move-outside-travel", "rapid-plunge", "incremental-into-subprogram"],
+        &[
+            "incremental-left-on",
+            "maybe-incremental-left-on",
+            "move-outside-travel",
+            "rapid-plunge",
+            "incremental-into-subprogram",
+        ],
         |p| {
             p.each(|block| {
                 let above = p.previous(block).filter(|_| block.code(&[Effect::Absolute]).is_some())?;
-                let fits = return_in_increments(above) || above.before.is_incremental && above.code(&[Effect::ReturnReference(1)]).is_some();
+                let fits = return_in_increments(above)
+                    || above.before.is_incremental && above.code(&[Effect::ReturnReference(1)]).is_some();
                 fits.then_some(())?;
                 // A program that says G90 again at the next tool mends it: every G90 behind is forgotten.
                 let all = p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::Absolute]));
@@ -79,7 +96,20 @@ pub(super) const KINDS: &[Kind] = &[
         "increments-for-positions",
         Fear::Crash,
         "`G91` is typed for `G90` in front of a tool's first move",
-        &["incremental-left-on", "maybe-incremental-left-on", "move-outside-travel", "incremental-into-subprogram", "compensation-gouge", "arc-end-off-circle", "rapid-plunge", "refused-under-compensation", "reference-return-through-point", "cycle-r-below-bottom", "cycle-numbers-contradict", "machine-coordinates-in-increments"],
+        &[
+            "incremental-left-on",
+            "maybe-incremental-left-on",
+            "move-outside-travel",
+            "incremental-into-subprogram",
+            "compensation-gouge",
+            "arc-end-off-circle",
+            "rapid-plunge",
+            "refused-under-compensation",
+            "reference-return-through-point",
+            "cycle-r-below-bottom",
+            "cycle-numbers-contradict",
+            "machine-coordinates-in-increments",
+        ],
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::Absolute]).filter(|_| block.moves(&[Effect::Rapid]))?;
@@ -95,7 +125,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["incremental-into-subprogram", "incremental-left-on", "maybe-incremental-left-on"],
         |p| {
             p.each(|block| {
-                let fits = block.code(&[Effect::CallProgram, Effect::CallLocal]).is_some() && !block.before.is_incremental;
+                let fits = block.code(&[Effect::CallProgram, Effect::CallLocal]).is_some()
+                    && !block.before.is_incremental;
                 fits.then(|| p.line_above(block, "G91"))
             })
         },
@@ -106,28 +137,52 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "`G28 Z0.` without `G91`: the tool goes to the part's zero first",
         &["reference-return-through-point"],
-        |p| p.each(|block| {
-            let word = block.code(&[Effect::Incremental]).filter(|_| return_in_increments(block) && block.has(b"Z"))?;
-            Some(p.without(word))
-        }),
+        |p| {
+            p.each(|block| {
+                let word = block
+                    .code(&[Effect::Incremental])
+                    .filter(|_| return_in_increments(block) && block.has(b"Z"))?;
+                Some(p.without(word))
+            })
+        },
     ),
     Kind::new(
         "machine-move-in-increments",
         Fear::Alarm,
         "`G53` while `G91` is on, on a control that refuses it",
-        &["codes-conflict", "incremental-left-on", "axis-words-without-motion-mode", "machine-coordinates-in-increments"],
-        |p| p.each(|block| {
-            let fits = block.code(&[Effect::MachineCoordinates]).is_some() && p.is_for(&["linuxcnc"]);
-            fits.then(|| p.line_above(block, "G91"))
-        }),
+        &[
+            "codes-conflict",
+            "incremental-left-on",
+            "axis-words-without-motion-mode",
+            "machine-coordinates-in-increments",
+        ],
+        |p| {
+            p.each(|block| {
+                let fits = block.code(&[Effect::MachineCoordinates]).is_some() && p.is_for(&["linuxcnc"]);
+                fits.then(|| p.line_above(block, "G91"))
+            })
+        },
     ),
     Kind::new(
         "wrong-plane",
         Fear::Scrap,
         "`G18` is active where arcs are meant in XY",
-        &["arc-wrong-plane-word", "arc-without-centre", "arc-end-off-circle", "arc-radius-too-small", "cycle-r-below-bottom", "zero-radius-arc", "full-circle-by-radius", "refused-under-compensation", "compensation-gouge"],
+        &[
+            "arc-wrong-plane-word",
+            "arc-without-centre",
+            "arc-end-off-circle",
+            "arc-radius-too-small",
+            "cycle-r-below-bottom",
+            "zero-radius-arc",
+            "full-circle-by-radius",
+            "refused-under-compensation",
+            "compensation-gouge",
+        ],
         |p| {
-            let arcs = p.blocks.iter().any(|b| b.moves(&[Effect::ArcClockwise, Effect::ArcCounterClockwise]) && !p.is_lathe());
+            let arcs = p
+                .blocks
+                .iter()
+                .any(|b| b.moves(&[Effect::ArcClockwise, Effect::ArcCounterClockwise]) && !p.is_lathe());
             p.each(|block| block.code(&[Effect::PlaneXy]).filter(|_| arcs).map(|word| p.instead(word, "G18")))
         },
     )
@@ -136,9 +191,20 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-per-turn-for-per-minute",
         Fear::Crash,
         "feed a turn (`G95`) is on while the numbers are feed a minute",
-        &["feed-of-another-mode", "feed-above-machine-limit", "maybe-feed-of-another-mode", "feed-missing", "feed-implausible"],
+        &[
+            "feed-of-another-mode",
+            "feed-above-machine-limit",
+            "maybe-feed-of-another-mode",
+            "feed-missing",
+            "feed-implausible",
+        ],
         |p| {
-            p.each(|block| block.code(&[Effect::FeedPerMinute]).filter(|_| !p.is_lathe()).map(|word| p.instead(word, "G95")))
+            p.each(|block| {
+                block
+                    .code(&[Effect::FeedPerMinute])
+                    .filter(|_| !p.is_lathe())
+                    .map(|word| p.instead(word, "G95"))
+            })
         },
     )
     .anywhere(),
@@ -157,7 +223,11 @@ pub(super) const KINDS: &[Kind] = &[
         &["feed-of-another-mode", "feed-missing", "maybe-feed-of-another-mode"],
         |p| {
             p.each(|block| {
-                let fits = block.moves(&[Effect::Linear]) && !block.has(b"F") && block.before.feed && !p.is_lathe() && !block.before.is_subprogram;
+                let fits = block.moves(&[Effect::Linear])
+                    && !block.has(b"F")
+                    && block.before.feed
+                    && !p.is_lathe()
+                    && !block.before.is_subprogram;
                 fits.then(|| p.line_above(block, "G95"))
             })
         },
@@ -168,29 +238,29 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "coordinate rotation is never cancelled",
         &["rotation-left-on"],
-        |p| if p.is_lathe() || p.is_for(&["linuxcnc"]) { Vec::new() } else { before_a_cut_of_several(p, "G68 X0. Y0. R30.") },
-    )
-    .anywhere(),
-    Kind::new(
-        "scaling-left-on",
-        Fear::Crash,
-        "scaling is never cancelled",
-        &["scaling-left-on"],
-        |p| if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) { Vec::new() } else { before_a_cut_of_several(p, "G51 X0. Y0. P2000") },
-    )
-    .anywhere(),
-    Kind::new(
-        "mirror-left-on",
-        Fear::Crash,
-        "mirror image is never cancelled",
-        &["mirror-left-on"],
         |p| {
-            if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) {
-                return Vec::new();
+            if p.is_lathe() || p.is_for(&["linuxcnc"]) {
+                Vec::new()
+            } else {
+                before_a_cut_of_several(p, "G68 X0. Y0. R30.")
             }
-            before_a_cut_of_several(p, if p.is_for(&["haas"]) { "G101 X0." } else { "G51.1 X0." })
         },
     )
+    .anywhere(),
+    Kind::new("scaling-left-on", Fear::Crash, "scaling is never cancelled", &["scaling-left-on"], |p| {
+        if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) {
+            Vec::new()
+        } else {
+            before_a_cut_of_several(p, "G51 X0. Y0. P2000")
+        }
+    })
+    .anywhere(),
+    Kind::new("mirror-left-on", Fear::Crash, "mirror image is never cancelled", &["mirror-left-on"], |p| {
+        if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) {
+            return Vec::new();
+        }
+        before_a_cut_of_several(p, if p.is_for(&["haas"]) { "G101 X0." } else { "G51.1 X0." })
+    })
     .anywhere(),
     Kind::new(
         "shift-left-on",
@@ -217,11 +287,24 @@ pub(super) const KINDS: &[Kind] = &[
         "mode-in-skipped-block",
         Fear::Crash,
         "a mode is set in a block that `/` skips",
-        &["modal-change-in-skipped-block", "incremental-left-on", "maybe-incremental-left-on", "tool-length-missing", "maybe-spindle-stopped-while-cutting", "maybe-compensation-left-on", "spindle-stopped-while-cutting", "length-offset-of-another-tool"],
+        &[
+            "modal-change-in-skipped-block",
+            "incremental-left-on",
+            "maybe-incremental-left-on",
+            "tool-length-missing",
+            "maybe-spindle-stopped-while-cutting",
+            "maybe-compensation-left-on",
+            "spindle-stopped-while-cutting",
+            "length-offset-of-another-tool",
+        ],
         |p| {
             p.each(|block| {
-                let modes = [Effect::Absolute, Effect::LengthPlus, Effect::CompensationOff, Effect::SpindleClockwise];
-                let fits = block.code(&modes).is_some() && block.before.section > 0 && !block.is_skippable && !p.is_for(&["linuxcnc"]);
+                let modes =
+                    [Effect::Absolute, Effect::LengthPlus, Effect::CompensationOff, Effect::SpindleClockwise];
+                let fits = block.code(&modes).is_some()
+                    && block.before.section > 0
+                    && !block.is_skippable
+                    && !p.is_for(&["linuxcnc"]);
                 fits.then(|| Edit { range: block.range.start..block.range.start, text: "/".to_owned() })
             })
         },
@@ -234,7 +317,8 @@ pub(super) const KINDS: &[Kind] = &[
         &["required-word-missing", "lasting-word-never-given"],
         |p| {
             p.each(|block| {
-                let fits = block.code(&[Effect::ToolChange]).is_some() && p.is_for(&["haas-mill", "linuxcnc"]);
+                let fits =
+                    block.code(&[Effect::ToolChange]).is_some() && p.is_for(&["haas-mill", "linuxcnc"]);
                 fits.then(|| p.line_above(block, "G10 L2 X0. Y0."))
             })
         },

@@ -32,7 +32,11 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "the plunge into the part is a rapid move (`G00` for `G01`)",
         &["rapid-plunge", "rapid-in-material"],
-        |p| p.each(|block| block.code(&[Effect::Linear]).filter(|_| plunge(p, block)).map(|word| p.instead(word, "G00"))),
+        |p| {
+            p.each(|block| {
+                block.code(&[Effect::Linear]).filter(|_| plunge(p, block)).map(|word| p.instead(word, "G00"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -44,7 +48,11 @@ pub(super) const KINDS: &[Kind] = &[
             p.each(|block| {
                 let word = block.word(b'Z').filter(|word| word.number.is_some_and(|z| z > 0.0))?;
                 let next = p.next(block)?;
-                let fits = block.moves(&[Effect::Rapid]) && block.is_plain() && !block.before.is_incremental && !p.is_lathe() && plunge(p, next);
+                let fits = block.moves(&[Effect::Rapid])
+                    && block.is_plain()
+                    && !block.before.is_incremental
+                    && !p.is_lathe()
+                    && plunge(p, next);
                 fits.then(|| p.value(word, format!("-{}", &p.words_of(word)[1..])))
             })
         },
@@ -57,7 +65,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["rapid-in-material", "rapid-plunge", "refused-under-compensation"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::Linear]).filter(|_| cut(block) && block.has(b"XY") && !block.has(b"ZFD") && !p.is_lathe())?;
+                let word = block
+                    .code(&[Effect::Linear])
+                    .filter(|_| cut(block) && block.has(b"XY") && !block.has(b"ZFD") && !p.is_lathe())?;
                 let above = p.previous(block).filter(|above| above.moves(&CUTS))?;
                 (p.next(block)?.moves(&CUTS) && !above.before.is_incremental).then(|| p.instead(word, "G00"))
             })
@@ -71,10 +81,17 @@ pub(super) const KINDS: &[Kind] = &[
         &["rapid-in-material", "rapid-plunge"],
         |p| {
             p.each(|block| {
-                let up = block.moves(&[Effect::Rapid]) && block.code(&[Effect::Rapid]).is_some() && block.has(b"Z") && !block.has(b"XY") && !p.is_lathe();
-                let above = p.previous(block).filter(|above| up && above.moves(&CUTS) && !above.before.is_incremental)?;
+                let up = block.moves(&[Effect::Rapid])
+                    && block.code(&[Effect::Rapid]).is_some()
+                    && block.has(b"Z")
+                    && !block.has(b"XY")
+                    && !p.is_lathe();
+                let above = p
+                    .previous(block)
+                    .filter(|above| up && above.moves(&CUTS) && !above.before.is_incremental)?;
                 let rapid = p.behind(block).iter().find(|next| next.moves(&[Effect::Rapid]))?;
-                let fits = rapid.has(b"XY") && !rapid.has(b"Z") && rapid.before.section == block.before.section;
+                let fits =
+                    rapid.has(b"XY") && !rapid.has(b"Z") && rapid.before.section == block.before.section;
                 let below = p.blocks[..=above.ix].iter().rev().find_map(|b| b.word(b'Z'))?.number? < 0.0;
                 let z = block.word(b'Z')?;
                 (fits && below).then(|| p.without(z))
@@ -86,10 +103,22 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-never-given",
         Fear::Alarm,
         "no feed in the whole program",
-        &["feed-missing", "maybe-feed-missing", "cycle-word-missing", "thread-without-lead", "required-word-missing", "inverse-time-feed-missing"],
+        &[
+            "feed-missing",
+            "maybe-feed-missing",
+            "cycle-word-missing",
+            "thread-without-lead",
+            "required-word-missing",
+            "inverse-time-feed-missing",
+        ],
         |p| {
-            let cuts = p.blocks.iter().any(|block| block.moves(&[Effect::Linear]) && !block.before.is_subprogram);
-            let words = p.blocks.iter().filter(|block| block.code(&[Effect::MacroCall]).is_none()).filter_map(|block| block.word(b'F'));
+            let cuts =
+                p.blocks.iter().any(|block| block.moves(&[Effect::Linear]) && !block.before.is_subprogram);
+            let words = p
+                .blocks
+                .iter()
+                .filter(|block| block.code(&[Effect::MacroCall]).is_none())
+                .filter_map(|block| block.word(b'F'));
             let all: Vec<Edit> = words.map(|word| p.without(word)).collect();
             if all.is_empty() || !cuts { Vec::new() } else { vec![all.into()] }
         },
@@ -100,7 +129,14 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the feed is zero",
         &["feed-zero", "feed-missing", "number-out-of-range"],
-        |p| p.each(|block| block.word(b'F').filter(|_| block.moves(&[Effect::Linear]) && block.code(&[Effect::Linear]).is_some()).map(|word| p.value(word, "0."))),
+        |p| {
+            p.each(|block| {
+                block
+                    .word(b'F')
+                    .filter(|_| block.moves(&[Effect::Linear]) && block.code(&[Effect::Linear]).is_some())
+                    .map(|word| p.value(word, "0."))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -110,10 +146,15 @@ pub(super) const KINDS: &[Kind] = &[
         &["spindle-stopped-while-cutting", "maybe-spindle-stopped-while-cutting"],
         |p| {
             p.each(|block| {
-                let word = block.code(&SPINDLE).filter(|_| !block.before.spindle_turns && !block.before.is_subprogram)?;
-                let section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+                let word = block
+                    .code(&SPINDLE)
+                    .filter(|_| !block.before.spindle_turns && !block.before.is_subprogram)?;
+                let section =
+                    p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 // A lathe's spindle goes on turning at a tool change.
-                let stands = !p.is_lathe() || block.before.section == 0 && !p.blocks[..block.ix].iter().any(|b| b.code(&SPINDLE).is_some());
+                let stands = !p.is_lathe()
+                    || block.before.section == 0
+                        && !p.blocks[..block.ix].iter().any(|b| b.code(&SPINDLE).is_some());
                 let cuts = section.into_iter().any(|next| next.moves(&[Effect::Linear]));
                 (cuts && stands).then(|| p.without(word))
             })
@@ -127,9 +168,13 @@ pub(super) const KINDS: &[Kind] = &[
         &["spindle-stopped-while-cutting", "maybe-spindle-stopped-while-cutting"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::SpindleClockwise]).filter(|_| block.before.section > 0 && !block.before.spindle_turns)?;
-                let mut section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
-                (!p.is_lathe() && section.any(|next| next.moves(&[Effect::Linear]))).then(|| p.instead(word, "M00"))
+                let word = block
+                    .code(&[Effect::SpindleClockwise])
+                    .filter(|_| block.before.section > 0 && !block.before.spindle_turns)?;
+                let mut section =
+                    p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+                (!p.is_lathe() && section.any(|next| next.moves(&[Effect::Linear])))
+                    .then(|| p.instead(word, "M00"))
             })
         },
     )
@@ -150,7 +195,8 @@ pub(super) const KINDS: &[Kind] = &[
             p.each(|block| {
                 let word = block.word(b'S').filter(|_| block.code(&SPINDLE).is_some())?;
                 let given = p.blocks[..block.ix].iter().any(|before| before.has(b"S"));
-                let mut section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+                let mut section =
+                    p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 (!given && section.any(|next| next.moves(&[Effect::Linear]))).then(|| p.without(word))
             })
         },
@@ -163,8 +209,11 @@ pub(super) const KINDS: &[Kind] = &[
         &["speed-missing", "spindle-stopped-while-cutting", "number-out-of-range"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'S').filter(|_| block.code(&SPINDLE).is_some() && !block.before.is_subprogram && !p.is_lathe())?;
-                let mut section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+                let word = block.word(b'S').filter(|_| {
+                    block.code(&SPINDLE).is_some() && !block.before.is_subprogram && !p.is_lathe()
+                })?;
+                let mut section =
+                    p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 section.any(|next| next.moves(&[Effect::Linear])).then(|| p.value(word, "0"))
             })
         },
@@ -175,7 +224,14 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the speed has a digit too many for the machine",
         &["speed-above-machine-limit"],
-        |p| p.each(|block| block.word(b'S').filter(|word| !p.is_lathe() && word.number.is_some_and(|s| s > 1000.0)).map(|word| p.value(word, format!("{}0", &p.words_of(word)[1..])))),
+        |p| {
+            p.each(|block| {
+                block
+                    .word(b'S')
+                    .filter(|word| !p.is_lathe() && word.number.is_some_and(|s| s > 1000.0))
+                    .map(|word| p.value(word, format!("{}0", &p.words_of(word)[1..])))
+            })
+        },
     )
     .with_machine(),
     Kind::new(
@@ -185,7 +241,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["feed-above-machine-limit"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'F').filter(|word| !p.is_lathe() && block.moves(&[Effect::Linear]) && word.number.is_some_and(|f| f > 9.0))?;
+                let word = block.word(b'F').filter(|word| {
+                    !p.is_lathe() && block.moves(&[Effect::Linear]) && word.number.is_some_and(|f| f > 9.0)
+                })?;
                 let plain = p.blocks.iter().all(|b| b.code(&[Effect::FeedInverseTime]).is_none());
                 plain.then(|| p.value(word, format!("{:.0}00.", word.number.unwrap())))
             })
@@ -199,9 +257,12 @@ pub(super) const KINDS: &[Kind] = &[
         &["move-outside-travel"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'X').filter(|word| word.number.is_some_and(|x| x.abs() >= 2.0 && word.has_point))?;
+                let word = block
+                    .word(b'X')
+                    .filter(|word| word.number.is_some_and(|x| x.abs() >= 2.0 && word.has_point))?;
                 let text = p.words_of(word)[1..].replacen('.', "00.", 1);
-                (block.moves(&[Effect::Rapid]) && !block.before.is_incremental && !p.is_lathe()).then(|| p.value(word, text))
+                (block.moves(&[Effect::Rapid]) && !block.before.is_incremental && !p.is_lathe())
+                    .then(|| p.value(word, text))
             })
         },
     )
@@ -223,7 +284,10 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 block.code(&[Effect::CycleTap]).filter(|_| p.is_for(&["linuxcnc"]))?;
-                let start = p.blocks[..block.ix].iter().rev().find_map(|before| before.code(&[Effect::SpindleClockwise]))?;
+                let start = p.blocks[..block.ix]
+                    .iter()
+                    .rev()
+                    .find_map(|before| before.code(&[Effect::SpindleClockwise]))?;
                 Some(p.instead(start, "M04"))
             })
         },
@@ -236,7 +300,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["cycle-numbers-contradict", "tapping-feed-off-pitch"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'F').filter(|word| block.code(&[Effect::CycleTap]).is_some() && word.number.is_some())?;
+                let word = block
+                    .word(b'F')
+                    .filter(|word| block.code(&[Effect::CycleTap]).is_some() && word.number.is_some())?;
                 Some(p.value(word, format!("{}.", word.number.unwrap() + 7.0)))
             })
         },
@@ -263,7 +329,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 block.code(&[Effect::Dwell]).filter(|_| p.is_for(&["linuxcnc"]))?;
-                let word = block.word(b'P').filter(|word| word.number.is_some_and(|s| (0.3..60.0).contains(&s)))?;
+                let word =
+                    block.word(b'P').filter(|word| word.number.is_some_and(|s| (0.3..60.0).contains(&s)))?;
                 Some(p.value(word, format!("{:.0}", word.number.unwrap() * 1000.0)))
             })
         },
@@ -276,10 +343,11 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 block.code(&[Effect::Dwell]).filter(|_| p.is_for(&["haas", "fanuc"]))?;
-                let word = block.word(b'P').filter(|word| !word.has_point && word.number.is_some_and(|ms| ms >= 300.0))?;
+                let word = block
+                    .word(b'P')
+                    .filter(|word| !word.has_point && word.number.is_some_and(|ms| ms >= 300.0))?;
                 Some(p.value(word, "2"))
             })
         },
     ),
 ];
-

@@ -40,7 +40,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let is_length = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
     let Some((_, code)) = cx.codes().find(|(_, code)| is_length(code.effect())) else { return };
     let Some(word) = cx.word('H').filter(|word| word.number() == Some(0.0)) else { return };
-    if cx.word('Z').is_none() || !cx.words_are_plain() {
+    // Where it means the tool in the spindle it is a length.
+    let is_of_the_tool = cx.control().semantics().tools.length_from_tool;
+    if is_of_the_tool || cx.word('Z').is_none() || !cx.words_are_plain() {
         return;
     }
     let name = cx.written(code);

@@ -76,9 +76,13 @@ impl PathRule for ToolChangeWithoutT {
             // A loop brings the change of its last turn along.
             if is_before(last, cx.origin().at) && (called == last || is_before(called, last)) {
                 report.add(
-                    cx.finding(&META, range, "tool change, and no tool was called since the last one (`M6` without `T`)")
-                        .label("the tool in the spindle stays there")
-                        .help("name the tool: `T2 M6`"),
+                    cx.finding(
+                        &META,
+                        range,
+                        "tool change, and no tool was called since the last one (`M6` without `T`)",
+                    )
+                    .label("the tool in the spindle stays there")
+                    .help("name the tool: `T2 M6`"),
                 );
             }
             return;

@@ -168,7 +168,11 @@ impl ToolLengthMissing {
         let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
         if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
             let finding = cx
-                .finding(&META, given.unwrap_or_else(|| cx.letter_range('Z')), "the tool has no length (offset number zero, `H0`)")
+                .finding(
+                    &META,
+                    given.unwrap_or_else(|| cx.letter_range('Z')),
+                    "the tool has no length (offset number zero, `H0`)",
+                )
                 .label("the control takes the spindle's nose for the tool's tip");
             report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
         } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
