@@ -4,7 +4,6 @@ use gcheck_controls::{Letter, Need};
 use gcheck_engine::{CycleFault, Event, Fault};
 
 use super::cycle_words_lost::{Series, cycle_code, is_cycle, is_operation};
-use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
@@ -39,18 +38,12 @@ declare_rule! {
     }
 }
 
-#[derive(Default, Clone, PartialEq)]
+#[derive(Default)]
 struct CycleWordMissing {
     series: Series,
 }
 
-remembers!(CycleWordMissing: series);
-
 impl PathRule for CycleWordMissing {
-    fn memory(&mut self) -> Remembers<'_> {
-        Remembers::All(self)
-    }
-
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| is_cycle(effect) || is_operation(effect))
     }
@@ -68,14 +61,16 @@ impl PathRule for CycleWordMissing {
         let Some(code) = cycle_code(cx) else { return };
         // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
+        let begins = cx.has_effect(|effect| effect == code.effect());
         let told_by_text = cx
             .survey
             .never_given
             .iter()
             .any(|missing| missing.letter == letter && cx.model.effect(missing.code) == code.effect());
         // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
-        let needed = word
-            .is_some_and(|word| word.need == Need::Conditional || word.need == Need::Modal && !told_by_text);
+        let needed = word.is_some_and(|word| {
+            word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text
+        });
         let stands = cx.origin().letters.contains(letter);
         let was_given =
             is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));

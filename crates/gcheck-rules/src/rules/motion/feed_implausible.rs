@@ -76,6 +76,10 @@ impl PathRule for FeedImplausible {
             Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("a minute", "a turn of the spindle"),
             _ => return,
         };
+        // A mode that the program does not set may be another one on the machine.
+        if cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_none() {
+            return;
+        }
         let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
         // A feed that was given under the other mode is told as that, and a lost point as a lost point.
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
@@ -122,6 +126,11 @@ mod tests {
                   |        ^^^^ warning[feed-implausible] feed of 762 mm a turn of the spindle (`F`)
             "#]],
         );
+    }
+
+    #[test]
+    fn a_mode_that_the_program_does_not_set_may_be_the_other_one() {
+        check_rule(&RULE, "fanuc-lathe", "O1\nG97 S900 M3\nG1 X10. F3000\nM30\n", &expect![[""]]);
     }
 
     #[test]

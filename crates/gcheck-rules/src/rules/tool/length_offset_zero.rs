@@ -40,9 +40,9 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let is_length = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
     let Some((_, code)) = cx.codes().find(|(_, code)| is_length(code.effect())) else { return };
     let Some(word) = cx.word('H').filter(|word| word.number() == Some(0.0)) else { return };
-    // Where the tool brings its own length, row zero of the table may be that of the tool.
-    let is_own = cx.control().semantics().tools.length_from_tool;
-    if is_own || cx.word('Z').is_none() || !cx.words_are_plain() {
+    // Where it means the tool in the spindle it is a length.
+    let is_of_the_tool = cx.control().semantics().tools.length_from_tool;
+    if is_of_the_tool || cx.word('Z').is_none() || !cx.words_are_plain() {
         return;
     }
     let name = cx.written(code);
@@ -63,11 +63,6 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
-
-    #[test]
-    fn tools_that_bring_their_length() {
-        check_rule(&RULE, "linuxcnc", "G21 T1 M6\nG43 H0 Z1\nM2\n", &expect![[""]]);
-    }
 
     #[test]
     fn computed_numbers_are_not_judged() {
