@@ -340,11 +340,12 @@ fn single(at: &Position) -> [f32; 3] {
     at.xyz().map(|value| value.0 as f32)
 }
 
-/// Smallest and largest coordinates; zero on axes that nobody knows.
+/// Smallest and largest coordinates, without the noise of computing; zero on axes that nobody knows.
 fn extents(bounds: &Bounds) -> Option<[[f64; 3]; 2]> {
     if bounds.is_empty() {
         return None;
     }
     let [x, y, z] = [0, 1, 2].map(|axis| bounds.range(axis).unwrap_or((0.0, 0.0)));
-    Some([[x.0, y.0, z.0], [x.1, y.1, z.1]])
+    let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
+    Some([[x.0, y.0, z.0].map(rounded), [x.1, y.1, z.1].map(rounded)])
 }

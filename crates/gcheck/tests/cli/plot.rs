@@ -1,5 +1,6 @@
 //! `gcheck plot`: pictures and pages, looked at as text and in a real browser.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -177,13 +178,9 @@ fn a_page_needs_nothing_else() {
 fn many_moves_are_thinned_and_the_page_says_so() {
     let mut text = String::from("%\nO1\nG21 G90 G17\nT1 M6\nG0 X0. Y0. S100 M3\nG43 H1 Z5.\nG1 Z-1. F500.\n");
     for at in 0..600_000_u64 {
-        text.push_str(&format!(
-            "X{}.{:03} Y{}.{:03}\n",
-            at / 1000,
-            at * 7919 % 1000,
-            at * 31 % 97,
-            at * 17 % 1000
-        ));
+        let (x, y) = (at * 7919 % 1000, at * 31 % 97);
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "X{}.{x:03} Y{y}.{:03}", at / 1000, at * 17 % 1000);
     }
     text.push_str("M30\n%\n");
     let shop = Shop::with(&[("long.nc", text.as_str())]);
