@@ -35,7 +35,16 @@ impl Kind {
         found_by: &'static [&'static str],
         seeds: fn(&Program) -> Vec<Seed>,
     ) -> Self {
-        Self { id, says, fear, place: Place::Near, found_by, needs_machine: false, is_settled_by_machine: false, seeds }
+        Self {
+            id,
+            says,
+            fear,
+            place: Place::Near,
+            found_by,
+            needs_machine: false,
+            is_settled_by_machine: false,
+            seeds,
+        }
     }
 
     /// It shows where it strikes, not where it was made.

@@ -104,7 +104,12 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the plane is changed while compensation is on, on a control that refuses it",
         &["refused-under-compensation"],
-        |p| p.each(|block| (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc", "fanuc"])).then(|| p.line_above(block, "G18"))),
+        |p| {
+            p.each(|block| {
+                (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc", "fanuc"]))
+                    .then(|| p.line_above(block, "G18"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(

@@ -9,9 +9,14 @@ use crate::kind::{Edit, Fear, Kind, Seed};
 use crate::program::{Block, Program};
 
 /// Assignments that stand alone in their block, with the bytes of the statement.
-fn assignments(p: &Program, seed: impl Fn(&Block, &std::ops::Range<usize>, &str) -> Option<Vec<Edit>>) -> Vec<Seed> {
+fn assignments(
+    p: &Program,
+    seed: impl Fn(&Block, &std::ops::Range<usize>, &str) -> Option<Vec<Edit>>,
+) -> Vec<Seed> {
     p.each(|block| match &block.statements[..] {
-        [(range, StatementKind::Assign { target, .. })] if block.words.is_empty() && !matches!(target, Target::Invalid) => {
+        [(range, StatementKind::Assign { target, .. })]
+            if block.words.is_empty() && !matches!(target, Target::Invalid) =>
+        {
             seed(block, range, &p.text[range.clone()])
         }
         _ => None,
@@ -39,7 +44,13 @@ pub(super) const KINDS: &[Kind] = &[
         "variable-never-set",
         Fear::Crash,
         "the line that sets a variable is lost",
-        &["variable-read-before-set", "maybe-variable-unset", "named-parameter-unset", "loop-condition-unchanged", "feed-missing"],
+        &[
+            "variable-read-before-set",
+            "maybe-variable-unset",
+            "named-parameter-unset",
+            "loop-condition-unchanged",
+            "feed-missing",
+        ],
         |p| {
             assignments(p, |block, _, text| {
                 let name = text.split('=').next()?.trim();
@@ -66,32 +77,41 @@ pub(super) const KINDS: &[Kind] = &[
             })
         },
     ),
-    Kind::new(
-        "bracket-not-closed",
-        Fear::Alarm,
-        "a bracket is not closed",
-        &["unclosed-bracket"],
-        |p| {
-            p.each(|block| {
-                let end = block.end_of_words();
-                let at = p.text[block.range.start..end].rfind(']')? + block.range.start;
-                Some(Edit { range: at..at + 1, text: String::new() })
-            })
-        },
-    ),
+    Kind::new("bracket-not-closed", Fear::Alarm, "a bracket is not closed", &["unclosed-bracket"], |p| {
+        p.each(|block| {
+            let end = block.end_of_words();
+            let at = p.text[block.range.start..end].rfind(']')? + block.range.start;
+            Some(Edit { range: at..at + 1, text: String::new() })
+        })
+    }),
     Kind::new(
         "parentheses-for-brackets",
         Fear::Alarm,
         "parentheses stand for the brackets of an expression",
-        &["missing-operand", "unclosed-bracket", "stray-bracket", "address-without-value", "assignment-without-equals", "condition-missing", "expression-needs-brackets", "function-unknown", "unexpected-text", "nested-comment"],
+        &[
+            "missing-operand",
+            "unclosed-bracket",
+            "stray-bracket",
+            "address-without-value",
+            "assignment-without-equals",
+            "condition-missing",
+            "expression-needs-brackets",
+            "function-unknown",
+            "unexpected-text",
+            "nested-comment",
+        ],
         |p| {
             p.each(|block| {
-                let plain = !block.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::OWord { .. }));
+                let plain =
+                    !block.statements.iter().any(|(_, kind)| matches!(kind, StatementKind::OWord { .. }));
                 plain.then_some(())?;
                 let words = &p.text[block.range.start..block.end_of_words()];
                 let (open, close) = (words.find('[')?, words.rfind(']')?);
                 let one = words.matches('[').count() == 1 && words.matches(']').count() == 1 && open < close;
-                let at = |place: usize, text: &str| Edit { range: block.range.start + place..block.range.start + place + 1, text: text.to_owned() };
+                let at = |place: usize, text: &str| Edit {
+                    range: block.range.start + place..block.range.start + place + 1,
+                    text: text.to_owned(),
+                };
                 one.then(|| vec![at(open, "("), at(close, ")")])
             })
         },
@@ -100,35 +120,63 @@ pub(super) const KINDS: &[Kind] = &[
         "condition-with-equals",
         Fear::Alarm,
         "`=` or `==` is written for `EQ` in a condition",
-        &["unexpected-text", "stray-bracket", "unclosed-bracket", "missing-operand", "condition-missing", "assignment-without-equals"],
+        &[
+            "unexpected-text",
+            "stray-bracket",
+            "unclosed-bracket",
+            "missing-operand",
+            "condition-missing",
+            "assignment-without-equals",
+        ],
         |p| rewrite(p, " EQ ", " = ", true),
     ),
     Kind::new(
         "condition-with-sign",
         Fear::Alarm,
         "`<` is written for `LT` in a condition",
-        &["unexpected-text", "stray-bracket", "unclosed-bracket", "missing-operand", "condition-missing", "assignment-without-equals"],
+        &[
+            "unexpected-text",
+            "stray-bracket",
+            "unclosed-bracket",
+            "missing-operand",
+            "condition-missing",
+            "assignment-without-equals",
+        ],
         |p| rewrite(p, " LT ", " < ", true),
     ),
     Kind::new(
         "operator-mistyped",
         Fear::Alarm,
         "an operator is mistyped (`LTE` for `LE`)",
-        &["unexpected-text", "stray-bracket", "unclosed-bracket", "missing-operand", "condition-missing", "stray-keyword", "address-without-value", "function-unknown"],
+        &[
+            "unexpected-text",
+            "stray-bracket",
+            "unclosed-bracket",
+            "missing-operand",
+            "condition-missing",
+            "stray-keyword",
+            "address-without-value",
+            "function-unknown",
+        ],
         |p| rewrite(p, " LT ", " LTE ", true),
     ),
-    Kind::new(
-        "do-forgotten",
-        Fear::Alarm,
-        "`WHILE` without `DO`",
-        &["while-without-do"],
-        |p| rewrite(p, " DO1", "", true),
-    ),
+    Kind::new("do-forgotten", Fear::Alarm, "`WHILE` without `DO`", &["while-without-do"], |p| {
+        rewrite(p, " DO1", "", true)
+    }),
     Kind::new(
         "function-mistyped",
         Fear::Alarm,
         "the name of a function is mistyped (`COZ`)",
-        &["function-unknown", "unexpected-text", "missing-operand", "address-without-value", "unknown-address", "unclosed-bracket", "letter-o-for-zero", "stray-bracket"],
+        &[
+            "function-unknown",
+            "unexpected-text",
+            "missing-operand",
+            "address-without-value",
+            "unknown-address",
+            "unclosed-bracket",
+            "letter-o-for-zero",
+            "stray-bracket",
+        ],
         |p| rewrite(p, "COS[", "COZ[", false),
     ),
     Kind::new(
@@ -141,7 +189,9 @@ pub(super) const KINDS: &[Kind] = &[
                 let name = text.split('=').next()?.trim_end();
                 let number = if p.is_for(&["linuxcnc"]) { "#5420" } else { "#5041" };
                 let fits = !name.contains('[');
-                fits.then(|| vec![Edit { range: range.start..range.start + name.len(), text: number.to_owned() }])
+                fits.then(|| {
+                    vec![Edit { range: range.start..range.start + name.len(), text: number.to_owned() }]
+                })
             })
         },
     ),
@@ -155,7 +205,12 @@ pub(super) const KINDS: &[Kind] = &[
                 let name = text.split('=').next()?.trim_end();
                 let number: u32 = name.strip_prefix('#')?.parse().ok()?;
                 let fits = (100..200).contains(&number) && !p.is_for(&["fanuc"]);
-                fits.then(|| vec![Edit { range: range.start..range.start + name.len(), text: format!("#{number}9999") }])
+                fits.then(|| {
+                    vec![Edit {
+                        range: range.start..range.start + name.len(),
+                        text: format!("#{number}9999"),
+                    }]
+                })
             })
         },
     ),
@@ -181,7 +236,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             assignments(p, |block, range, text| {
                 let value = text.find('=')? + range.start + 1;
-                (!block.before.is_subprogram).then(|| vec![Edit { range: value..range.end, text: "SQRT[2.-6.]".to_owned() }])
+                (!block.before.is_subprogram)
+                    .then(|| vec![Edit { range: value..range.end, text: "SQRT[2.-6.]".to_owned() }])
             })
         },
     )
@@ -196,7 +252,8 @@ pub(super) const KINDS: &[Kind] = &[
                 block.code(&[Effect::MacroCall])?;
                 let own = block.word(b'P')?.number?;
                 let here = p.blocks.iter().any(|b| b.word(b'O').is_some_and(|w| w.number == Some(own)));
-                let word = block.words.iter().rev().find(|word| !matches!(word.letter, b'G' | b'P' | b'N'))?;
+                let word =
+                    block.words.iter().rev().find(|word| !matches!(word.letter, b'G' | b'P' | b'N'))?;
                 here.then(|| p.without(word))
             })
         },
@@ -222,7 +279,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["alarm-reached"],
         |p| {
             p.each(|block| {
-                let fits = p.is_for(&["fanuc", "haas"]) && block.code(&[Effect::ToolChange]).is_some() && !p.is_lathe();
+                let fits = p.is_for(&["fanuc", "haas"])
+                    && block.code(&[Effect::ToolChange]).is_some()
+                    && !p.is_lathe();
                 fits.then(|| p.line_above(block, "#3000=1 (NOT PROVED)"))
             })
         },

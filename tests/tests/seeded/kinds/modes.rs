@@ -191,7 +191,13 @@ pub(super) const KINDS: &[Kind] = &[
         "feed-per-turn-for-per-minute",
         Fear::Crash,
         "feed a turn (`G95`) is on while the numbers are feed a minute",
-        &["feed-of-another-mode", "feed-above-machine-limit", "maybe-feed-of-another-mode", "feed-missing", "feed-implausible"],
+        &[
+            "feed-of-another-mode",
+            "feed-above-machine-limit",
+            "maybe-feed-of-another-mode",
+            "feed-missing",
+            "feed-implausible",
+        ],
         |p| {
             p.each(|block| {
                 block

@@ -8,8 +8,12 @@ use crate::kind::{Fear, Kind};
 use crate::program::{Block, Program, Word};
 
 const ROUGHING: [Effect; 3] = [Effect::RoughAlongZ, Effect::RoughAlongX, Effect::RepeatPattern];
-const PROFILE: &[&str] =
-    &["turning-profile-not-usable", "turning-profile-first-block", "turning-profile-turns-back", "jump-target-missing"];
+const PROFILE: &[&str] = &[
+    "turning-profile-not-usable",
+    "turning-profile-first-block",
+    "turning-profile-turns-back",
+    "jump-target-missing",
+];
 
 /// The block that begins the profile of a roughing cycle.
 fn profile<'p>(p: &'p Program, cycle: &Block) -> Option<&'p Block> {
@@ -32,7 +36,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             let on = p.blocks.iter().any(|block| block.code(&[Effect::SurfaceSpeed]).is_some());
             let limits = p.blocks.iter().filter_map(|block| {
-                if let Some(word) = block.word(b'D').filter(|_| block.code(&[Effect::SurfaceSpeed]).is_some()) {
+                if let Some(word) = block.word(b'D').filter(|_| block.code(&[Effect::SurfaceSpeed]).is_some())
+                {
                     return Some(p.without(word));
                 }
                 block.code(&[Effect::SpeedLimitOrSetPosition]).filter(|_| block.has(b"S"))?;
@@ -51,7 +56,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let code = block.code(&[Effect::ConstantSpeed]).filter(|_| block.has(b"S"))?;
-                let thread = p.behind(block).iter().take(5).any(|next| next.code(&[Effect::ThreadCycle]).is_some());
+                let thread =
+                    p.behind(block).iter().take(5).any(|next| next.code(&[Effect::ThreadCycle]).is_some());
                 let limit = if p.is_for(&["linuxcnc"]) { " D2000" } else { "" };
                 thread.then(|| p.instead(code, format!("G96{limit}")))
             })
@@ -63,11 +69,13 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the last block of a turning profile is mistyped (`Q`)",
         PROFILE,
-        |p| p.each(|block| {
-            block.code(&ROUGHING)?;
-            let word = block.word(b'Q').filter(|_| block.has(b"P"))?;
-            Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
-        }),
+        |p| {
+            p.each(|block| {
+                block.code(&ROUGHING)?;
+                let word = block.word(b'Q').filter(|_| block.has(b"P"))?;
+                Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -75,11 +83,13 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the first block of a turning profile is mistyped (`P`)",
         PROFILE,
-        |p| p.each(|block| {
-            block.code(&ROUGHING)?;
-            let word = block.word(b'P').filter(|_| block.has(b"Q"))?;
-            Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
-        }),
+        |p| {
+            p.each(|block| {
+                block.code(&ROUGHING)?;
+                let word = block.word(b'P').filter(|_| block.has(b"Q"))?;
+                Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -87,37 +97,58 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the first block of a turning profile has neither `G00` nor `G01`",
         PROFILE,
-        |p| p.each(|block| {
-            let first = profile(p, block)?;
-            let word = first.code(&[Effect::Rapid, Effect::Linear])?;
-            Some(p.without(word))
-        }),
+        |p| {
+            p.each(|block| {
+                let first = profile(p, block)?;
+                let word = first.code(&[Effect::Rapid, Effect::Linear])?;
+                Some(p.without(word))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
         "profile-turns-back",
         Fear::Scrap,
         "a diameter in the middle of a turning profile is mistyped and the profile turns back",
-        &["turning-profile-not-usable", "arc-radius-too-small", "arc-end-off-circle", "turning-profile-turns-back"],
-        |p| p.each(|block| {
-            let first = profile(p, block)?;
-            let inner = p.behind(first).iter().filter(|b| b.moves(&[Effect::Linear]) && b.has(b"X") && !b.has(b"N")).nth(1)?;
-            let word = inner.word(b'X')?;
-            (word.number? > 1.0).then(|| p.value(word, "0.5"))
-        }),
+        &[
+            "turning-profile-not-usable",
+            "arc-radius-too-small",
+            "arc-end-off-circle",
+            "turning-profile-turns-back",
+        ],
+        |p| {
+            p.each(|block| {
+                let first = profile(p, block)?;
+                let inner = p
+                    .behind(first)
+                    .iter()
+                    .filter(|b| b.moves(&[Effect::Linear]) && b.has(b"X") && !b.has(b"N"))
+                    .nth(1)?;
+                let word = inner.word(b'X')?;
+                (word.number? > 1.0).then(|| p.value(word, "0.5"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
         "roughing-without-depth",
         Fear::Alarm,
         "a roughing cycle's depth of cut is zero",
-        &["turning-profile-not-usable", "cycle-word-not-positive", "number-out-of-range", "cycle-numbers-contradict", "computed-value-out-of-range"],
-        |p| p.each(|block| {
-            block.code(&[Effect::RoughAlongZ])?;
-            let two = !block.has(b"PQ");
-            let word = block.word(if two { b'U' } else { b'D' })?;
-            Some(p.value(word, "0."))
-        }),
+        &[
+            "turning-profile-not-usable",
+            "cycle-word-not-positive",
+            "number-out-of-range",
+            "cycle-numbers-contradict",
+            "computed-value-out-of-range",
+        ],
+        |p| {
+            p.each(|block| {
+                block.code(&[Effect::RoughAlongZ])?;
+                let two = !block.has(b"PQ");
+                let word = block.word(if two { b'U' } else { b'D' })?;
+                Some(p.value(word, "0."))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -125,11 +156,13 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the finishing cycle names another profile than the roughing cycle",
         &["turning-profile-not-usable", "jump-target-missing"],
-        |p| p.each(|block| {
-            block.code(&[Effect::FinishProfile])?;
-            let word = block.word(b'Q')?;
-            Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
-        }),
+        |p| {
+            p.each(|block| {
+                block.code(&[Effect::FinishProfile])?;
+                let word = block.word(b'Q')?;
+                Some(p.value(word, format!("{}7", &p.words_of(word)[1..])))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -137,11 +170,16 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "nose compensation is never cancelled (no `G40`)",
         &["compensation-left-on", "maybe-compensation-left-on"],
-        |p| p.each(|block| {
-            block.code(&[Effect::CompensationOff]).filter(|_| block.before.is_compensating && p.is_lathe())?;
-            let all = p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
-            Some(all.map(|word| p.without(word)).collect::<Vec<_>>())
-        }),
+        |p| {
+            p.each(|block| {
+                block
+                    .code(&[Effect::CompensationOff])
+                    .filter(|_| block.before.is_compensating && p.is_lathe())?;
+                let all =
+                    p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
+                Some(all.map(|word| p.without(word)).collect::<Vec<_>>())
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -149,51 +187,82 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "the offset of another tool is called (`T0102`)",
         &["length-offset-of-another-tool", "diameter-offset-of-another-tool"],
-        |p| p.each(|block| {
-            let word = block.word(b'T').filter(|word| p.is_lathe() && word.number.is_some_and(|t| t > 100.0))?;
-            let text = &p.words_of(word)[1..];
-            let (tool, offset) = text.split_at_checked(text.len().checked_sub(2)?)?;
-            let offset: u32 = offset.parse().ok().filter(|offset| *offset > 0)?;
-            Some(p.value(word, format!("{tool}{:02}", offset + 1)))
-        }),
+        |p| {
+            p.each(|block| {
+                let word =
+                    block.word(b'T').filter(|word| p.is_lathe() && word.number.is_some_and(|t| t > 100.0))?;
+                let text = &p.words_of(word)[1..];
+                let (tool, offset) = text.split_at_checked(text.len().checked_sub(2)?)?;
+                let offset: u32 = offset.parse().ok().filter(|offset| *offset > 0)?;
+                Some(p.value(word, format!("{tool}{:02}", offset + 1)))
+            })
+        },
     ),
     Kind::new(
         "diameter-and-increment",
         Fear::Alarm,
         "`X` and `U` stand in one block",
         &["words-exclude-each-other", "word-given-twice", "word-not-read", "word-forbidden"],
-        |p| p.each(|block| {
-            let fits = p.is_lathe() && p.is_for(&["haas", "fanuc"]) && block.moves(&[Effect::Linear]) && block.has(b"X") && !block.has(b"U");
-            (fits && block.code(&[Effect::Linear]).is_some()).then(|| p.behind_words(block, "U0.5"))
-        }),
+        |p| {
+            p.each(|block| {
+                let fits = p.is_lathe()
+                    && p.is_for(&["haas", "fanuc"])
+                    && block.moves(&[Effect::Linear])
+                    && block.has(b"X")
+                    && !block.has(b"U");
+                (fits && block.code(&[Effect::Linear]).is_some()).then(|| p.behind_words(block, "U0.5"))
+            })
+        },
     ),
     Kind::new(
         "thread-without-lead",
         Fear::Alarm,
         "a threading cycle without its lead",
-        &["cycle-word-missing", "required-word-missing", "thread-without-lead", "lasting-word-never-given", "word-choice-missing"],
-        |p| p.each(|block| {
-            let word = thread(block, if p.is_for(&["linuxcnc"]) { b'P' } else { b'F' })?;
-            // A feed from an earlier block would be taken as the lead.
-            Some(p.without(word))
-        }),
+        &[
+            "cycle-word-missing",
+            "required-word-missing",
+            "thread-without-lead",
+            "lasting-word-never-given",
+            "word-choice-missing",
+        ],
+        |p| {
+            p.each(|block| {
+                let word = thread(block, if p.is_for(&["linuxcnc"]) { b'P' } else { b'F' })?;
+                // A feed from an earlier block would be taken as the lead.
+                Some(p.without(word))
+            })
+        },
     ),
     Kind::new(
         "thread-without-depth",
         Fear::Alarm,
         "the depth of a thread is zero",
-        &["cycle-word-not-positive", "number-out-of-range", "cycle-numbers-contradict", "computed-value-out-of-range"],
-        |p| p.each(|block| {
-            let letter = if p.is_for(&["fanuc"]) { b'P' } else { b'K' };
-            Some(p.value(thread(block, letter)?, "0"))
-        }),
+        &[
+            "cycle-word-not-positive",
+            "number-out-of-range",
+            "cycle-numbers-contradict",
+            "computed-value-out-of-range",
+        ],
+        |p| {
+            p.each(|block| {
+                let letter = if p.is_for(&["fanuc"]) { b'P' } else { b'K' };
+                Some(p.value(thread(block, letter)?, "0"))
+            })
+        },
     ),
     Kind::new(
         "feed-per-minute-on-a-lathe",
         Fear::Scrap,
         "feed a minute (`G98`) is on while the numbers are feed a turn",
         &["feed-of-another-mode", "feed-implausible"],
-        |p| p.each(|block| block.code(&[Effect::FeedPerRevolution]).filter(|_| p.is_lathe()).map(|word| p.instead(word, "G98"))),
+        |p| {
+            p.each(|block| {
+                block
+                    .code(&[Effect::FeedPerRevolution])
+                    .filter(|_| p.is_lathe())
+                    .map(|word| p.instead(word, "G98"))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -201,11 +270,15 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "the parting tool still stands in the bar when the bar is fed",
         &["turret-in-the-way-of-bar"],
-        |p| p.each(|block| {
-            let feed = p.behind(block).iter().take(4).any(|next| next.code(&[Effect::BarFeed]).is_some());
-            let next = p.next(block).filter(|next| next.moves(&[Effect::Rapid]) && block.moves(&[Effect::Rapid]) && feed)?;
-            Some(vec![p.without_line(block), p.without_line(next)])
-        }),
+        |p| {
+            p.each(|block| {
+                let feed = p.behind(block).iter().take(4).any(|next| next.code(&[Effect::BarFeed]).is_some());
+                let next = p
+                    .next(block)
+                    .filter(|next| next.moves(&[Effect::Rapid]) && block.moves(&[Effect::Rapid]) && feed)?;
+                Some(vec![p.without_line(block), p.without_line(next)])
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -213,20 +286,26 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Scrap,
         "the bar is pushed by less than the part is long",
         &["bar-push-shorter-than-part"],
-        |p| p.each(|block| {
-            let word = block.word(b'J').filter(|_| block.code(&[Effect::BarFeed]).is_some())?;
-            Some(p.value(word, "0.75"))
-        }),
+        |p| {
+            p.each(|block| {
+                let word = block.word(b'J').filter(|_| block.code(&[Effect::BarFeed]).is_some())?;
+                Some(p.value(word, "0.75"))
+            })
+        },
     ),
     Kind::new(
         "bar-job-without-end",
         Fear::Trap,
         "a bar job has no way to end but an empty feeder",
         &["bar-job-without-end"],
-        |p| p.each(|block| {
-            let fits = block.is_skippable && block.code(&[Effect::ProgramEnd, Effect::ProgramEndWithPallet]).is_some();
-            (fits && p.blocks.iter().any(|b| b.code(&[Effect::BarFeed]).is_some())).then(|| p.without_line(block))
-        }),
+        |p| {
+            p.each(|block| {
+                let fits = block.is_skippable
+                    && block.code(&[Effect::ProgramEnd, Effect::ProgramEndWithPallet]).is_some();
+                (fits && p.blocks.iter().any(|b| b.code(&[Effect::BarFeed]).is_some()))
+                    .then(|| p.without_line(block))
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -234,10 +313,14 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Crash,
         "the spindle turns while the bar is fed",
         &["mode-on-at-bar-feed"],
-        |p| p.each(|block| {
-            let stop = block.code(&[Effect::SpindleStop]).filter(|_| p.next(block).is_some_and(|next| next.code(&[Effect::BarFeed]).is_some()))?;
-            (block.words.len() == 1).then(|| p.without_line(block)).filter(|_| stop.number.is_some())
-        }),
+        |p| {
+            p.each(|block| {
+                let stop = block
+                    .code(&[Effect::SpindleStop])
+                    .filter(|_| p.next(block).is_some_and(|next| next.code(&[Effect::BarFeed]).is_some()))?;
+                (block.words.len() == 1).then(|| p.without_line(block)).filter(|_| stop.number.is_some())
+            })
+        },
     )
     .anywhere(),
     Kind::new(
@@ -245,6 +328,13 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "the bar feed calls a parting program that is not there",
         &["subprogram-missing"],
-        |p| p.each(|block| block.code(&[Effect::BarFeed]).filter(|_| !block.has(b"P")).map(|_| p.behind_words(block, "P3999"))),
+        |p| {
+            p.each(|block| {
+                block
+                    .code(&[Effect::BarFeed])
+                    .filter(|_| !block.has(b"P"))
+                    .map(|_| p.behind_words(block, "P3999"))
+            })
+        },
     ),
 ];

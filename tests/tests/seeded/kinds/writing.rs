@@ -33,7 +33,9 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             literals(p, b"XYZ", |block, word| {
                 let whole = digits(p, word).strip_suffix('.')?;
-                let fits = p.counts_steps() && block.moves(&[Effect::Rapid, Effect::Linear]) && word.number != Some(0.0);
+                let fits = p.counts_steps()
+                    && block.moves(&[Effect::Rapid, Effect::Linear])
+                    && word.number != Some(0.0);
                 fits.then(|| p.value(word, whole).into())
             })
         },
@@ -58,7 +60,10 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             literals(p, b"IJR", |block, word| {
                 let whole = digits(p, word).strip_suffix('.')?;
-                let fits = p.counts_steps() && block.has(b"XYZ") && word.number != Some(0.0) && block.code(&[Effect::MacroCall]).is_none();
+                let fits = p.counts_steps()
+                    && block.has(b"XYZ")
+                    && word.number != Some(0.0)
+                    && block.code(&[Effect::MacroCall]).is_none();
                 fits.then(|| p.value(word, whole).into())
             })
         },
@@ -80,7 +85,13 @@ pub(super) const KINDS: &[Kind] = &[
         "comma-for-point",
         Fear::Alarm,
         "a comma stands for the decimal point (`X1,25`)",
-        &["unexpected-text", "malformed-number", "value-without-address", "unknown-address", "address-without-value"],
+        &[
+            "unexpected-text",
+            "malformed-number",
+            "value-without-address",
+            "unknown-address",
+            "address-without-value",
+        ],
         |p| {
             literals(p, b"XYZ", |_, word| {
                 let (whole, part) = digits(p, word).split_once('.').filter(|(_, part)| !part.is_empty())?;
@@ -117,7 +128,16 @@ pub(super) const KINDS: &[Kind] = &[
         "letter-lost",
         Fear::Alarm,
         "the letter in front of a value is lost (`5.25` for `X5.25`)",
-        &["value-without-address", "malformed-number", "decimal-point-on-integer", "unexpected-text", "unknown-code", "too-many-digits", "expression-needs-brackets", "units-changed"],
+        &[
+            "value-without-address",
+            "malformed-number",
+            "decimal-point-on-integer",
+            "unexpected-text",
+            "unknown-code",
+            "too-many-digits",
+            "expression-needs-brackets",
+            "units-changed",
+        ],
         |p| literals(p, b"XYZF", |_, word| Some(p.instead(word, digits(p, word)).into())),
     ),
     Kind::new(
@@ -136,7 +156,10 @@ pub(super) const KINDS: &[Kind] = &[
             literals(p, b"THD", |block, word| {
                 let text = digits(p, word);
                 // Elsewhere D is a diameter or a depth, and LinuxCNC takes `T1.` for the whole number that it is.
-                let is_number = word.letter == b'T' || block.code(&[Effect::LengthPlus, Effect::CompensationLeft, Effect::CompensationRight]).is_some();
+                let is_number = word.letter == b'T'
+                    || block
+                        .code(&[Effect::LengthPlus, Effect::CompensationLeft, Effect::CompensationRight])
+                        .is_some();
                 let fits = !word.has_point && is_number && !p.is_for(&["linuxcnc"]);
                 fits.then(|| p.value(word, format!("{text}.")).into())
             })
@@ -200,20 +223,19 @@ pub(super) const KINDS: &[Kind] = &[
         &["word-not-read"],
         |p| {
             p.each(|block| {
-                let fits = block.code(&[Effect::Linear]).is_some() && block.moves(&[Effect::Linear]) && !block.has(b"QPL");
+                let fits = block.code(&[Effect::Linear]).is_some()
+                    && block.moves(&[Effect::Linear])
+                    && !block.has(b"QPL");
                 fits.then(|| p.behind_words(block, "Q5."))
             })
         },
     ),
-    Kind::new(
-        "comment-not-closed",
-        Fear::Alarm,
-        "a comment is not closed",
-        &["unclosed-comment"],
-        |p| {
-            comments(p).into_iter().map(|(_, close)| crate::kind::Edit { range: close..close + 1, text: String::new() }.into()).collect()
-        },
-    ),
+    Kind::new("comment-not-closed", Fear::Alarm, "a comment is not closed", &["unclosed-comment"], |p| {
+        comments(p)
+            .into_iter()
+            .map(|(_, close)| crate::kind::Edit { range: close..close + 1, text: String::new() }.into())
+            .collect()
+    }),
     Kind::new(
         "comment-in-comment",
         Fear::Alarm,
@@ -230,12 +252,24 @@ pub(super) const KINDS: &[Kind] = &[
         "remark-without-parentheses",
         Fear::Alarm,
         "a remark stands in the program without parentheses",
-        &["unexpected-text", "address-without-value", "unknown-address", "stray-keyword", "letter-o-for-zero", "malformed-number", "value-without-address"],
+        &[
+            "unexpected-text",
+            "address-without-value",
+            "unknown-address",
+            "stray-keyword",
+            "letter-o-for-zero",
+            "malformed-number",
+            "value-without-address",
+        ],
         |p| {
             comments(p)
                 .into_iter()
-                .filter(|(open, close)| p.text[open + 1..*close].split(' ').filter(|word| word.len() > 2).count() >= 2)
-                .filter(|(open, close)| p.text[open + 1..*close].bytes().all(|b| b.is_ascii_alphanumeric() || b == b' '))
+                .filter(|(open, close)| {
+                    p.text[open + 1..*close].split(' ').filter(|word| word.len() > 2).count() >= 2
+                })
+                .filter(|(open, close)| {
+                    p.text[open + 1..*close].bytes().all(|b| b.is_ascii_alphanumeric() || b == b' ')
+                })
                 .map(|(open, close)| {
                     let bare = |at: usize| crate::kind::Edit { range: at..at + 1, text: " ".to_owned() };
                     vec![bare(open), bare(close)].into()
@@ -262,7 +296,12 @@ pub(super) const KINDS: &[Kind] = &[
         &["unknown-code"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::LengthPlus, Effect::CompensationLeft, Effect::CycleDrill, Effect::CyclePeck])?;
+                let word = block.code(&[
+                    Effect::LengthPlus,
+                    Effect::CompensationLeft,
+                    Effect::CycleDrill,
+                    Effect::CyclePeck,
+                ])?;
                 Some(p.instead(word, format!("G3{}", digits(p, word))))
             })
         },
@@ -274,7 +313,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["unknown-code", "undeclared-m-code"],
         |p| {
             p.each(|block| {
-                let word = block.code(&[Effect::FloodOn, Effect::CoolantOff]).filter(|_| p.is_for(&["haas", "linuxcnc"]))?;
+                let word = block
+                    .code(&[Effect::FloodOn, Effect::CoolantOff])
+                    .filter(|_| p.is_for(&["haas", "linuxcnc"]))?;
                 Some(p.instead(word, format!("M8{}", digits(p, word))))
             })
         },
@@ -346,7 +387,10 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             let text = p.text.trim_end();
             let marks = text.ends_with("\n%") && text.starts_with('%');
-            marks.then(|| crate::kind::Edit { range: text.len() - 1..text.len(), text: String::new() }.into()).into_iter().collect()
+            marks
+                .then(|| crate::kind::Edit { range: text.len() - 1..text.len(), text: String::new() }.into())
+                .into_iter()
+                .collect()
         },
     )
     .anywhere(),
@@ -358,7 +402,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             let Some(limit) = p.facts.limits().line_length else { return Vec::new() };
             p.each(|block| {
-                let fits = block.moves(&CUTS) && p.text_of(block).len() == block.end_of_words() - block.range.start;
+                let fits =
+                    block.moves(&CUTS) && p.text_of(block).len() == block.end_of_words() - block.range.start;
                 fits.then(|| p.behind_words(block, format!("({})", "X".repeat(limit as usize))))
             })
         },

@@ -68,13 +68,14 @@ impl PathRule for CycleWordMissing {
         let Some(code) = cycle_code(cx) else { return };
         // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
-        let told_by_text = cx.survey.never_given.iter().any(|missing| {
-            missing.letter == letter && cx.model.effect(missing.code) == code.effect()
-        });
+        let told_by_text = cx
+            .survey
+            .never_given
+            .iter()
+            .any(|missing| missing.letter == letter && cx.model.effect(missing.code) == code.effect());
         // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
-        let needed = word.is_some_and(|word| {
-            word.need == Need::Conditional || word.need == Need::Modal && !told_by_text
-        });
+        let needed = word
+            .is_some_and(|word| word.need == Need::Conditional || word.need == Need::Modal && !told_by_text);
         let stands = cx.origin().letters.contains(letter);
         let was_given =
             is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));

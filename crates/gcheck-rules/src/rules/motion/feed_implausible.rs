@@ -81,7 +81,8 @@ impl PathRule for FeedImplausible {
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
         let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
         let lost = |w: &gcheck_program::Word| word(w) && !w.shape.point && w.number().is_some();
-        if now != then || !goes_by_feed(event) || cx.find_word(given, lost).is_some() && feed < LEAST_A_MINUTE {
+        if now != then || !goes_by_feed(event) || cx.find_word(given, lost).is_some() && feed < LEAST_A_MINUTE
+        {
             return;
         }
         if self.told.replace(given) == Some(given) {
