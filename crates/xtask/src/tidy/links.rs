@@ -42,8 +42,8 @@ pub(super) fn problems(files: &[TextFile], exists: impl Fn(&str) -> bool) -> Vec
             let mut say = |message: String| problems.push(Problem::new(*path, *line, message));
             match pages.get(target.as_str()) {
                 Some(to) => {
-                    if *path == CONTENTS {
-                        listed.insert(target.clone());
+                    if *path == CONTENTS && !listed.insert(target.clone()) {
+                        say(format!("`{target}` stands twice in the contents"));
                     }
                     if let Some(anchor) = anchor.filter(|anchor| !to.anchors.contains(*anchor)) {
                         say(format!("`{target}` has no heading `#{anchor}`"));
@@ -171,15 +171,16 @@ mod tests {
     }
 
     #[test]
-    fn a_page_stands_in_the_contents() {
-        let contents = "# Contents\n\n- [A](a.md)\n- [Group]()\n";
+    fn a_page_stands_in_the_contents_once() {
+        let contents = "# Contents\n\n- [A](a.md)\n- [Group]()\n- [A again](a.md)\n";
         let said = found(&[
             ("docs/SUMMARY.md", contents),
             ("docs/a.md", ""),
             ("docs/b.md", ""),
             ("CHANGELOG.md", ""),
         ]);
-        assert_eq!(said.len(), 1, "{said:?}");
-        assert!(said[0].starts_with("docs/b.md: the page stands in no line"), "{said:?}");
+        assert_eq!(said.len(), 2, "{said:?}");
+        assert_eq!(said[0], "docs/SUMMARY.md:5: `docs/a.md` stands twice in the contents");
+        assert!(said[1].starts_with("docs/b.md: the page stands in no line"), "{said:?}");
     }
 }
