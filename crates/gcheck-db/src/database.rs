@@ -12,7 +12,7 @@ use gcheck_syntax::{Document, OutOfRange};
 use rustc_hash::FxHashMap;
 
 use crate::chunks::{Asking, Chunks, Storage, scene};
-use crate::snapshot::Others;
+use crate::snapshot::{LineEnds, Others};
 use crate::states::Keeper;
 use crate::{Settings, Snapshot, StateAt};
 
@@ -52,6 +52,7 @@ struct Open {
     document: Document,
     settings: Settings,
     snapshot: Option<Snapshot>,
+    line_ends: LineEnds,
     analysis: Option<Arc<Analysis>>,
     chunks: Chunks,
     incremental: Incremental,
@@ -71,7 +72,7 @@ impl Open {
 
     fn snapshot(&mut self) -> Snapshot {
         let whole = self.analysis.as_ref().and_then(|_| self.incremental.whole().cloned());
-        let new = || Snapshot::new(self.document.clone(), self.settings.clone(), whole);
+        let new = || Snapshot::new(self.document.clone(), self.settings.clone(), whole, &mut self.line_ends);
         self.snapshot.get_or_insert_with(new).clone()
     }
 
@@ -147,7 +148,15 @@ impl Database {
         let chunks = Chunks::new(&self.storage, settings.clone());
         let document = Document::new(text);
         let incremental = Incremental::new();
-        let open = Open { document, settings, snapshot: None, analysis: None, chunks, incremental };
+        let open = Open {
+            document,
+            settings,
+            snapshot: None,
+            line_ends: LineEnds::default(),
+            analysis: None,
+            chunks,
+            incremental,
+        };
         self.documents.insert(id, open);
         id
     }

@@ -74,13 +74,40 @@ impl BlockPlace {
     }
 }
 
+/// Line ends of each chunk, counted once while a chunk stays: a large document is not read for each of its edits.
+#[derive(Debug, Default)]
+pub(crate) struct LineEnds {
+    chunks: Vec<Arc<str>>,
+    counts: Vec<u32>,
+}
+
+impl LineEnds {
+    /// Counts those of the chunks that are new, between those at the begin and at the end that are not.
+    fn follow(&mut self, chunks: &[Arc<str>]) {
+        let is_same = |(old, new): &(&Arc<str>, &Arc<str>)| Arc::ptr_eq(old, new);
+        let head = self.chunks.iter().zip(chunks).take_while(is_same).count();
+        let most = self.chunks.len().min(chunks.len()) - head;
+        let tail = self.chunks.iter().rev().zip(chunks.iter().rev()).take(most).take_while(is_same).count();
+        let new = chunks.get(head..chunks.len() - tail).unwrap_or_default();
+        let old = head..self.chunks.len() - tail;
+        self.counts.splice(old.clone(), new.iter().map(|chunk| line_ends(chunk.as_bytes()) as u32));
+        self.chunks.splice(old, new.iter().cloned());
+    }
+}
+
 impl Snapshot {
-    pub(crate) fn new(document: Document, settings: Settings, whole: Option<Arc<Whole>>) -> Self {
+    pub(crate) fn new(
+        document: Document,
+        settings: Settings,
+        whole: Option<Arc<Whole>>,
+        line_ends: &mut LineEnds,
+    ) -> Self {
+        line_ends.follow(document.chunks());
         let (mut at, mut line) = (0, 0);
         let (mut starts, mut lines) = (vec![0], vec![0]);
-        for chunk in document.chunks() {
+        for (chunk, count) in document.chunks().iter().zip(&line_ends.counts) {
             at += chunk.len() as u32;
-            line += line_ends(chunk.as_bytes()) as u32;
+            line += count;
             starts.push(at);
             lines.push(line);
         }

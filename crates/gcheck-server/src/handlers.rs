@@ -12,6 +12,7 @@ use crate::client::Abilities;
 use crate::features::{COMMANDS, ControlEntry, OwnParams, action_kinds, controls};
 use crate::mailbox::{Kind, Mailbox};
 use crate::parent::Parent;
+#[expect(clippy::wildcard_imports, reason = "nearly every type of the protocol is named here")]
 use crate::proto::*;
 
 /// The handlers.
@@ -48,6 +49,7 @@ impl Handlers {
         self.quick("gcheck/syntaxTree", move |owner, _| owner.syntax_tree(&params)).await
     }
 
+    #[expect(clippy::unused_async, reason = "the form of a handler")]
     async fn controls(&self) -> Result<Vec<ControlEntry>> {
         Ok(controls())
     }

@@ -3,7 +3,7 @@
 //! Knows: when settings have to be chosen again. Must not know: where they come from.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use gcheck_db::Settings;
 use serde::Serialize;
@@ -22,6 +22,9 @@ use crate::proto::{
 };
 use crate::{InForce, OpenPrograms, ProgramQuery};
 
+/// What is in force where the user has set nothing.
+static NOTHING_SET: LazyLock<ClientSettings> = LazyLock::new(|| ClientSettings::read(&Value::Null).0);
+
 /// The settings of the folder that a file lies in, else those for all.
 pub(super) fn nearest<'s>(
     settings: &'s [(Option<PathBuf>, ClientSettings)],
@@ -29,8 +32,6 @@ pub(super) fn nearest<'s>(
 ) -> &'s ClientSettings {
     let fitting = settings.iter().filter(|(folder, _)| folder.as_ref().is_none_or(|f| path.starts_with(f)));
     let nearest = fitting.max_by_key(|(folder, _)| folder.as_ref().map_or(0, |f| f.as_os_str().len() + 1));
-    static NOTHING_SET: std::sync::LazyLock<ClientSettings> =
-        std::sync::LazyLock::new(|| ClientSettings::read(&Value::Null).0);
     nearest.map_or(&NOTHING_SET, |(_, settings)| settings)
 }
 
