@@ -31,8 +31,8 @@ pub use cylinder::{Cylinder, Diameters, Wrapped};
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{
-    Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, Leg, MOST_EXACT_TURNS, Reach, Trace, flow,
-    flow_from,
+    Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, Leg, MOST_EXACT_TURNS, Reach, Trace,
+    flow, flow_from,
 };
 pub use machine::{BarFeeder, Machine, Tool, WorkOffset};
 pub use modal::ModeSet;

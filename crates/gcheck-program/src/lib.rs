@@ -24,6 +24,7 @@ pub use number::NumberShape;
 pub use outline::{ChunkOutline, OWordLinks, Outline, OutlineBuilder, Program, Skeleton};
 pub use statement::{OKeyword, OLabel, Statement, StatementKind, Target};
 pub use survey::{
-    Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, TapeMarks, code_region,
+    Call, CallKind, EndMark, Jump, Label, Loop, NeverGiven, OWord, ProgramNumber, Survey, TapeMarks,
+    code_region,
 };
 pub use tool_names::{ToolNames, remark};

@@ -140,7 +140,8 @@ impl<'a> Loaded<'a> {
             end += text.len() as u32;
             end
         });
-        let chunks: Vec<Range<u32>> = ends.zip(&texts).map(|(end, text)| end - text.len() as u32..end).collect();
+        let chunks: Vec<Range<u32>> =
+            ends.zip(&texts).map(|(end, text)| end - text.len() as u32..end).collect();
         let tables = Tables { slots: vec![None; texts.len()], kept: VecDeque::new(), bytes: 0 };
         Self {
             text: Text::Shared(texts),
@@ -195,7 +196,8 @@ impl<'a> Loaded<'a> {
     pub fn line_from(&self, start: u32) -> &str {
         let chunk = self.chunks.partition_point(|chunk| chunk.end <= start);
         let base = self.chunks.get(chunk).map_or(0, |chunk| chunk.start);
-        let rest = self.chunk_text(chunk as u32).get(start.saturating_sub(base) as usize..).unwrap_or_default();
+        let rest =
+            self.chunk_text(chunk as u32).get(start.saturating_sub(base) as usize..).unwrap_or_default();
         rest.split(['\n', '\r']).next().unwrap_or_default()
     }
 

@@ -78,8 +78,7 @@ impl<'c> ToolNames<'c> {
         }
         let tools = &self.control.semantics().tools;
         let t = words.iter().find(|word| word.letter == Letter::of('T')).filter(|_| !has_arguments);
-        let t =
-            t.and_then(Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
+        let t = t.and_then(Word::integer).map(|t| if tools.offset_in_t { t / 100 } else { t });
         changes |= t.is_some() && tools.change_by_t;
         self.called = t.or(self.called);
         if let Some((tool, name)) = remark.and_then(entry) {
