@@ -136,7 +136,7 @@ mod tests {
             "g81 $0\n",
             &expect![[r#"
                 G81 [X] [Y] [Z] [U] [V] [W] [@] [^] R [L] F
-  
+                  no word
             "#]],
         );
         check("haas-mill", "G0 (G83 $0)\n", &expect![[""]]);
