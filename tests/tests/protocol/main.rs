@@ -11,7 +11,11 @@
 //! * [`bad_input`]: what no client should send.
 //! * [`soak`]: thousands of random edits and requests; `GCHECK_SOAK=N` for N of them.
 
-#![expect(clippy::unwrap_used, clippy::indexing_slicing, reason = "a test that meets the unexpected is to fail")]
+#![expect(
+    clippy::unwrap_used,
+    clippy::indexing_slicing,
+    reason = "a test that meets the unexpected is to fail"
+)]
 
 mod bad_input;
 mod diagnostics;

@@ -4,6 +4,7 @@ use gcheck_controls::{Letter, Need};
 use gcheck_engine::{CycleFault, Event, Fault};
 
 use super::cycle_words_lost::{Series, cycle_code, is_cycle, is_operation};
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
@@ -38,12 +39,18 @@ declare_rule! {
     }
 }
 
-#[derive(Default)]
+#[derive(Default, Clone, PartialEq)]
 struct CycleWordMissing {
     series: Series,
 }
 
+remembers!(CycleWordMissing: series);
+
 impl PathRule for CycleWordMissing {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| is_cycle(effect) || is_operation(effect))
     }
