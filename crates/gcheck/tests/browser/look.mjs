@@ -59,6 +59,7 @@ try {
 
   // A line is clicked: its moves are shown.
   await page.locator('.source .line[data-line="8"]').click();
+  await rest();
   seen.readoutOfLine8 = await text("#readout");
   seen.chosen = await page.locator(".source .line.chosen .number").innerText();
   await picture("line");
@@ -72,6 +73,7 @@ try {
   seen.picked = null;
   for (let y = box.y + box.height - 20; y > box.y + box.height / 2 && !seen.picked; y -= 5) {
     await page.mouse.click(box.x + box.width * 0.45, y);
+    await rest();
     if (await page.locator(".source .line.chosen").count()) seen.picked = await text("#readout");
   }
   await picture("top");
@@ -79,6 +81,7 @@ try {
   // A finding is clicked.
   if (seen.findings.length) {
     await page.keyboard.press("n");
+    await rest();
     seen.lineOfFinding = await page.locator(".source .line.chosen .number").innerText();
   }
 
