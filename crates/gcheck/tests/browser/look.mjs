@@ -9,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import path from "node:path";
 
 const [tools, executablePath, file, pictures] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(tools, "package.json"))("playwright-core");
+const { chromium } = createRequire(path.resolve(tools, "package.json"))("playwright-core");
 
 // Without a graphics card the browser draws by itself.
 const args = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
