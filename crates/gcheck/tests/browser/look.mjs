@@ -27,21 +27,24 @@ try {
     await rest();
     return page.screenshot({ path: path.join(pictures, `${name}.png`), timeout: 60000 });
   };
-  // Colours on the canvas: how many pixels have each, the most frequent ones first.
-  const colors = () => page.evaluate(async () => {
-    const canvas = document.getElementById("canvas"), copy = document.createElement("canvas");
-    await new Promise((done) => requestAnimationFrame(done));
-    copy.width = canvas.width; copy.height = canvas.height;
-    const paper = copy.getContext("2d");
-    window.dispatchEvent(new Event("resize"));
-    paper.drawImage(canvas, 0, 0);
-    const counts = new Map(), { data } = paper.getImageData(0, 0, copy.width, copy.height);
-    for (let i = 0; i < data.length; i += 4) {
-      const key = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-      counts.set(key, (counts.get(key) ?? 0) + 1);
-    }
-    return [...counts].sort((a, b) => b[1] - a[1]).slice(0, 200);
-  });
+  // Colours of the view with how often each is seen, the most frequent first.
+  const colors = async (name) => {
+    const png = (await picture(name)).toString("base64");
+    return page.evaluate(async (png) => {
+      const image = new Image(), paper = document.createElement("canvas").getContext("2d");
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      const { x, y, width, height } = document.getElementById("canvas").getBoundingClientRect();
+      paper.canvas.width = width; paper.canvas.height = height;
+      paper.drawImage(image, -x, -y);
+      const counts = new Map(), { data } = paper.getImageData(0, 0, width, height);
+      for (let i = 0; i < data.length; i += 4) {
+        const key = `${data[i]},${data[i + 1]},${data[i + 2]}`;
+        counts.set(key, (counts.get(key) ?? 0) + 1);
+      }
+      return [...counts].sort((a, b) => b[1] - a[1]);
+    }, png);
+  };
   const text = (selector) => page.locator(selector).innerText();
 
   await page.goto(pathToFileURL(file).href);
@@ -102,11 +105,18 @@ try {
   seen.afterOneStep = await text("#readout");
   await page.keyboard.press("End");
 
-  // A tool is hidden: its colour is gone; the background changes with the theme.
-  const before = await colors();
+  // A tool is hidden: its colour is gone from the view; the background changes with the theme.
+  // The legend is blue in places as well.
+  const blues = (counts) => counts.reduce((sum, [color, count]) => {
+    const [red, green, blue] = color.split(",").map(Number);
+    return blue > 180 && blue > red + 100 && green > red ? sum + count : sum;
+  }, 0);
+  await page.keyboard.press("1");
+  const shown = await colors("tools");
+  seen.backgroundLight = shown[0][0];
+  seen.blueWithTool = blues(shown);
   await page.locator("#legend input").first().uncheck();
-  await rest();
-  seen.backgroundLight = before[0]?.[0];
+  seen.blueWithoutTool = blues(await colors("hidden"));
   await page.locator("#legend input").first().check();
   await page.locator("#theme").click();
   seen.theme = await page.evaluate(() => document.documentElement.dataset.theme);
