@@ -9,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import path from "node:path";
 
 const [tools, executablePath, file, pictures] = process.argv.slice(2);
-const { chromium } = createRequire(path.join(tools, "package.json"))("playwright-core");
+const { chromium } = createRequire(path.resolve(tools, "package.json"))("playwright-core");
 
 // Without a graphics card the browser draws by itself.
 const args = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
@@ -27,21 +27,24 @@ try {
     await rest();
     return page.screenshot({ path: path.join(pictures, `${name}.png`), timeout: 60000 });
   };
-  // Colours on the canvas: how many pixels have each, the most frequent ones first.
-  const colors = () => page.evaluate(async () => {
-    const canvas = document.getElementById("canvas"), copy = document.createElement("canvas");
-    await new Promise((done) => requestAnimationFrame(done));
-    copy.width = canvas.width; copy.height = canvas.height;
-    const paper = copy.getContext("2d");
-    window.dispatchEvent(new Event("resize"));
-    paper.drawImage(canvas, 0, 0);
-    const counts = new Map(), { data } = paper.getImageData(0, 0, copy.width, copy.height);
-    for (let i = 0; i < data.length; i += 4) {
-      const key = `${data[i]},${data[i + 1]},${data[i + 2]}`;
-      counts.set(key, (counts.get(key) ?? 0) + 1);
-    }
-    return [...counts].sort((a, b) => b[1] - a[1]).slice(0, 200);
-  });
+  // Colours of the view with how often each is seen, the most frequent first.
+  const colors = async (name) => {
+    const png = (await picture(name)).toString("base64");
+    return page.evaluate(async (png) => {
+      const image = new Image(), paper = document.createElement("canvas").getContext("2d");
+      image.src = `data:image/png;base64,${png}`;
+      await image.decode();
+      const { x, y, width, height } = document.getElementById("canvas").getBoundingClientRect();
+      paper.canvas.width = width; paper.canvas.height = height;
+      paper.drawImage(image, -x, -y);
+      const counts = new Map(), { data } = paper.getImageData(0, 0, width, height);
+      for (let i = 0; i < data.length; i += 4) {
+        const key = `${data[i]},${data[i + 1]},${data[i + 2]}`;
+        counts.set(key, (counts.get(key) ?? 0) + 1);
+      }
+      return [...counts].sort((a, b) => b[1] - a[1]);
+    }, png);
+  };
   const text = (selector) => page.locator(selector).innerText();
 
   await page.goto(pathToFileURL(file).href);
@@ -59,6 +62,7 @@ try {
 
   // A line is clicked: its moves are shown.
   await page.locator('.source .line[data-line="8"]').click();
+  await rest();
   seen.readoutOfLine8 = await text("#readout");
   seen.chosen = await page.locator(".source .line.chosen .number").innerText();
   await picture("line");
@@ -72,6 +76,7 @@ try {
   seen.picked = null;
   for (let y = box.y + box.height - 20; y > box.y + box.height / 2 && !seen.picked; y -= 5) {
     await page.mouse.click(box.x + box.width * 0.45, y);
+    await rest();
     if (await page.locator(".source .line.chosen").count()) seen.picked = await text("#readout");
   }
   await picture("top");
@@ -79,6 +84,7 @@ try {
   // A finding is clicked.
   if (seen.findings.length) {
     await page.keyboard.press("n");
+    await rest();
     seen.lineOfFinding = await page.locator(".source .line.chosen .number").innerText();
   }
 
@@ -99,11 +105,18 @@ try {
   seen.afterOneStep = await text("#readout");
   await page.keyboard.press("End");
 
-  // A tool is hidden: its colour is gone; the background changes with the theme.
-  const before = await colors();
+  // A tool is hidden: its colour is gone from the view; the background changes with the theme.
+  // The legend is blue in places as well.
+  const blues = (counts) => counts.reduce((sum, [color, count]) => {
+    const [red, green, blue] = color.split(",").map(Number);
+    return blue > 180 && blue > red + 100 && green > red ? sum + count : sum;
+  }, 0);
+  await page.keyboard.press("1");
+  const shown = await colors("tools");
+  seen.backgroundLight = shown[0][0];
+  seen.blueWithTool = blues(shown);
   await page.locator("#legend input").first().uncheck();
-  await rest();
-  seen.backgroundLight = before[0]?.[0];
+  seen.blueWithoutTool = blues(await colors("hidden"));
   await page.locator("#legend input").first().check();
   await page.locator("#theme").click();
   seen.theme = await page.evaluate(() => document.documentElement.dataset.theme);

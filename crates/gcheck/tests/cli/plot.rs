@@ -253,5 +253,10 @@ fn a_page_works_in_a_browser() {
     assert!(text("afterOneStep").starts_with("line "), "{seen:#}");
 
     assert_eq!((text("theme").as_str(), text("backgroundLight").as_str()), ("dark", "251,251,250"));
+    let count = |key: &str| seen[key].as_u64().unwrap();
+    assert!(
+        count("blueWithTool") > 2 * count("blueWithoutTool") + 1_000,
+        "a hidden tool is not drawn: {seen:#}"
+    );
     assert_eq!(seen["scrollsSideways"], false);
 }
