@@ -2,6 +2,7 @@
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
+use std::fmt::Write as _;
 use std::fs;
 
 use gcheck_db::{Database, Settings};
@@ -81,7 +82,7 @@ fn soak(name: &str, control: &str, text: &str, edits: usize) {
             5 => (line..line, "M5\nT2 M6\nG0 Z100.\n"),
             _ => (line..line, "IF [#500 EQ 1.] GOTO 77\nN77 "),
         };
-        told.push_str(&format!("\n{range:?} {insert:?}"));
+        let _ = write!(told, "\n{range:?} {insert:?}");
         database.edit(id, range.start as u32..range.end as u32, insert).unwrap();
         text.replace_range(range, insert);
     }
