@@ -103,7 +103,6 @@ fn holds(name: &str, program: &[u8], control: &str, folder: &Path, counts: &Coun
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "how much was looked at")]
 fn on_our_own_programs() {
     let files = own_programs();
     let counts = Counts::default();
@@ -124,7 +123,6 @@ fn on_our_own_programs() {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "how much was looked at")]
 fn on_the_corpus() {
     let Some(programs) = corpus::programs() else { return };
     let counts = Counts::default();
