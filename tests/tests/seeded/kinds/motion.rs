@@ -155,7 +155,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let stands = !p.is_lathe()
                     || block.before.section == 0
                         && !p.blocks[..block.ix].iter().any(|b| b.code(&SPINDLE).is_some());
-                let cuts = section.into_iter().any(|next| next.moves(&[Effect::Linear]));
+                let cuts = section.any(|next| next.moves(&[Effect::Linear]));
                 (cuts && stands).then(|| p.without(word))
             })
         },
