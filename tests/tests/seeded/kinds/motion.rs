@@ -149,7 +149,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let word = block
                     .code(&SPINDLE)
                     .filter(|_| !block.before.spindle_turns && !block.before.is_subprogram)?;
-                let section =
+                let mut section =
                     p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 // A lathe's spindle goes on turning at a tool change.
                 let stands = !p.is_lathe()
