@@ -60,7 +60,7 @@ pub(crate) struct Modes {
     pub(crate) has_length: bool,
     pub(crate) spindle_turns: bool,
     pub(crate) feed: bool,
-    pub(crate) tool: Option<u32>,
+    pub(crate) tool: Option<f64>,
     /// How many tool changes came before.
     pub(crate) section: usize,
     /// Behind the end of the main program, or inside a subroutine.
@@ -197,7 +197,7 @@ impl Modes {
     fn take_words(&mut self, words: &[Word]) {
         self.feed |= words.iter().any(|word| word.letter == b'F');
         if let Some(tool) = words.iter().find(|word| word.letter == b'T') {
-            self.tool = tool.number.map(|number| number as u32);
+            self.tool = tool.number;
         }
     }
 

@@ -81,7 +81,7 @@ pub(super) const KINDS: &[Kind] = &[
             p.each(|block| {
                 arc(p, block)?;
                 let word = block.word(b'R').filter(|word| {
-                    word.number.is_some_and(|r| r > 0.0) && word.has_point | !p.counts_steps()
+                    word.number.is_some_and(|r| r > 0.0) && (word.has_point || !p.counts_steps())
                 })?;
                 Some(p.value(
                     word,

@@ -149,13 +149,13 @@ pub(super) const KINDS: &[Kind] = &[
                 let word = block
                     .code(&SPINDLE)
                     .filter(|_| !block.before.spindle_turns && !block.before.is_subprogram)?;
-                let section =
+                let mut section =
                     p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
                 // A lathe's spindle goes on turning at a tool change.
                 let stands = !p.is_lathe()
                     || block.before.section == 0
                         && !p.blocks[..block.ix].iter().any(|b| b.code(&SPINDLE).is_some());
-                let cuts = section.into_iter().any(|next| next.moves(&[Effect::Linear]));
+                let cuts = section.any(|next| next.moves(&[Effect::Linear]));
                 (cuts && stands).then(|| p.without(word))
             })
         },

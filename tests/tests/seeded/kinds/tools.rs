@@ -10,9 +10,9 @@ use crate::program::{Block, Program, Word};
 const COMPENSATION: [Effect; 2] = [Effect::CompensationLeft, Effect::CompensationRight];
 
 /// `G43` with an `H` that is the number of the tool.
-fn length<'b>(block: &'b Block) -> Option<(&'b Word, &'b Word)> {
+fn length(block: &Block) -> Option<(&Word, &Word)> {
     let (code, offset) = (block.code(&[Effect::LengthPlus])?, block.word(b'H')?);
-    (offset.number == block.before.tool.map(f64::from)).then_some((code, offset))
+    (offset.number == block.before.tool).then_some((code, offset))
 }
 
 /// Cutter compensation by offset number on a mill.
@@ -23,9 +23,9 @@ fn diameter<'b>(p: &Program, block: &'b Block) -> Option<&'b Word> {
 
 /// The tool moves in Z before another tool comes.
 fn goes_down(p: &Program, block: &Block) -> bool {
-    let rest = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+    let mut rest = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
     block.has(b"Z")
-        || rest.into_iter().any(|next| next.moves(&[Effect::Rapid, Effect::Linear]) && next.has(b"Z"))
+        || rest.any(|next| next.moves(&[Effect::Rapid, Effect::Linear]) && next.has(b"Z"))
 }
 
 pub(super) const KINDS: &[Kind] = &[
@@ -114,7 +114,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["diameter-offset-of-another-tool"],
         |p| {
             p.each(|block| {
-                let offset = diameter(p, block).filter(|word| word.number == block.before.tool.map(f64::from))?;
+                let offset = diameter(p, block).filter(|word| word.number == block.before.tool)?;
                 let others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
                 let other = others.filter(|other| Some(*other) != offset.number).last()?;
                 Some(p.value(offset, format!("{other:02}")))

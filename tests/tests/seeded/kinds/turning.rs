@@ -22,7 +22,7 @@ fn profile<'p>(p: &'p Program, cycle: &Block) -> Option<&'p Block> {
 }
 
 /// A threading cycle's word: of its last line where it has two.
-fn thread<'b>(block: &'b Block, letter: u8) -> Option<&'b Word> {
+fn thread(block: &Block, letter: u8) -> Option<&Word> {
     block.code(&[Effect::ThreadCycle]).filter(|_| block.has(b"XZU"))?;
     block.word(letter)
 }

@@ -120,7 +120,7 @@ mod tests {
             "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
             &expect![[r#"
                 5 | G81 Z-0.5 F5.
-                  | ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
+                  | ^^^ error[cycle-word-missing] canned cycle without `R` (`G81`)
             "#]],
         );
     }

@@ -89,11 +89,11 @@ impl PathRule for DwellVeryLong {
 /// May the program cut anything? What it calls may.
 fn may_cut(cx: &PathCx<'_>) -> bool {
     let control = cx.scene.control();
-    let codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
     let cuts = [Motion::Feed, Motion::Arc, Motion::Thread, Motion::Cycle, Motion::Operation, Motion::Curve];
     cx.survey.has_computed_codes
         || !cx.survey.calls.is_empty()
-        || codes.into_iter().any(|code| cuts.contains(&code.motion()))
+        || codes.any(|code| cuts.contains(&code.motion()))
 }
 
 /// Does the time exceed what the code that reads it takes?
