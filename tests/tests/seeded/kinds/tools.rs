@@ -24,8 +24,7 @@ fn diameter<'b>(p: &Program, block: &'b Block) -> Option<&'b Word> {
 /// The tool moves in Z before another tool comes.
 fn goes_down(p: &Program, block: &Block) -> bool {
     let mut rest = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
-    block.has(b"Z")
-        || rest.any(|next| next.moves(&[Effect::Rapid, Effect::Linear]) && next.has(b"Z"))
+    block.has(b"Z") || rest.any(|next| next.moves(&[Effect::Rapid, Effect::Linear]) && next.has(b"Z"))
 }
 
 pub(super) const KINDS: &[Kind] = &[

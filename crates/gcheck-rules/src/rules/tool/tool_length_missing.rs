@@ -101,7 +101,7 @@ impl ToolLengthMissing {
         let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
         let Some(code) = cx.state().mode(Role::Length).only() else { return };
         if !is_off(code) {
-            self.judge_what_is_on(cx, at, code, report);
+            judge_what_is_on(cx, at, code, report);
             return;
         }
         if cx.trace().set_by(Fact::Tool) != Some(at) {
@@ -158,44 +158,44 @@ impl ToolLengthMissing {
     }
 }
 
-impl ToolLengthMissing {
-    /// Length compensation is on: with no length at all, or with the one that the tool before had.
-    fn judge_what_is_on(&mut self, cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'_>) {
-        if cx.model.effect(code) != Effect::LengthPlus || cx.trace().set_by(Fact::Tool) != Some(at) {
-            return;
+/// Length compensation is on: with no length at all, or with the one that the tool before had.
+fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'_>) {
+    if cx.model.effect(code) != Effect::LengthPlus || cx.trace().set_by(Fact::Tool) != Some(at) {
+        return;
+    }
+    let Some(set) = cx.trace().set_by(Fact::Length) else { return };
+    let name = cx.name_of(code);
+    let is_h = |word: &gcheck_program::Word| word.letter == Letter::of('H');
+    let given = cx.find_word(set, is_h);
+    let number = Abstract::known(cx.state().h());
+    let is_zero = number == Some(0.0);
+    // Where it never comes, the tool works with the other one's offset: that is told by the numbers.
+    let is_followed_by_its_own = cx.is_near(|effect| effect == Effect::LengthPlus);
+    // In a block that moves Z as well it is told without regard to the tool.
+    let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
+    if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
+        let finding = cx
+            .finding(
+                &META,
+                given.unwrap_or_else(|| cx.letter_range('Z')),
+                "the tool has no length (offset number zero, `H0`)",
+            )
+            .label("the control takes the spindle's nose for the tool's tip");
+        report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
+    } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
+        let mut finding = cx
+            .finding(
+                &META,
+                cx.letter_range('Z'),
+                format!(
+                    "the tool moves with the length of the tool before (no `{name}` since the tool change)"
+                ),
+            )
+            .label("the tip is off by the difference of the two lengths");
+        if let Some(given) = given {
+            finding = finding.also(given, "the length comes from here");
         }
-        let Some(set) = cx.trace().set_by(Fact::Length) else { return };
-        let name = cx.name_of(code);
-        let is_h = |word: &gcheck_program::Word| word.letter == Letter::of('H');
-        let given = cx.find_word(set, is_h);
-        let number = Abstract::known(cx.state().h());
-        let is_zero = number == Some(0.0);
-        // Where it never comes, the tool works with the other one's offset: that is told by the numbers.
-        let is_followed_by_its_own = cx.is_near(|effect| effect == Effect::LengthPlus);
-        // In a block that moves Z as well it is told without regard to the tool.
-        let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
-        if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
-            let finding = cx
-                .finding(
-                    &META,
-                    given.unwrap_or_else(|| cx.letter_range('Z')),
-                    "the tool has no length (offset number zero, `H0`)",
-                )
-                .label("the control takes the spindle's nose for the tool's tip");
-            report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
-        } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
-            let mut finding = cx
-                .finding(
-                    &META,
-                    cx.letter_range('Z'),
-                    format!("the tool moves with the length of the tool before (no `{name}` since the tool change)"),
-                )
-                .label("the tip is off by the difference of the two lengths");
-            if let Some(given) = given {
-                finding = finding.also(given, "the length comes from here");
-            }
-            report.add(finding.help(format!("give the length with the first move along Z: `{name} H1 Z…`")));
-        }
+        report.add(finding.help(format!("give the length with the first move along Z: `{name} H1 Z…`")));
     }
 }
 
