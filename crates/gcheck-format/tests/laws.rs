@@ -1,11 +1,7 @@
 //! What holds for every text, on every control, in several styles: blocks are read as before, comments stay, twice is once,
 //! a part is formatted as the whole; renumbered jumps lead where they led.
 
-#![expect(
-    clippy::unwrap_used,
-    clippy::indexing_slicing,
-    reason = "a test that meets the unexpected is to fail"
-)]
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use std::fmt::Write as _;
 

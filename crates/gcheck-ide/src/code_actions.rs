@@ -92,6 +92,8 @@ pub fn code_actions(
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use expect_test::{Expect, expect};
 
     use super::{ActionKind, code_actions};
@@ -107,7 +109,7 @@ mod tests {
         let mut out = String::new();
         for action in actions.iter().filter(|action| kinds.contains(&action.kind)) {
             let preferred = if action.is_preferred { " (preferred)" } else { "" };
-            out.push_str(&format!("# {:?}: {}{preferred}\n", action.kind, action.title));
+            let _ = writeln!(out, "# {:?}: {}{preferred}", action.kind, action.title);
             out.push_str(&action.link.clone().map(|link| link + "\n").unwrap_or_default());
             if !action.edits.is_empty() {
                 out.push_str(&applied(&fixture.snapshot().text(), &action.edits));

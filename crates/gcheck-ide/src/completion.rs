@@ -123,7 +123,7 @@ pub fn completion(
         }
         Some('O') => items.o_words(workspace),
         Some('T') if prefix.get(1..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit())) => {
-            items.tools()
+            items.tools();
         }
         Some(letter) if items.named(workspace, prefix, letter) => {}
         Some(_) => {
@@ -547,7 +547,7 @@ impl Items<'_, '_> {
             let item = self.add(CompletionKind::Keyword, label, detail, 900_000);
             text.clone_into(&mut item.edit.text);
             item.is_snippet = true;
-            item.filter = label.split(' ').next().unwrap_or(label).to_owned();
+            label.split(' ').next().unwrap_or(label).clone_into(&mut item.filter);
         }
     }
 }

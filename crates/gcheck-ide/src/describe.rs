@@ -133,6 +133,6 @@ pub(crate) fn unverified(confidence: Confidence) -> &'static str {
 }
 
 /// The entry of a word as a code reads it.
-pub(crate) fn word_of<'c>(code: Code<'c>, letter: Letter) -> Option<&'c WordEntry> {
+pub(crate) fn word_of(code: Code<'_>, letter: Letter) -> Option<&WordEntry> {
     code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter))
 }

@@ -246,7 +246,7 @@ impl Cx<'_> {
         };
         let mut changes: Vec<String> =
             reading.line(after).into_iter().filter(|item| !before.contains(item)).collect();
-        let ended = self.ended(&reading, &state.before, after);
+        let ended = ended(&reading, &state.before, after);
         changes.extend(ended);
         let to = reading.point(after, after.actual());
         let _ = write!(
@@ -258,16 +258,6 @@ impl Cx<'_> {
             let _ = write!(text, ", at `{to}`");
         }
         text
-    }
-
-    /// Modes that were on before and are no longer.
-    fn ended(&self, reading: &Reading<'_>, before: &State<Abstract>, after: &State<Abstract>) -> Vec<String> {
-        let left = reading.codes(after);
-        let was = reading.codes(before).into_iter();
-        // A motion that a cycle took the place of is not over.
-        was.filter(|(role, _)| *role != Role::Motion && !left.iter().any(|(other, _)| other == role))
-            .map(|(_, code)| format!("{code} off"))
-            .collect()
     }
 
     /// The code that gives a word its meaning: one of the block, else the cycle or motion in effect.
@@ -543,6 +533,16 @@ fn argument(control: &Control, letter: Letter) -> Option<u8> {
 /// Items as code, in one line.
 fn list(items: &[String]) -> String {
     items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>().join(" ")
+}
+
+/// Modes that were on before and are no longer.
+fn ended(reading: &Reading<'_>, before: &State<Abstract>, after: &State<Abstract>) -> Vec<String> {
+    let left = reading.codes(after);
+    let was = reading.codes(before).into_iter();
+    // A motion that a cycle took the place of is not over.
+    was.filter(|(role, _)| *role != Role::Motion && !left.iter().any(|(other, _)| other == role))
+        .map(|(_, code)| format!("{code} off"))
+        .collect()
 }
 
 #[cfg(test)]

@@ -90,10 +90,10 @@ pub fn inlay_hints(
             hints.block(&place, state, look);
         }
     })?;
-    let mut list = hints.list;
-    list.retain(|hint| range.start <= hint.offset && hint.offset <= range.end);
-    list.sort_by_key(|hint| hint.offset);
-    Ok(list)
+    let mut shown = hints.list;
+    shown.retain(|hint| range.start <= hint.offset && hint.offset <= range.end);
+    shown.sort_by_key(|hint| hint.offset);
+    Ok(shown)
 }
 
 struct Hints<'s> {

@@ -166,7 +166,8 @@ impl Finder<'_> {
     fn tool(&mut self, words: &[Word], range: &Range<u32>, base: u32, above: Option<Range<u32>>) {
         let control = self.snapshot.control();
         let rules = &control.semantics().tools;
-        let effects = || words.iter().filter_map(|word| control.code_at(word.code)).map(|code| code.effect());
+        let effects =
+            || words.iter().filter_map(|word| control.code_at(word.code)).map(gcheck_controls::Code::effect);
         // The arguments of a macro call are no tools.
         if effects().any(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal)) {
             return;

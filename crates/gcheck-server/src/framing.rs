@@ -121,6 +121,8 @@ pub(crate) fn write(to: &mut impl Write, message: &impl serde::Serialize) -> io:
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use expect_test::expect;
 
     use super::{Incoming, read};
@@ -130,12 +132,13 @@ mod tests {
         let mut out = String::new();
         while let Some(incoming) = read(&mut from).unwrap() {
             match incoming {
-                Incoming::Message(message) => out.push_str(&format!("message {}\n", message.method())),
-                Incoming::Answer(answer) => out.push_str(&format!("answer to {}\n", answer.id())),
+                Incoming::Message(message) => writeln!(out, "message {}", message.method()),
+                Incoming::Answer(answer) => writeln!(out, "answer to {}", answer.id()),
                 Incoming::Malformed(malformed) => {
-                    out.push_str(&format!("malformed, id {:?}: {}\n", malformed.id, malformed.reason));
+                    writeln!(out, "malformed, id {:?}: {}", malformed.id, malformed.reason)
                 }
             }
+            .unwrap();
         }
         out
     }

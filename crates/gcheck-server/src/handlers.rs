@@ -12,7 +12,10 @@ use crate::client::Abilities;
 use crate::features::{COMMANDS, ControlEntry, OwnParams, action_kinds, controls};
 use crate::mailbox::{Kind, Mailbox};
 use crate::parent::Parent;
-#[expect(clippy::wildcard_imports, reason = "nearly every type of the protocol is named here")]
+#[cfg_attr(
+    not(test),
+    expect(clippy::wildcard_imports, reason = "nearly every type of the protocol is named here")
+)]
 use crate::proto::*;
 
 /// The handlers.
@@ -117,7 +120,7 @@ impl LanguageServer for Handlers {
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {
         self.change("workspace/didChangeWorkspaceFolders", move |owner| {
-            owner.did_change_workspace_folders(params);
+            owner.did_change_workspace_folders(&params);
         });
     }
 

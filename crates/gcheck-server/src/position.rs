@@ -140,6 +140,8 @@ impl<'s> Places<'s> {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
+
     use gcheck_db::{Database, Settings, Snapshot};
 
     use super::{Encoding, Places};
@@ -161,7 +163,7 @@ mod tests {
         let mut out = String::new();
         for (at, c) in TEXT.char_indices().chain([(TEXT.len(), '.')]) {
             let Position { line, character } = places.position(at as u32);
-            out.push_str(&format!("{line}:{character} {}\n", c.escape_debug()));
+            writeln!(out, "{line}:{character} {}", c.escape_debug()).unwrap();
             if !matches!(c, '\n' | '\r') || TEXT[at..].starts_with('\r') {
                 assert_eq!(places.offset(Position { line, character }) as usize, at, "{c:?}");
             }

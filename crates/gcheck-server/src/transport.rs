@@ -89,9 +89,9 @@ pub fn serve(
                 Event::Incoming(Incoming::Malformed(malformed)) => refuse(&outbox, malformed),
                 Event::Incoming(Incoming::Message(message)) => {
                     let is_exit = message.method() == "exit";
-                    let is_shutdown = message.method() == "shutdown";
+                    let asks_for_end = message.method() == "shutdown";
                     let answered = call(&mut service, message, &outbox).await;
-                    is_shut_down |= is_shutdown && answered;
+                    is_shut_down |= asks_for_end && answered;
                     if is_exit {
                         return if is_shut_down { Ending::Orderly } else { Ending::Abrupt };
                     }

@@ -12,7 +12,7 @@ use crate::paths;
 /// Something that keeps a file, a configuration or the whole run from being done. One of these is one message.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Problem {
-    place: Option<Place>,
+    place: Option<Box<Place>>,
     message: String,
     excerpt: Option<Box<Excerpt>>,
     note: Option<String>,
@@ -49,7 +49,7 @@ impl Problem {
 
     /// A problem with a file.
     pub fn with_file(path: &Path, message: impl Into<String>) -> Self {
-        Self { place: Some(Place { name: paths::shown(path), at: None }), ..Self::new(message) }
+        Self { place: Some(Box::new(Place { name: paths::shown(path), at: None })), ..Self::new(message) }
     }
 
     /// What a panic of our own code left.
@@ -64,7 +64,7 @@ impl Problem {
     /// The same, with a file.
     #[must_use]
     pub(crate) fn in_file(self, path: &Path) -> Self {
-        Self { place: Some(Place { name: paths::shown(path), at: None }), ..self }
+        Self { place: Some(Box::new(Place { name: paths::shown(path), at: None })), ..self }
     }
 
     /// A problem at some bytes of a text; `name` is what the text is called.
@@ -82,7 +82,7 @@ impl Problem {
         let shown: String = line.chars().take(SHOWN).map(|c| if c.is_control() { ' ' } else { c }).collect();
         let excerpt = Excerpt { line: number, text: shown, before, marked };
         Self {
-            place: Some(Place { name: name.to_owned(), at: Some((number, before + 1)) }),
+            place: Some(Box::new(Place { name: name.to_owned(), at: Some((number, before + 1)) })),
             excerpt: (before < SHOWN).then_some(Box::new(excerpt)),
             ..Self::new(message)
         }
@@ -109,7 +109,7 @@ impl Problem {
 
     /// What messages call the file, with line and column from 1 and the number of characters that are meant.
     pub(crate) fn place(&self) -> Option<(&str, usize, usize, usize)> {
-        let Place { name, at } = self.place.as_ref()?;
+        let Place { name, at } = self.place.as_deref()?;
         let (line, column) = at.unwrap_or((1, 1));
         Some((name, line, column, self.excerpt.as_ref().map_or(0, |excerpt| excerpt.marked)))
     }
@@ -122,7 +122,7 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.place {
+        match self.place.as_deref() {
             Some(Place { name, at: Some((line, column)) }) => write!(f, "{name}:{line}:{column}: ")?,
             Some(Place { name, at: None }) => write!(f, "{name}: ")?,
             None => {}

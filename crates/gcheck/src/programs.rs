@@ -122,15 +122,15 @@ impl Reachable {
         by_name: impl Fn(&Path) -> bool,
     ) -> Option<PathBuf> {
         self.paths.iter().find_map(|folder| {
-            let open = self.open.as_ref();
-            if let Some(found) = open.and_then(|open| in_open(open, folder)) {
+            let editor = self.open.as_ref();
+            if let Some(found) = editor.and_then(|open| in_open(open, folder)) {
                 return Some(found);
             }
             let found = on_disk(&self.folders.of(folder)).cloned()?;
             // What the file holds on disk says nothing about what it holds in the editor.
-            let is_open =
-                open.is_some_and(|open| open.texts.in_folder(folder).iter().any(|(path, _)| *path == found));
-            (!is_open || by_name(&found)).then_some(found)
+            let is_in_editor = editor
+                .is_some_and(|open| open.texts.in_folder(folder).iter().any(|(path, _)| *path == found));
+            (!is_in_editor || by_name(&found)).then_some(found)
         })
     }
 

@@ -13,7 +13,7 @@ use crate::workspace;
 
 const TABLE: &str = "tests/competitors.tsv";
 
-/// Checkers that PyPI offers, at the versions that were measured. They ask for a later Python than some machines have and
+/// Checkers that `PyPI` offers, at the versions that were measured. They ask for a later Python than some machines have and
 /// run on an earlier one all the same.
 const PACKAGES: [&str; 3] = ["nctab==0.2.0", "ncplot7py==0.2.0", "mcp-server-gcodeclean==0.2.0"];
 

@@ -132,8 +132,8 @@ fn who_asks_for_findings_is_not_sent_them() {
             && message["params"]["uri"] == session.uri("a.nc")
     };
     assert!(!session.client.notifications.iter().any(pushed));
-    let pushes = Session::with(&usual(), &[]);
-    assert!(pushes.capabilities.get("diagnosticProvider").is_none());
+    let other = Session::with(&usual(), &[]);
+    assert!(other.capabilities.get("diagnosticProvider").is_none());
 }
 
 #[test]

@@ -78,13 +78,13 @@ fn references_are_found_in_all_files_of_the_folder() {
 fn calls_are_followed_both_ways() {
     let mut session = both();
     let at = session.at("a.nc", 4, 6);
-    let called = session.client.request("textDocument/prepareCallHierarchy", at);
-    let called = called[0].clone();
-    assert_eq!(called["uri"], session.uri("100.nc"), "{called}");
-    let callers = session.client.request("callHierarchy/incomingCalls", json!({ "item": called }));
-    assert_eq!(callers[0]["from"]["uri"], session.uri("a.nc"), "{callers}");
-    assert_eq!(callers[0]["fromRanges"][0]["start"]["line"], 4);
-    let caller = callers[0]["from"].clone();
+    let callee = session.client.request("textDocument/prepareCallHierarchy", at);
+    let callee = callee[0].clone();
+    assert_eq!(callee["uri"], session.uri("100.nc"), "{callee}");
+    let incoming = session.client.request("callHierarchy/incomingCalls", json!({ "item": callee }));
+    assert_eq!(incoming[0]["from"]["uri"], session.uri("a.nc"), "{incoming}");
+    assert_eq!(incoming[0]["fromRanges"][0]["start"]["line"], 4);
+    let caller = incoming[0]["from"].clone();
     let calls = session.client.request("callHierarchy/outgoingCalls", json!({ "item": caller }));
     assert_eq!(calls[0]["to"]["uri"], session.uri("100.nc"), "{calls}");
 }
@@ -95,7 +95,7 @@ fn symbols_of_the_whole_workspace_are_found() {
     let found = session.client.request("workspace/symbol", json!({ "query": "100" }));
     let mut uris: Vec<&Value> =
         found.as_array().unwrap().iter().map(|symbol| &symbol["location"]["uri"]).collect();
-    uris.sort_by_key(|uri| uri.to_string());
+    uris.sort_by_key(ToString::to_string);
     uris.dedup();
     assert_eq!(uris, [&json!(session.uri("100.nc")), &json!(session.uri("other/100.nc"))]);
 }

@@ -92,8 +92,7 @@ fn rapid_edits(capabilities: &serde_json::Value, in_bytes: bool, seed: u64) {
     let mut mirror = Mirror::new(&start, in_bytes);
     let mut dice = Dice(seed);
     for version in 2..202 {
-        let changes: Vec<_> =
-            (0..1 + dice.below(3)).map(|_| mirror.random_edit(&mut dice, &PIECES)).collect();
+        let changes: Vec<_> = (0..=dice.below(3)).map(|_| mirror.random_edit(&mut dice, &PIECES)).collect();
         session.change("a.nc", version, &json!(changes));
         if version % 10 == 0 {
             let at = session.at("a.nc", 3, 1);

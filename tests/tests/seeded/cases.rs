@@ -2,6 +2,7 @@
 //!
 //! Knows: where the programs come from and which of their places is taken. Must not know: what is found.
 
+use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
@@ -139,14 +140,9 @@ impl Case {
             let path = folder.join(case.path(number));
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, &case.text).unwrap();
-            list += &format!(
-                "{}\tclean/{}/{}\t{}\t{}\n",
-                case.path(number),
-                case.control,
-                case.program,
-                case.kind.id,
-                case.control
-            );
+            let (path, kind) = (case.path(number), case.kind.id);
+            writeln!(list, "{path}\tclean/{}/{}\t{kind}\t{}", case.control, case.program, case.control)
+                .unwrap();
         }
         fs::write(folder.join("cases.tsv"), list).unwrap();
     }

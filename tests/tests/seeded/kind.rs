@@ -165,6 +165,7 @@ impl Program {
     }
 
     /// The word is written so.
+    #[expect(clippy::unused_self, reason = "kinds ask the program for every edit")]
     pub(crate) fn instead(&self, word: &Word, text: impl Into<String>) -> Edit {
         Edit { range: word.range.clone(), text: text.into() }
     }
@@ -190,6 +191,7 @@ impl Program {
     }
 
     /// Something is written behind the last word of the block.
+    #[expect(clippy::unused_self, reason = "kinds ask the program for every edit")]
     pub(crate) fn behind_words(&self, block: &Block, text: impl AsRef<str>) -> Edit {
         let end = block.end_of_words();
         Edit { range: end..end, text: format!(" {}", text.as_ref()) }

@@ -231,7 +231,7 @@ fn point(from: &Position, to: &Position, units: Units, diameter: bool) -> Option
         }
         let new = Some(new).filter(|new| !new.is_nan())?;
         let value = in_units(axis, new, units, diameter);
-        let scale = 10_f64.powi(decimals(units) as i32);
+        let scale: f64 = (0..decimals(units)).map(|_| 10.0).product();
         words.push(format!("{}{}", axis.name(), pointed((value * scale).round() / scale + 0.0)));
     }
     Some(words.join(" "))

@@ -93,7 +93,7 @@ impl Owner {
         }
         let item = |scope_uri| ConfigurationItem { scope_uri, section: Some("gcheck".to_owned()) };
         let folders: Vec<PathBuf> = self.folders.clone();
-        let scopes = folders.iter().map(|folder| Uri::from_file_path(folder));
+        let scopes = folders.iter().map(Uri::from_file_path);
         let items = std::iter::once(None).chain(scopes).map(item).collect();
         let mailbox = self.mailbox.clone();
         self.outbox.ask::<WorkspaceConfiguration>(ConfigurationParams { items }, move |answer| {
@@ -140,7 +140,7 @@ impl Owner {
         self.everything_changed();
     }
 
-    pub(crate) fn did_change_workspace_folders(&mut self, params: DidChangeWorkspaceFoldersParams) {
+    pub(crate) fn did_change_workspace_folders(&mut self, params: &DidChangeWorkspaceFoldersParams) {
         let gone: Vec<PathBuf> = params.event.removed.iter().filter_map(|f| path_of(&f.uri)).collect();
         self.folders.retain(|folder| !gone.contains(folder));
         self.folders.extend(params.event.added.iter().filter_map(|folder| path_of(&folder.uri)));

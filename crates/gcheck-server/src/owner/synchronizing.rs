@@ -84,7 +84,7 @@ impl Owner {
         document.version = version;
         document.touched = touched;
         document.wants_findings = false;
-        for change in params.content_changes {
+        for change in &params.content_changes {
             self.apply(&uri, change);
         }
         self.text_changed(&uri);
@@ -95,7 +95,7 @@ impl Owner {
         }
     }
 
-    fn apply(&mut self, uri: &Uri, change: TextDocumentContentChangeEvent) {
+    fn apply(&mut self, uri: &Uri, change: &TextDocumentContentChangeEvent) {
         let Ok(snapshot) = self.snapshot(uri) else { return };
         let places = self.places(&snapshot);
         let bytes = change.range.map(|range| places.bytes(range));

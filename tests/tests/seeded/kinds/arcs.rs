@@ -83,10 +83,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let word = block.word(b'R').filter(|word| {
                     word.number.is_some_and(|r| r > 0.0) && (word.has_point || !p.counts_steps())
                 })?;
-                Some(p.value(
-                    word,
-                    format!("{:.5}", word.number.unwrap() / 10.0).trim_end_matches('0').to_owned(),
-                ))
+                Some(p.value(word, format!("{:.5}", word.number.unwrap() / 10.0).trim_end_matches('0')))
             })
         },
     ),

@@ -85,8 +85,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let (_, offset) = length(block)?;
-                let others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
-                let other = others.filter(|other| Some(*other) != offset.number).last()?;
+                let mut others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
+                let other = others.rfind(|other| Some(*other) != offset.number)?;
                 Some(p.value(offset, format!("{other:02}")))
             })
         },
@@ -114,8 +114,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let offset = diameter(p, block).filter(|word| word.number == block.before.tool)?;
-                let others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
-                let other = others.filter(|other| Some(*other) != offset.number).last()?;
+                let mut others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
+                let other = others.rfind(|other| Some(*other) != offset.number)?;
                 Some(p.value(offset, format!("{other:02}")))
             })
         },

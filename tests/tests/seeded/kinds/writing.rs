@@ -417,10 +417,10 @@ fn comments(p: &Program) -> Vec<(usize, usize)> {
     for line in p.text.split_inclusive('\n') {
         let (open, close) = (line.find('('), line.find(')'));
         let plain = line.matches(['(', ')', ';']).count() == 2 && !line.contains("gcheck:");
-        if let (Some(open), Some(close), true) = (open, close, plain) {
-            if open < close {
-                found.push((at + open, at + close));
-            }
+        if let (Some(open), Some(close), true) = (open, close, plain)
+            && open < close
+        {
+            found.push((at + open, at + close));
         }
         at += line.len();
     }
