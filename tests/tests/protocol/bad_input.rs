@@ -171,7 +171,7 @@ fn files_that_vanish_and_files_that_are_no_utf_8_disturb_nothing() {
 #[test]
 fn addresses_that_are_no_files_are_documents_like_others() {
     let mut session = Session::new(&[]);
-    for uri in ["untitled:Untitled-1", "git:/work/a.nc?x", "file:///no/such/folder/%20a%25.nc", "x:"] {
+    for uri in ["untitled:Untitled-1", "git:/shop/a.nc?x", "file:///no/such/folder/%20a%25.nc", "x:"] {
         let document =
             json!({ "uri": uri, "languageId": "gcode", "version": 1, "text": "%\nO1\nG1 X1.\nM30\n%\n" });
         session.client.notify("textDocument/didOpen", json!({ "textDocument": document }));

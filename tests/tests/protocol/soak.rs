@@ -16,7 +16,7 @@ use crate::synchronizing::{Dice, Mirror};
 /// Edits and requests of the usual run.
 const SHORT: usize = 600;
 /// The program is of this size, or less.
-const LARGEST: u64 = 300 << 10;
+const LARGEST: u64 = 128 << 10;
 /// Memory may grow by this much in the second half of the run, in kilobytes: allocators keep what they have.
 const GROWTH: u64 = 96 << 10;
 

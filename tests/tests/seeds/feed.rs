@@ -558,8 +558,8 @@ pub(crate) const SYSTEM: System = System {
                 },
                 Proof::Rule {
                     finding: "warning[dwell-very-long]",
-                    violates: linuxcnc("G4 P500\nM2\n"),
-                    conforms: linuxcnc("G4 P0.5\nM2\n"),
+                    violates: linuxcnc("G21 G90 F100\nG1 X1\nG4 P500\nM2\n"),
+                    conforms: linuxcnc("G21 G90 F100\nG1 X1\nG4 P0.5\nM2\n"),
                 },
                 Proof::Rule {
                     finding: "info[dwell-very-short]",
@@ -697,9 +697,9 @@ fn bad_input() {
         mode in a loop, generic-mill: warning[feed-of-another-mode]
         mode in a loop, haas-mill: warning[feed-of-another-mode]
         mode in a loop, fanuc-mill: warning[feed-of-another-mode]
-        both modes, generic-mill: warning[two-codes-of-one-group]
-        both modes, haas-mill: error[two-codes-of-one-group]
-        both modes, fanuc-mill: warning[two-codes-of-one-group]
+        both modes, generic-mill: warning[two-codes-of-one-group] warning[feed-implausible]
+        both modes, haas-mill: error[two-codes-of-one-group] warning[feed-implausible]
+        both modes, fanuc-mill: warning[two-codes-of-one-group] warning[feed-implausible]
         helix without centre, generic-mill: warning[arc-without-centre]
         helix without centre, haas-mill: error[arc-without-centre]
         helix without centre, fanuc-mill: warning[arc-without-centre]
@@ -732,7 +732,7 @@ fn bad_input() {
         dwell of no time, fanuc-mill: 
         dwell of a huge time, generic-mill: error[number-out-of-range]
         dwell of a huge time, haas-mill: warning[dwell-time-in-other-word]
-        dwell of a huge time, fanuc-mill: warning[dwell-very-long]
+        dwell of a huge time, fanuc-mill: info[dwell-very-long]
         dwell without a number, generic-mill: error[address-without-value]
         dwell without a number, haas-mill: error[address-without-value]
         dwell without a number, fanuc-mill: error[address-without-value]
@@ -748,11 +748,11 @@ fn bad_input() {
         dwell in a subprogram, generic-mill: error[number-out-of-range]
         dwell in a subprogram, haas-mill: warning[dwell-time-in-other-word]
         dwell in a subprogram, fanuc-mill: warning[number-out-of-range]
-        dwell behind a block skip, generic-mill: warning[dwell-very-long]
+        dwell behind a block skip, generic-mill: info[dwell-very-long]
         dwell behind a block skip, haas-mill: warning[dwell-time-in-other-word]
-        dwell behind a block skip, fanuc-mill: warning[dwell-very-long]
-        dwell in a loop, generic-mill: warning[dwell-very-long]
+        dwell behind a block skip, fanuc-mill: info[dwell-very-long]
+        dwell in a loop, generic-mill: info[dwell-very-long]
         dwell in a loop, haas-mill: warning[dwell-time-in-other-word]
-        dwell in a loop, fanuc-mill: warning[dwell-very-long]
+        dwell in a loop, fanuc-mill: info[dwell-very-long]
     "#]].assert_eq(&table);
 }

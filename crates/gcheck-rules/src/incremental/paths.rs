@@ -49,6 +49,8 @@ struct Chain {
 struct Entry {
     /// Blocks stand in it by their names.
     checkpoint: Checkpoint,
+    /// The block in front of that at which it begins; `None` at the beginning of the file.
+    before: Option<At>,
     kept: Rc<Kept>,
 }
 
@@ -289,6 +291,16 @@ fn number_again(checkpoint: &mut Checkpoint, layout: &Layout) -> bool {
 type Carried = Option<(Facts, Trace)>;
 
 impl Entry {
+    /// Was nothing put in between the block at which it begins and the one in front? What was put in there may have to be
+    /// executed first.
+    fn is_whole(&self, layout: &Layout) -> bool {
+        let number = |mut at: At| layout.number_again(&mut at).then_some(at);
+        match self.before {
+            Some(before) => number(before).map(At::next) == number(self.checkpoint.at),
+            None => number(self.checkpoint.at).is_some_and(|at| at.block == 0),
+        }
+    }
+
     fn carry(&mut self, carried: &Carried) {
         if let Some((facts, trace)) = carried {
             self.checkpoint.trace.take(*facts, trace);
@@ -343,6 +355,10 @@ fn advance(
         if let Some(entry) = &mut entry {
             entry.carry(&carried);
         }
+        while entry.as_ref().is_some_and(|entry| !entry.is_whole(layout)) {
+            entry = chain.segments.pop().and_then(|segment| segment.entry);
+            work.kept = work.kept.saturating_sub(1);
+        }
         // From here on it is executed.
         watchers.restart();
         watchers.forget_made();
@@ -387,9 +403,12 @@ fn advance(
         }
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
         work.executed += recorder.executed;
-        if let Some((index, facts, trace)) = joined {
+        if let Some(Joined { index, before, differing, trace }) = joined {
             at = index;
-            carried = Some((facts, trace)).filter(|(facts, _)| !facts.is_empty());
+            if let Some(Some(Segment { entry: Some(entry), .. })) = old.get_mut(index) {
+                entry.before = before;
+            }
+            carried = Some((differing, trace)).filter(|(facts, _)| !facts.is_empty());
             continue;
         }
         if stopped {
@@ -422,6 +441,18 @@ impl Segment {
     }
 }
 
+/// Execution has come to where an old segment begins.
+struct Joined {
+    /// Which one.
+    index: usize,
+    /// The block in front of it now.
+    before: Option<At>,
+    /// The facts that were set elsewhere than it says.
+    differing: Facts,
+    /// Where they were set.
+    trace: Trace,
+}
+
 /// Lets the rules watch, and cuts what they are shown into segments.
 struct Recorder<'r, 'w, 'c> {
     watchers: &'r mut Watchers<'w, 'c>,
@@ -438,8 +469,7 @@ struct Recorder<'r, 'w, 'c> {
     behind: usize,
     /// By the block at which it begins: which old segment.
     entries: &'r FxHashMap<At, usize>,
-    /// The old segment that follows, the facts that were set elsewhere than it says, and where.
-    joined: Option<(usize, Facts, Trace)>,
+    joined: Option<Joined>,
     went_back: bool,
     executed: usize,
 }
@@ -531,6 +561,11 @@ impl FlowObserver for Recorder<'_, '_, '_> {
         self.close(leg);
         self.watchers.forget_made();
         checkpoint.trace = checkpoint.trace.apart();
+        let before = checkpoint.at.block.checked_sub(1).map(|block| {
+            let mut before = At { block, ..checkpoint.at };
+            self.layout.name(&mut before);
+            before
+        });
         self.layout.name(&mut checkpoint.at);
         checkpoint.trace.places(&mut |at| {
             self.layout.name(at);
@@ -546,7 +581,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
         {
             let differing = checkpoint.trace.differing(&entry.checkpoint.trace);
             if known.holds(self.layout, differing) {
-                self.joined = Some((index, differing, checkpoint.trace));
+                self.joined = Some(Joined { index, before, differing, trace: checkpoint.trace });
                 return false;
             }
         }
@@ -556,7 +591,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
             Some(last) if *last.kept == kept => Rc::clone(&last.kept),
             _ => Rc::new(kept),
         };
-        self.entry = Some(Entry { checkpoint, kept });
+        self.entry = Some(Entry { checkpoint, before, kept });
         true
     }
 

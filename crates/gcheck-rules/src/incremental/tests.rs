@@ -431,3 +431,27 @@ fn everything() -> Selection {
     selection.enable("all").unwrap();
     selection
 }
+
+#[test]
+fn what_is_put_in_where_a_segment_begins_is_executed() {
+    let control = gcheck_controls::load("linuxcnc").unwrap();
+    let dialect = Dialect::new(&control);
+    let machine = crate::MachineFacts::default();
+    let programs = &crate::NoPrograms;
+    let scene = Scene { dialect: &dialect, machine: &machine, programs, control_is_guessed: false };
+    let selection = everything();
+    let (head, tail) = ("G17 G21 G90 G0 X10 Y0\nG1 X0 F100\nG1 X10\nG2 X10 Y0 I-10\n", "(END)\nG1 X3\nM2\n");
+    for lines in 1..5 {
+        let mut bench = Bench {
+            scene,
+            selection: &selection,
+            suppressions: true,
+            incremental: Incremental::new(),
+            execution: Execution::default(),
+        };
+        bench.assert_fresh(&format!("{head}{tail}"), lines, &|| format!("{lines} lines a chunk"));
+        bench.assert_fresh(&format!("{head}X2 Y3\n{tail}"), lines, &|| {
+            format!("{lines} lines a chunk, put in")
+        });
+    }
+}

@@ -186,7 +186,7 @@ mod tests {
         );
         check(
             "[format]\nword-spacing = \"two\"\n",
-            "gcheck.toml:2:16: unknown value `two`; did you mean `one`?",
+            "gcheck.toml:2:16: unknown value `two`; known are keep, one, none",
         );
         check(
             "[format]\nword_spacing = 1\n",
