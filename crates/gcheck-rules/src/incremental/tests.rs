@@ -356,7 +356,8 @@ fn a_modal_word_costs_its_neighbourhood() {
 #[test]
 fn a_line_at_the_top_costs_its_neighbourhood() {
     let work = cost(|text| replace_in(text, 0, "G90 ", "(PART 7)\nG90 "));
-    assert!(work.executed <= 4 && work.from_the_start == 1, "{work:?}");
+    // Findings of each tool that name the head of the program are made again: one segment of the tool's fourteen.
+    assert!(work.executed <= 20 && work.kept > 250 && work.from_the_start == 1, "{work:?}");
 }
 
 #[test]
