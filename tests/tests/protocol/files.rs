@@ -84,8 +84,8 @@ fn calls_are_followed_both_ways() {
     let incoming = session.client.request("callHierarchy/incomingCalls", json!({ "item": callee }));
     assert_eq!(incoming[0]["from"]["uri"], session.uri("a.nc"), "{incoming}");
     assert_eq!(incoming[0]["fromRanges"][0]["start"]["line"], 4);
-    let caller = incoming[0]["from"].clone();
-    let calls = session.client.request("callHierarchy/outgoingCalls", json!({ "item": caller }));
+    let origin = incoming[0]["from"].clone();
+    let calls = session.client.request("callHierarchy/outgoingCalls", json!({ "item": origin }));
     assert_eq!(calls[0]["to"]["uri"], session.uri("100.nc"), "{calls}");
 }
 

@@ -58,7 +58,7 @@ fn a_difference_changes_nothing() {
         -
         +O0001 (PART)
         +N5 G21 G90 G17
- 
+
         -N6 g0x1.  y2. 
         +N6 G0 X1. Y2.
          N7 M30
@@ -66,7 +66,8 @@ fn a_difference_changes_nothing() {
         ! 1 file would change, 1 already formatted
         exit 1
     "#]]
-    .assert_eq(&run.to_string().replace('\r', ""));
+    // An editor may cut the blank of an empty line in the text above.
+    .assert_eq(&run.to_string().replace('\r', "").replace("\n \n", "\n\n"));
     assert_eq!(shop.read("a.nc"), ROUGH);
     assert_eq!(shop.gcheck("fmt --control haas-mill --diff --check").code, 2);
 }
