@@ -89,8 +89,12 @@ fn programs_may_be_checked_when_they_are_saved_only() {
     let at = session.at("a.nc", 0, 0);
     session.client.request("textDocument/hover", at);
     session.client.receive_waiting();
-    let is_published = |message: &Value| message["method"] == "textDocument/publishDiagnostics";
-    assert!(!session.client.notifications.iter().any(is_published));
+    // What was known of the text as it was opened may be said twice.
+    let of_edited = |message: &&Value| {
+        message["method"] == "textDocument/publishDiagnostics" && message["params"]["version"] != 1
+    };
+    let published: Vec<&Value> = session.client.notifications.iter().filter(of_edited).collect();
+    assert!(published.is_empty(), "{published:?}");
     let document = session.document("a.nc");
     session.client.notify("textDocument/didSave", document);
     session.published("a.nc", 3);
