@@ -5,14 +5,14 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use gcheck_engine::{Look, Model, Options, Program, flow};
-use gcheck_program::{Dialect, Loaded};
+use gcheck_engine::{Look, Options, flow};
+use gcheck_program::Dialect;
 use gcheck_rules::{Edited, Finding, Incremental, Ledger, RuleMeta, Severity, Work};
 use gcheck_syntax::{Document, OutOfRange};
 use rustc_hash::FxHashMap;
 
 use crate::chunks::{Asking, Chunks, Storage, scene};
-use crate::snapshot::{LineEnds, Others};
+use crate::snapshot::LineEnds;
 use crate::states::Keeper;
 use crate::{Settings, Snapshot, StateAt};
 
@@ -248,6 +248,7 @@ impl Database {
     ) -> Result<(), Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
         open.analyse(&mut self.storage, stop)?;
+        let snapshot = open.snapshot();
         let settings = &open.settings;
         let dialect = Dialect::new(&settings.control);
         let source = Asking { storage: &self.storage, chunks: &open.chunks };
@@ -262,13 +263,11 @@ impl Database {
         if !open.incremental.show_again(&edited, &blocks, &mut keeper, &mut hand_on) {
             // The analysis had no path rules, or the switches of block delete are on for good.
             let mut keeper = Keeper::new(blocks);
-            let model = Model::new(&settings.control);
-            let library = Others(settings);
-            let loaded = Loaded::new(open.document.text(), &dialect, |_, _, _| ());
-            let program = Program::new(loaded, &dialect, &library);
             let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
-            flow(&program, &model, machine, Options::NONE, fuel, &mut keeper);
-            hand_on(&mut keeper, &mut Look::new(&program, &model, machine));
+            snapshot.with_program(|program, model| {
+                flow(program, model, machine, Options::NONE, fuel, &mut keeper);
+                hand_on(&mut keeper, &mut Look::new(program, model, machine));
+            });
         }
         if stop() { Err(Cancelled) } else { Ok(()) }
     }

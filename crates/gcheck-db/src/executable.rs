@@ -2,11 +2,10 @@
 //!
 //! Knows: how the document and the programs that it calls come together. Must not know: what is made of them.
 
-use gcheck_engine::{Model, Program};
+use gcheck_engine::{Library, Model, Program, SourceFile};
 use gcheck_program::{Dialect, Loaded};
 
-use crate::Snapshot;
-use crate::snapshot::Others;
+use crate::{Settings, Snapshot};
 
 impl Snapshot {
     /// Hands on the document with the programs that it may call, and its control, ready to be executed.
@@ -17,5 +16,18 @@ impl Snapshot {
         let library = Others(settings);
         let loaded = Loaded::new(self.text(), &dialect, |_, _, _| ());
         with(&Program::new(loaded, &dialect, &library), &model)
+    }
+}
+
+/// The engine's view of other programs.
+struct Others<'s>(&'s Settings);
+
+impl Library for Others<'_> {
+    fn by_number(&self, number: u32) -> Option<SourceFile> {
+        self.0.programs.source_of_number(number)
+    }
+
+    fn by_name(&self, name: &str) -> Option<SourceFile> {
+        self.0.programs.source_of_name(name)
     }
 }

@@ -4,13 +4,12 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use gcheck_controls::Control;
-use gcheck_engine::{Concrete, Library, Model, Observer, Options, Program, RunResult, SourceFile, run};
-use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Loaded, Outline, Survey, lower, profile};
+use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Outline, Survey, lower, profile};
 use gcheck_rules::Whole;
-use gcheck_syntax::{Document, Parse, SourceText, line_len, parse};
+use gcheck_syntax::{Document, Parse, line_len, parse};
 
 use crate::Settings;
 
@@ -27,6 +26,8 @@ struct Inner {
     /// Number of the first line of each chunk, and the number of line ends.
     lines: Vec<u32>,
     whole: OnceLock<Arc<Whole>>,
+    /// The chunk that was read last, with its blocks: who asks for one block asks for its neighbours next.
+    read: Mutex<Option<(usize, Arc<BlockTable>)>>,
 }
 
 /// A chunk of whole lines.
@@ -112,7 +113,7 @@ impl Snapshot {
             lines.push(line);
         }
         let whole = whole.map_or_else(OnceLock::new, OnceLock::from);
-        Self(Arc::new(Inner { document, settings, starts, lines, whole }))
+        Self(Arc::new(Inner { document, settings, starts, lines, whole, read: Mutex::default() }))
     }
 
     /// What is in force.
@@ -142,18 +143,17 @@ impl Snapshot {
 
     /// The chunks in order.
     pub fn chunks(&self) -> impl ExactSizeIterator<Item = ChunkText<'_>> {
-        let chunks = self.0.document.chunks();
-        chunks.iter().enumerate().map(|(index, text)| ChunkText {
-            index,
-            base: self.0.starts.get(index).copied().unwrap_or(0),
-            first_line: self.0.lines.get(index).copied().unwrap_or(0),
-            text,
-        })
+        self.0.document.chunks().iter().enumerate().map(|(index, text)| self.placed(index, text))
     }
 
     /// A chunk by its index.
     pub fn chunk(&self, index: usize) -> Option<ChunkText<'_>> {
-        self.chunks().nth(index)
+        self.0.document.chunks().get(index).map(|text| self.placed(index, text))
+    }
+
+    fn placed<'s>(&self, index: usize, text: &'s str) -> ChunkText<'s> {
+        let at = |places: &[u32]| places.get(index).copied().unwrap_or(0);
+        ChunkText { index, base: at(&self.0.starts), first_line: at(&self.0.lines), text }
     }
 
     /// The chunk that holds a byte; the last one for the end of the text. `None` in an empty document.
@@ -182,11 +182,6 @@ impl Snapshot {
     /// The whole text.
     pub fn text(&self) -> String {
         self.0.document.text()
-    }
-
-    /// The whole text as rules and fixes take it.
-    pub fn source(&self) -> SourceText {
-        SourceText::from(&*self.text())
     }
 
     /// Number of lines; the one behind the last line end counts, though it may be empty.
@@ -236,7 +231,13 @@ impl Snapshot {
 
     /// The blocks of a chunk.
     pub fn table(&self, chunk: usize) -> Option<Arc<BlockTable>> {
-        Some(Arc::new(lower(self.chunk(chunk)?.text, &self.dialect())))
+        let mut read = self.0.read.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, table)) = read.as_ref().filter(|(index, _)| *index == chunk) {
+            return Some(Arc::clone(table));
+        }
+        let table = Arc::new(lower(self.chunk(chunk)?.text, &self.dialect()));
+        *read = Some((chunk, Arc::clone(&table)));
+        Some(table)
     }
 
     /// The tree of a chunk.
@@ -260,15 +261,9 @@ impl Snapshot {
 
     /// The last block that begins at a byte or before it, on the byte's line or an earlier one.
     pub fn block_at(&self, offset: u32) -> Option<BlockPlace> {
-        let mut asked = None;
         let outline = self.outline();
-        let index = outline.chunk_at(offset)?;
-        let table = self.table(index)?;
-        let number = outline.block_at_offset(offset, |chunk| {
-            asked = Some(chunk);
-            Some(&*table)
-        })?;
-        self.place(number)
+        let table = self.table(outline.chunk_at(offset)?)?;
+        self.place(outline.block_at_offset(offset, |_| Some(&*table))?)
     }
 
     /// A block by its number.
@@ -278,29 +273,6 @@ impl Snapshot {
         let table = self.table(chunk)?;
         let ix = table.ix(index)?;
         Some(BlockPlace { number, table, ix, chunk, base })
-    }
-
-    /// Executes the document as `gcheck run` does, for what is made of its moves.
-    pub fn run<O: Observer<Concrete>>(&self, options: Options, fuel: u64, observer: O) -> RunResult {
-        let dialect = self.dialect();
-        let model = Model::new(self.control());
-        let library = Others(self.settings());
-        let loaded = Loaded::new(self.text(), &dialect, |_, _, _| ());
-        let program = Program::new(loaded, &dialect, &library);
-        run(&program, &model, &self.settings().machine.engine, options, fuel, observer)
-    }
-}
-
-/// The engine's view of other programs.
-pub(crate) struct Others<'s>(pub(crate) &'s Settings);
-
-impl Library for Others<'_> {
-    fn by_number(&self, number: u32) -> Option<SourceFile> {
-        self.0.programs.source_of_number(number)
-    }
-
-    fn by_name(&self, name: &str) -> Option<SourceFile> {
-        self.0.programs.source_of_name(name)
     }
 }
 
