@@ -3,8 +3,8 @@
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
 use gcheck_controls::{
-    CodeIx, CodeNumber, Control, Effect, GroupIx, Letter, LetterSet, Semantics, SystemVariable, Unpointed,
-    WordKind,
+    CodeIx, CodeNumber, Control, Effect, GroupIx, HelixFeed, Letter, LetterSet, Semantics, SystemVariable,
+    Unpointed, WordKind,
 };
 use rustc_hash::FxHashMap;
 
@@ -168,6 +168,9 @@ pub(crate) struct CodeModel {
     pub(crate) across: bool,
 }
 
+/// Value of the setting of helices that measures their feed along the path of the tool.
+const HELIX_BY_PATH: &str = "path";
+
 /// A control prepared for execution.
 #[derive(Debug, Clone)]
 pub struct Model<'c> {
@@ -302,6 +305,22 @@ impl<'c> Model<'c> {
     /// Where controls read one thing two ways.
     pub fn semantics(&self) -> &'c Semantics {
         self.control.semantics()
+    }
+
+    /// The work coordinate system before a program chooses one, 1 the first.
+    pub fn work_at_power_on(&self) -> Option<u16> {
+        match self.defaults.get(Role::WorkOffset.index()).map(|code| self.effect(*code)) {
+            Some(Effect::WorkOffset(number)) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// Is the feed of a helix measured along its circle? Otherwise it is along the path of the tool. As the setting that
+    /// decides is told to be, else as the control usually does.
+    pub fn feeds_helix_by_circle(&self, settings: &std::collections::BTreeMap<String, String>) -> bool {
+        let helix = &self.semantics().helix;
+        let told = helix.setting.as_deref().and_then(|number| settings.get(number));
+        told.map_or(helix.feed == HelixFeed::Circle, |value| value != HELIX_BY_PATH)
     }
 
     /// Units before a program says any: the power-on code's, or those of the setting that decides, told or assumed.

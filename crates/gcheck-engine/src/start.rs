@@ -66,10 +66,7 @@ pub(crate) fn start_state<D: Domain>(
         position,
         actual: position,
         tables: Rc::new(tables(machine)),
-        work: model.defaults.get(Role::WorkOffset.index()).and_then(|code| match model.effect(*code) {
-            gcheck_controls::Effect::WorkOffset(number) => Some(number),
-            _ => None,
-        }),
+        work: model.work_at_power_on(),
         in_effect: WorkOffset::UNKNOWN,
         shift: Position::ZERO,
         shift_on: true,

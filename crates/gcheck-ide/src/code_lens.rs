@@ -7,11 +7,11 @@ use std::ops::Range;
 use gcheck_db::Snapshot;
 use gcheck_engine::{Axis, Model, Units};
 use gcheck_geometry::Bounds;
-use gcheck_toolpath::{Section, Statistics, Values, View};
+use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
 
 use crate::figures::{clock, coordinate, plain, unit};
 use crate::parts::{ToolPart, parts};
-use crate::running::{LINEAR, run_through, timing, view, work_at_start};
+use crate::running::{LINEAR, run_through, view};
 
 /// What one run of a document amounts to. It takes a while: whoever shows it keeps it, and shows it until the next is there.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -56,7 +56,8 @@ pub struct CodeLens {
 pub fn figures(snapshot: &Snapshot, fuel: u64) -> RunFigures {
     let model = Model::new(snapshot.control());
     let view = view(snapshot, &model);
-    let mut statistics = Statistics::new(view, timing(snapshot), work_at_start(snapshot).number);
+    let timing = Timing::of_machine(&model, &snapshot.settings().machine.engine);
+    let mut statistics = Statistics::new(view, timing, model.work_at_power_on());
     let stopped = run_through(snapshot, fuel, &mut |step| statistics.add(step));
     let units = statistics.units();
     let total = statistics.total();

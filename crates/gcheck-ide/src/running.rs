@@ -4,14 +4,14 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CodeNumber, Effect, HelixFeed, Machine as MachineKind};
+use gcheck_controls::Machine as MachineKind;
 use gcheck_db::Snapshot;
 use gcheck_engine::{
     Axis, Concrete, Ending, Event, Model, Observer, Options, Origin, Program, State, Stop, Stopped, Units,
     run,
 };
 use gcheck_syntax::line_len;
-use gcheck_toolpath::{Spot, Step, Timing, View, WorkCoordinates};
+use gcheck_toolpath::{Spot, Step, View};
 
 use crate::reading::Reading;
 
@@ -45,36 +45,6 @@ pub(crate) fn view(snapshot: &Snapshot, model: &Model<'_>) -> View {
 /// Is the document turned?
 pub(crate) fn is_turned(snapshot: &Snapshot) -> bool {
     snapshot.control().machine() == MachineKind::Lathe
-}
-
-/// What times rest on.
-pub(crate) fn timing(snapshot: &Snapshot) -> Timing {
-    let machine = &snapshot.settings().machine.engine;
-    let timing = Timing::new(machine.rapid, machine.tool_change);
-    let helix = &snapshot.control().semantics().helix;
-    let told = helix.setting.as_deref().and_then(|number| machine.settings.get(number));
-    let by_circle = match told {
-        Some(value) => value != "path",
-        None => helix.feed == HelixFeed::Circle,
-    };
-    if by_circle { timing.with_helix_by_circle() } else { timing }
-}
-
-/// The work coordinate system at the start.
-pub(crate) fn work_at_start(snapshot: &Snapshot) -> WorkCoordinates {
-    let control = snapshot.control();
-    let defaults = control.groups().iter().filter_map(|group| group.default.as_ref());
-    let number = defaults.chain(&control.semantics().at_start).find_map(|name| {
-        match control.code(CodeNumber::parse(name)?)?.effect() {
-            Effect::WorkOffset(number) => Some(number),
-            _ => None,
-        }
-    });
-    let offset = number.and_then(|number| snapshot.settings().machine.engine.offsets.get(&number));
-    match offset {
-        Some(offset) => WorkCoordinates { number, origin: offset.origin, rotation: offset.rotation },
-        None => WorkCoordinates { number, ..WorkCoordinates::UNKNOWN },
-    }
 }
 
 /// Names of the axes X, Y and Z by their index in boxes.

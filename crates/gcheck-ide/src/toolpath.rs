@@ -4,13 +4,13 @@
 
 use gcheck_db::Snapshot;
 use gcheck_engine::Model;
-use gcheck_toolpath::Names;
 use gcheck_toolpath::plot::Plot;
+use gcheck_toolpath::{Names, Timing, WorkCoordinates};
 use serde::Serialize;
 use serde_json::Value;
 
 use crate::parts::tool_names;
-use crate::running::{is_turned, run_through, timing, view, work_at_start};
+use crate::running::{is_turned, run_through, view};
 
 /// Most segments of a toolpath; more are thinned, and it is said so.
 pub const MAX_SEGMENTS: usize = 200_000;
@@ -37,8 +37,10 @@ pub struct Toolpath {
 /// Runs the document for its toolpath, at most so many blocks.
 pub fn toolpath(snapshot: &Snapshot, fuel: u64, most_segments: usize) -> Toolpath {
     let model = Model::new(snapshot.control());
-    let mut plot =
-        Plot::new(view(snapshot, &model), timing(snapshot), work_at_start(snapshot), most_segments);
+    let machine = &snapshot.settings().machine.engine;
+    let timing = Timing::of_machine(&model, machine);
+    let work = WorkCoordinates::at_power_on(&model, machine);
+    let mut plot = Plot::new(view(snapshot, &model), timing, work, most_segments);
     if is_turned(snapshot) {
         plot = plot.for_lathe();
     }
@@ -48,13 +50,12 @@ pub fn toolpath(snapshot: &Snapshot, fuel: u64, most_segments: usize) -> Toolpat
     let tool = |tool| names.get(tool).map(str::to_owned);
     let mut notes = drawing.notes();
     notes.extend(stopped.clone());
-    let travel = &snapshot.settings().machine.engine.travel;
     Toolpath {
         data: drawing.to_json(&Names { tool: &tool, ..Names::NONE }),
         moves: drawing.moves(),
         seconds: drawing.seconds().0,
         notes,
-        travel: crate::running::LINEAR.map(|axis| travel.get(&axis).copied()),
+        travel: crate::running::LINEAR.map(|axis| machine.travel.get(&axis).copied()),
         stopped,
     }
 }

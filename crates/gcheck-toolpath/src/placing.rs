@@ -2,7 +2,7 @@
 //!
 //! Knows: shifts, offsets and rotations in effect. Must not know: which codes set them, what is made of the points.
 
-use gcheck_engine::{Axis, Event, Position};
+use gcheck_engine::{Axis, Event, Machine, Model, Position};
 
 /// A work coordinate system: its number and where it lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +18,17 @@ pub struct WorkCoordinates {
 impl WorkCoordinates {
     /// Nothing is known of them.
     pub const UNKNOWN: Self = Self { number: None, origin: Position::UNKNOWN, rotation: 0.0 };
+
+    /// The one in effect at power-on, as far as the machine's offsets are told.
+    pub fn at_power_on(model: &Model<'_>, machine: &Machine) -> Self {
+        let number = model.work_at_power_on();
+        let offset = number.and_then(|number| machine.offsets.get(&number));
+        offset.map_or(Self { number, ..Self::UNKNOWN }, |offset| Self {
+            number,
+            origin: offset.origin,
+            rotation: offset.rotation,
+        })
+    }
 }
 
 /// Follows offsets and shifts. Has to see every event of the run, in order.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use gcheck_engine::{Axis, Event, FeedMode, Override, Position, Units};
+use gcheck_engine::{Axis, Event, FeedMode, Machine, Model, Override, Position, Units};
 use gcheck_geometry::{Mm, MmPerMin, Seconds};
 
 use crate::motion::{Cover, Motion, Tracker, Way, cover};
@@ -53,6 +53,12 @@ impl Timing {
             helix_by_circle: false,
             feed_override: 1.0,
         }
+    }
+
+    /// Of a control with a machine: its rates, and how it measures the feed of helices.
+    pub fn of_machine(model: &Model<'_>, machine: &Machine) -> Self {
+        let timing = Self::new(machine.rapid, machine.tool_change);
+        if model.feeds_helix_by_circle(&machine.settings) { timing.with_helix_by_circle() } else { timing }
     }
 
     /// With the feed of a helix measured along its circle in the plane, so that the tool itself is faster; along the path of

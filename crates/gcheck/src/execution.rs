@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use gcheck_controls::Control;
-use gcheck_engine::{Axis, Model, Options, Program, Role, RunResult, Stopped};
+use gcheck_engine::{Axis, Model, Options, Program, RunResult, Stopped};
 use gcheck_program::{Dialect, Loaded, ToolNames};
 use gcheck_report::ControlChoice;
 use gcheck_syntax::SourceText;
@@ -148,14 +148,6 @@ impl Session<'_> {
     fn view(&self, axes: &[Axis]) -> View {
         let view = View::new(axes);
         if self.model.semantics().diameter { view.with_diameters() } else { view }
-    }
-
-    /// Number of the work coordinate system at the start.
-    pub(crate) fn work_at_start(&self) -> Option<u16> {
-        equipment::start_code(self.model, Role::WorkOffset).and_then(|code| match self.model.effect(code) {
-            gcheck_controls::Effect::WorkOffset(number) => Some(number),
-            _ => None,
-        })
     }
 }
 

@@ -126,7 +126,7 @@ fn acts(batches: Receiver<Vec<Act>>) -> impl Iterator<Item = Act> {
 
 fn run_one(prepared: &Prepared, to: SyncSender<Vec<Act>>) -> Ran {
     prepared.session(|session| {
-        let trail = Trail::new(session.work_at_start());
+        let trail = Trail::new(session.model.work_at_power_on());
         let sender = Sender { trail, batch: Vec::with_capacity(BATCH), to, inch: 0, mm: 0 };
         let control = execution::control_line(session);
         let units = prepared.equipment.units;

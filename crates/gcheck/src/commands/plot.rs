@@ -66,11 +66,7 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
 
 fn draw(session: &Session<'_>) -> Result<(RunResult, Drawing), Problem> {
     let equipment = &session.prepared.equipment;
-    let number = session.work_at_start();
-    let offset = number.and_then(|number| equipment.machine.offsets.get(&number));
-    let work = offset.map_or(WorkCoordinates { number, ..WorkCoordinates::UNKNOWN }, |offset| {
-        WorkCoordinates { number, origin: offset.origin, rotation: offset.rotation }
-    });
+    let work = WorkCoordinates::at_power_on(session.model, &equipment.machine);
     let mut plot = Plot::new(session.all_axes(), equipment.timing, work, MAX_POINTS);
     if session.model.control().machine() == gcheck_controls::Machine::Lathe {
         plot = plot.for_lathe();

@@ -72,7 +72,7 @@ fn print(session: &Session<'_>, format: RunFormat, out: &mut dyn Write) -> io::R
 
 /// What is in effect before the first block.
 fn start(session: &Session<'_>) -> Start {
-    let work = session.work_at_start().unwrap_or(1);
+    let work = session.model.work_at_power_on().unwrap_or(1);
     let offset = session.prepared.equipment.machine.offsets.get(&work);
     let known = Start { work, ..Start::default() };
     offset.map_or(known, |offset| Start { offset: offset.origin, rotation: offset.rotation, ..known })

@@ -27,7 +27,7 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
             execution::say(&execution::control_line(session));
         }
         let timing = session.prepared.equipment.timing;
-        let statistics = Statistics::new(session.used_axes(), timing, session.work_at_start());
+        let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on());
         let (ran, statistics) = session
             .run(statistics)
             .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;

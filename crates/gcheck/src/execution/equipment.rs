@@ -5,8 +5,8 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gcheck_controls::{CodeIx, CodeNumber, Control, Effect, HelixFeed, Letter, LetterSet, Unset};
-use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Role, Tool, Units, WorkOffset};
+use gcheck_controls::{CodeNumber, Control, Effect, Letter, LetterSet, Unset};
+use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
 use gcheck_toolpath::{Step, Timing};
@@ -33,9 +33,6 @@ pub(crate) struct Equipment {
     /// Remarks of the table on disk.
     pub(crate) remarks: BTreeMap<u32, String>,
 }
-
-/// Value of the setting of helices that measures their feed along the path of the tool.
-const HELIX_BY_PATH: &str = "path";
 
 /// From where programs are executed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,30 +81,17 @@ impl Equipment {
             feed_override = layer.machine.feed_override.as_ref().map(|part| part.value).or(feed_override);
         }
         equipment.machine.kinematics = rotary.kinematics();
-        equipment.timing = Timing::new(equipment.machine.rapid, equipment.machine.tool_change);
+        equipment.timing = Timing::of_machine(model, &equipment.machine);
         if let Some(rate) = rotary_rapid {
             equipment.timing = equipment.timing.with_rotary_rapid(rate);
         }
         if let Some(percent) = feed_override {
             equipment.timing = equipment.timing.with_feed_override(percent);
         }
-        equipment.put_helix_feed(control);
+        let helix = control.semantics().helix.setting.as_ref();
+        equipment.helix_setting =
+            helix.filter(|number| !equipment.machine.settings.contains_key(*number)).cloned();
         Ok(equipment)
-    }
-
-    /// What the feed of a helix is measured along: as a setting says, else as the control usually does.
-    fn put_helix_feed(&mut self, control: &Control) {
-        let helix = &control.semantics().helix;
-        let setting = helix.setting.as_deref();
-        let told = setting.and_then(|number| self.machine.settings.get(number));
-        let by_circle = match told {
-            Some(value) => value != HELIX_BY_PATH,
-            None => helix.feed == HelixFeed::Circle,
-        };
-        if by_circle {
-            self.timing = self.timing.with_helix_by_circle();
-        }
-        self.helix_setting = setting.filter(|_| told.is_none()).map(str::to_owned);
     }
 
     fn put(&mut self, layer: &ExecutionFacts, units: Units, control: &Control) -> Result<(), Problem> {
@@ -226,17 +210,6 @@ fn axis_of(name: &str) -> Option<Axis> {
 
 fn in_mm(axis: Axis, value: f64, mm: f64) -> f64 {
     if axis.is_rotary() { value } else { value * mm }
-}
-
-/// The code of a role that is in effect at power-on.
-pub(super) fn start_code(model: &Model<'_>, role: Role) -> Option<CodeIx> {
-    let control = model.control();
-    let defaults = control.groups().iter().filter_map(|group| group.default.as_ref());
-    let of_role = |name: &String| {
-        let code = control.code_ix(CodeNumber::parse(name)?);
-        (code.is_some() && model.role(code) == Some(role)).then_some(code)
-    };
-    defaults.chain(&model.semantics().at_start).filter_map(of_role).next_back()
 }
 
 /// The number of a work offset as a configuration names it: `G54`, `G154 P3`.
