@@ -19,6 +19,7 @@ mod letter_set;
 mod loader;
 mod schema;
 mod validate;
+mod wording;
 
 pub use bar_feeder::BarFeederRules;
 pub use code_number::CodeNumber;

@@ -171,7 +171,7 @@ impl Cx<'_> {
             Subject::Function(_, name) => {
                 let known = self.control().functions().iter().find(|function| function.name == *name);
                 parts.extend(known.map(|function| {
-                    let unsure = describe::unverified(function.confidence);
+                    let unsure = function.confidence.remark();
                     format!("**{name}** {}\n\n*{}{unsure}*", function.title, function.source)
                 }));
             }
@@ -305,7 +305,7 @@ impl Cx<'_> {
                 )
             }
             (None, _, Some(entry)) => {
-                format!("**{}** {}, {}", word.letter, entry.is, describe::kind(entry.kind))
+                format!("**{}** {}, {}", word.letter, entry.is, entry.kind.in_words())
             }
             (None, _, None) => format!("**{}** no address of {}", word.letter, control.title()),
         };

@@ -5,7 +5,7 @@
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-use gcheck_controls::{Code, CodeNumber, Confidence, Control, Need, WordEntry, WordKind};
+use gcheck_controls::{Code, CodeNumber, Confidence, Control, WordEntry};
 use gcheck_rules::RuleMeta;
 
 use super::{chosen_control, columns};
@@ -96,6 +96,7 @@ fn of_code(control: &Control, code: Code<'_>) -> String {
             let _ = write!(page, "\n{title}: {text}");
         }
     };
+    let references = |items: &[String]| control.references_in_words(items, str::to_owned);
     let group = code.group();
     let number = group.number.as_ref().map(|n| format!(" (group {n})")).unwrap_or_default();
     let default = if group.default.as_deref() == Some(&entry.code) { ", active at power-on" } else { "" };
@@ -103,10 +104,10 @@ fn of_code(control: &Control, code: Code<'_>) -> String {
     line("group", format!("{}{number}, {stays}{default}", group.title));
     line("requires", entry.requires.join(", "));
     line("recommends", entry.recommends.join(", "));
-    line("not while it is active", references(control, &entry.forbids));
-    line("not in the same block", references(control, &entry.conflicts));
-    line("ends", references(control, &entry.cancels));
-    line("ended by", references(control, &entry.cancelled_by));
+    line("not while it is active", references(&entry.forbids));
+    line("not in the same block", references(&entry.conflicts));
+    line("ends", references(&entry.cancels));
+    line("ended by", references(&entry.cancelled_by));
     line("needs the option", entry.option.clone().unwrap_or_default());
     page.push('\n');
     if !entry.words.is_empty() {
@@ -119,74 +120,21 @@ fn of_code(control: &Control, code: Code<'_>) -> String {
         page.push_str("\nAlarms\n");
         for alarm in &entry.alarms {
             let number = alarm.number.as_ref().map(|n| format!("{n} ")).unwrap_or_default();
-            let _ = writeln!(page, "  {number}{}{}", alarm.text, unverified(alarm.confidence));
+            let _ = writeln!(page, "  {number}{}{}", alarm.text, alarm.confidence.remark());
         }
     }
     page.push_str("\nExample\n");
     for block in entry.setup.iter().chain([&entry.example]) {
         let _ = writeln!(page, "  {block}");
     }
-    let _ = writeln!(page, "\nSource: {}{}", entry.source, unverified(entry.confidence));
+    let _ = writeln!(page, "\nSource: {}{}", entry.source, entry.confidence.remark());
     page
-}
-
-/// Codes as they are, groups by what they decide.
-fn references(control: &Control, items: &[String]) -> String {
-    let name = |item: &String| match item.strip_prefix('@') {
-        Some(id) => control
-            .group_by_id(id)
-            .map_or_else(|| id.to_owned(), |ix| format!("all of {}", control.group(ix).title)),
-        None => item.clone(),
-    };
-    items.iter().map(name).collect::<Vec<_>>().join(", ")
 }
 
 fn words(words: &[WordEntry]) -> String {
     let row = |word: &WordEntry| {
-        let need = match word.need {
-            Need::Required => "required".to_owned(),
-            Need::Modal => "here or earlier".to_owned(),
-            Need::Optional => {
-                word.default.as_ref().map_or_else(|| "optional".to_owned(), |d| format!("optional, else {d}"))
-            }
-            Need::Conditional => word.when.clone().unwrap_or_else(|| "sometimes".to_owned()),
-        };
-        let range = match (word.min, word.max, word.above) {
-            (Some(min), Some(max), _) => format!(", {min} to {max}"),
-            (Some(min), None, _) => format!(", from {min}"),
-            (None, Some(max), _) => format!(", up to {max}"),
-            (None, None, Some(above)) => format!(", above {above}"),
-            (None, None, None) => String::new(),
-        };
-        let is = format!("{}{}", word.is, word.confidence.map_or("", unverified));
-        vec![format!("  {}", word.letter), format!("{}{range}", kind(word.kind)), need, is]
+        let is = format!("{}{}", word.is, word.confidence.map_or("", Confidence::remark));
+        vec![format!("  {}", word.letter), word.values_in_words(), word.need_in_words(), is]
     };
     columns(&words.iter().map(row).collect::<Vec<_>>())
-}
-
-fn kind(kind: WordKind) -> &'static str {
-    match kind {
-        WordKind::Length => "length",
-        WordKind::Angle => "degrees",
-        WordKind::Direction => "direction number",
-        WordKind::Integer => "whole number",
-        WordKind::Real => "number",
-        WordKind::Feed => "feed rate",
-        WordKind::Speed => "spindle speed",
-        WordKind::SecondsOrMilliseconds => "seconds with a decimal point, milliseconds without",
-        WordKind::Seconds => "seconds",
-        WordKind::Milliseconds => "milliseconds",
-        WordKind::Label => "sequence number",
-        WordKind::Program => "program number",
-        WordKind::Ratio => "factor",
-        WordKind::Flag => "presence counts",
-    }
-}
-
-fn unverified(confidence: Confidence) -> &'static str {
-    match confidence {
-        Confidence::Manual => "",
-        Confidence::Observed => " (seen on real programs)",
-        Confidence::Assumed => " (unverified)",
-    }
 }
