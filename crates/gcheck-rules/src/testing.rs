@@ -194,3 +194,9 @@ pub(crate) fn fixed(program: &str, finding: &Finding) -> String {
     }
     text
 }
+
+/// The program with the first fix of a rule's finding applied; of several findings, a program each. Empty without one.
+pub(crate) fn mended(rule: &RuleEntry, control: &str, program: &str) -> String {
+    let found = findings(&Selection::only(rule), control, program, &World::default());
+    found.iter().map(|finding| fixed(program, finding)).collect()
+}

@@ -52,18 +52,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended("haas-mill", "G1 X1. Y1. F1.\nX2.Y2.(A)\n"), "G1 X1. Y1. F1.\nX2. Y2.(A)\n");
-        assert_eq!(mended("haas-mill", "G1X1.Y1.F1.\nX2.  Y2.\n"), "G1X1.Y1.F1.\nX2.Y2.\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G1 X1. Y1. F1.\nX2.Y2.(A)\n"), "G1 X1. Y1. F1.\nX2. Y2.(A)\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G1X1.Y1.F1.\nX2.  Y2.\n"), "G1X1.Y1.F1.\nX2.Y2.\n");
     }
 
     #[test]

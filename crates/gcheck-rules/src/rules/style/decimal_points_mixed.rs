@@ -57,18 +57,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended("linuxcnc", "G0 X1. Y2.\nX-3\n"), "G0 X1. Y2.\nX-3.\n");
-        assert_eq!(mended("linuxcnc", "G0 X1 Y2\nX-3.\n"), "G0 X1 Y2\nX-3\n");
+        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1. Y2.\nX-3\n"), "G0 X1. Y2.\nX-3.\n");
+        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1 Y2\nX-3.\n"), "G0 X1 Y2\nX-3\n");
     }
 
     #[test]

@@ -54,18 +54,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_fix_ends_it_as_other_lines_end() {
-        assert_eq!(mended("haas-mill", "G0 X1.\r\nM30"), "G0 X1.\r\nM30\r\n");
-        assert_eq!(mended("haas-mill", "M30"), "M30\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\r\nM30"), "G0 X1.\r\nM30\r\n");
+        assert_eq!(mended(&RULE, "haas-mill", "M30"), "M30\n");
         check_rule(&RULE, "haas-mill", "M30\n  ", &expect![[""]]);
     }
 }

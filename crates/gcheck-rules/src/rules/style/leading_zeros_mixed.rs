@@ -58,13 +58,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn letters_are_counted_apart() {
@@ -83,7 +77,13 @@ mod tests {
 
     #[test]
     fn the_fix_makes_one_hand_of_it() {
-        assert_eq!(mended("haas-mill", "G00 X1.\nG01 X2. F1.\nG1 X0.\n"), "G00 X1.\nG01 X2. F1.\nG01 X0.\n");
-        assert_eq!(mended("haas-mill", "G0 X1.\nG1 X2. F1.\nG01 X0.\n"), "G0 X1.\nG1 X2. F1.\nG1 X0.\n");
+        assert_eq!(
+            mended(&RULE, "haas-mill", "G00 X1.\nG01 X2. F1.\nG1 X0.\n"),
+            "G00 X1.\nG01 X2. F1.\nG01 X0.\n"
+        );
+        assert_eq!(
+            mended(&RULE, "haas-mill", "G0 X1.\nG1 X2. F1.\nG01 X0.\n"),
+            "G0 X1.\nG1 X2. F1.\nG1 X0.\n"
+        );
     }
 }

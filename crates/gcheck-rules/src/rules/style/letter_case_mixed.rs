@@ -53,18 +53,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended("linuxcnc", "G0 X1 Y1\ng1 X2 f100\n"), "G0 X1 Y1\nG1 X2 F100\n");
-        assert_eq!(mended("linuxcnc", "g0 x1 y1\nG1 x2 f100\n"), "g0 x1 y1\ng1 x2 f100\n");
+        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1 Y1\ng1 X2 f100\n"), "G0 X1 Y1\nG1 X2 F100\n");
+        assert_eq!(mended(&RULE, "linuxcnc", "g0 x1 y1\nG1 x2 f100\n"), "g0 x1 y1\ng1 x2 f100\n");
     }
 
     #[test]

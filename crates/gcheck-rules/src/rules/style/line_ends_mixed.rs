@@ -53,18 +53,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_fix_follows_the_many() {
         check_rule(&RULE, "haas-mill", "G0 X1.\r\nX2.\r\n", &expect![[""]]);
-        assert_eq!(mended("haas-mill", "G0 X1.\r\nX2.\nX3.\r\n"), "G0 X1.\r\nX2.\r\nX3.\r\n");
-        assert_eq!(mended("haas-mill", "G0 X1.\nX2.\r\nX3.\n"), "G0 X1.\nX2.\nX3.\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\r\nX2.\nX3.\r\n"), "G0 X1.\r\nX2.\r\nX3.\r\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\nX2.\r\nX3.\n"), "G0 X1.\nX2.\nX3.\n");
     }
 }

@@ -65,18 +65,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn all_signs_are_taken_away() {
         assert_eq!(
-            mended("haas-mill", "G1 X-0. Y-.0\nZ-0.000 F1.\nX-0.001\n"),
+            mended(&RULE, "haas-mill", "G1 X-0. Y-.0\nZ-0.000 F1.\nX-0.001\n"),
             "G1 X0. Y.0\nZ0.000 F1.\nX-0.001\n"
         );
         check_rule(&RULE, "haas-mill", "G1 X0. Y[-0]\n", &expect![[""]]);

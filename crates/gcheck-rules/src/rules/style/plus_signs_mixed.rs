@@ -50,17 +50,11 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_sign_is_dropped() {
-        assert_eq!(mended("haas-mill", "G1 X1. Y2.\nX+3.\n"), "G1 X1. Y2.\nX3.\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G1 X1. Y2.\nX+3.\n"), "G1 X1. Y2.\nX3.\n");
         check_rule(&RULE, "haas-mill", "G1 X+1. Y+2. F1.\nX+3.\n", &expect![[""]]);
     }
 }

@@ -70,17 +70,14 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn comments_keep_theirs() {
-        assert_eq!(mended("linuxcnc", "G0\tX1 ; a\tb\n(c\td)\tG1 X2\n"), "G0 X1 ; a\tb\n(c\td) G1 X2\n");
+        assert_eq!(
+            mended(&RULE, "linuxcnc", "G0\tX1 ; a\tb\n(c\td)\tG1 X2\n"),
+            "G0 X1 ; a\tb\n(c\td) G1 X2\n"
+        );
         check_rule(&RULE, "linuxcnc", "(a\tb)\n;\t(c\n", &expect![[""]]);
     }
 }

@@ -63,17 +63,11 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn line_ends_and_blank_lines_stay() {
-        assert_eq!(mended("haas-mill", "G0 X1. \t\r\n  \r\nM30 \n"), "G0 X1.\r\n  \r\nM30\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G0 X1. \t\r\n  \r\nM30 \n"), "G0 X1.\r\n  \r\nM30\n");
         check_rule(&RULE, "haas-mill", "G0 X1.\n   \n", &expect![[""]]);
     }
 }

@@ -50,13 +50,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn nought_itself_is_neither_way() {
@@ -65,7 +59,7 @@ mod tests {
 
     #[test]
     fn the_fix_writes_or_drops_the_zero() {
-        assert_eq!(mended("haas-mill", "G1 X0.5 Y-0.5\nX-.25\n"), "G1 X0.5 Y-0.5\nX-0.25\n");
-        assert_eq!(mended("haas-mill", "G1 X.5 Y-.5\nX-0.25\n"), "G1 X.5 Y-.5\nX-.25\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G1 X0.5 Y-0.5\nX-.25\n"), "G1 X0.5 Y-0.5\nX-0.25\n");
+        assert_eq!(mended(&RULE, "haas-mill", "G1 X.5 Y-.5\nX-0.25\n"), "G1 X.5 Y-.5\nX-.25\n");
     }
 }

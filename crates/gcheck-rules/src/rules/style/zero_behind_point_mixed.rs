@@ -49,18 +49,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
-
-    fn mended(control: &str, program: &str) -> String {
-        let found = findings(&Selection::only(&RULE), control, program, &World::default());
-        found.iter().map(|finding| fixed(program, finding)).collect()
-    }
+    use crate::testing::{check_rule, mended};
 
     #[test]
     fn the_point_stays() {
-        assert_eq!(mended("fanuc-mill", "G1 X1. Y2.\nX3.000\n"), "G1 X1. Y2.\nX3.\n");
-        assert_eq!(mended("fanuc-mill", "G1 X1.0 Y2.0\nX3.\n"), "G1 X1.0 Y2.0\nX3.0\n");
+        assert_eq!(mended(&RULE, "fanuc-mill", "G1 X1. Y2.\nX3.000\n"), "G1 X1. Y2.\nX3.\n");
+        assert_eq!(mended(&RULE, "fanuc-mill", "G1 X1.0 Y2.0\nX3.\n"), "G1 X1.0 Y2.0\nX3.0\n");
     }
 
     #[test]
