@@ -2,12 +2,10 @@
 //!
 //! Knows: when a block's words mean what the control's data says. Must not know: any rule.
 
-use std::ops::Range;
-
 use gcheck_controls::{Code, Letter, LetterSet};
-use gcheck_program::{BlockFlags, Value, Word, lower};
+use gcheck_program::{BlockFlags, Value, Word};
 
-use crate::{BlockCx, FileCx};
+use crate::BlockCx;
 
 impl<'a> BlockCx<'a> {
     /// Do the block's words mean what its codes say? Not after a mistake in form, beside a code that is computed, unknown
@@ -50,45 +48,6 @@ impl<'a> BlockCx<'a> {
         word.map_or("", |word| self.text(word))
     }
 }
-
-impl FileCx<'_> {
-    /// Reads a block again that the survey remembers by its place, and gives it to `look`.
-    pub(crate) fn reread(&self, place: Range<u32>, mut look: impl FnMut(&BlockCx<'_>)) {
-        let base = place.start;
-        let text = self.slice(place);
-        let table = lower(text, self.scene.dialect);
-        for (ix, block) in table.blocks() {
-            look(&BlockCx { scene: self.scene, table: &table, ix, block, text, base });
-        }
-    }
-
-    /// Reads the file again, block by block. A rule that is on by default has no business here: it asks the survey.
-    pub(crate) fn each_block(&self, mut look: impl FnMut(&BlockCx<'_>)) {
-        let text = self.slice(0..self.region.end);
-        for chunk in gcheck_syntax::cuts(text) {
-            let base = chunk.start as u32;
-            let text = text.get(chunk).unwrap_or_default();
-            let table = lower(text, self.scene.dialect);
-            for (ix, block) in table.blocks() {
-                look(&BlockCx { scene: self.scene, table: &table, ix, block, text, base });
-            }
-        }
-    }
-
-    /// The line around a place, at most [`LINE`] bytes of it on either side.
-    pub(crate) fn line_around(&self, place: Range<u32>) -> Range<u32> {
-        let (base, text) = self.text.around(place.start);
-        let is_end = |byte: &&u8| matches!(byte, b'\n' | b'\r');
-        let inside = place.start.saturating_sub(base) as usize;
-        let (head, tail) = text.as_bytes().split_at_checked(inside).unwrap_or_default();
-        let before = head.iter().rev().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
-        let behind = tail.iter().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
-        place.start - before..place.start + behind
-    }
-}
-
-/// No line of a control is longer; a file of one long line is not read again and again.
-const LINE: usize = 1024;
 
 /// The addresses of an item of `one-of` or `not-together`: `R`, `,C`, `@` or several letters as `IJK`.
 pub(crate) fn letters_of(item: &str) -> LetterSet {

@@ -23,6 +23,7 @@ mod mistakes;
 mod parting;
 mod paths;
 mod probing;
+mod rereading;
 mod rules;
 mod schemes;
 mod sections;

@@ -126,7 +126,9 @@ impl Writing {
                 this.blanks(block, words);
             }
         });
-        this.line_ends(cx.slice(0..cx.region.end));
+        for (base, piece) in cx.pieces() {
+            this.line_ends(base, piece);
+        }
         this
     }
 
@@ -222,10 +224,10 @@ impl Writing {
         }
     }
 
-    fn line_ends(&mut self, text: &str) {
+    fn line_ends(&mut self, base: u32, text: &str) {
         for at in memchr::memchr_iter(b'\n', text.as_bytes()) {
             let has_return = at > 0 && text.as_bytes().get(at - 1) == Some(&b'\r');
-            let at = at as u32;
+            let at = base + at as u32;
             self.see(Question::LineEnd, has_return, if has_return { at - 1..at } else { at..at });
         }
     }

@@ -54,7 +54,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         (None, Some(code)) => (code, false),
         _ => return,
     };
-    for (start, line) in head(cx) {
+    for (start, line) in cx.lines().take(HEAD_LINES) {
         let Some(open) = line.find(['(', ';']) else { continue };
         let Some((says_inch, place)) = units_of(line.get(open..).unwrap_or_default()) else { continue };
         if says_inch == is_inch {
@@ -65,18 +65,6 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         report.add(finding(cx, place, code.1.clone(), is_inch));
         return;
     }
-}
-
-/// The first lines of the file, each with its offset.
-fn head<'a>(cx: &FileCx<'a>) -> impl Iterator<Item = (u32, &'a str)> {
-    let end = cx.region.end;
-    let pieces = cx.text.from(0).take_while(move |(base, _)| *base < end);
-    let lines = pieces.flat_map(move |(base, piece)| {
-        let read = piece.get(..(end - base) as usize).unwrap_or(piece);
-        let offset = move |line: &str| base + (line.as_ptr() as usize - read.as_ptr() as usize) as u32;
-        read.lines().map(move |line| (offset(line), line))
-    });
-    lines.take(HEAD_LINES)
 }
 
 /// The units that a comment says the program has: it must speak of units.

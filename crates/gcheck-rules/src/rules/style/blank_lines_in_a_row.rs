@@ -36,17 +36,13 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let text = cx.slice(0..cx.region.end);
     let mut edits = Vec::new();
-    let (mut start, mut blanks) = (0, 0_usize);
-    while let Some(rest) = text.get(start..).filter(|rest| !rest.is_empty()) {
-        let end = start + gcheck_syntax::line_len(rest.as_bytes());
-        let is_blank = text.get(start..end).unwrap_or_default().trim().is_empty();
-        blanks = if is_blank { blanks + 1 } else { 0 };
+    let mut blanks = 0_usize;
+    for (start, line) in cx.lines() {
+        blanks = if line.trim().is_empty() { blanks + 1 } else { 0 };
         if blanks > 1 && edits.len() < MOST_PLACES {
-            edits.push(Edit { range: start as u32..end as u32, text: String::new() });
+            edits.push(Edit { range: start..start + line.len() as u32, text: String::new() });
         }
-        start = end;
     }
     let Some(first) = edits.first() else { return };
     report.add(

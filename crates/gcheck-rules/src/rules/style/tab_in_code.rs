@@ -35,12 +35,12 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let text = cx.slice(0..cx.region.end);
     let semicolon_comments = cx.control().syntax().semicolon == Semicolon::Comment;
     let mut edits = Vec::new();
     // What stands in brackets may be text that is printed.
     let (mut in_comment, mut to_line_end, mut depth) = (false, false, 0_u32);
-    for (at, byte) in text.bytes().enumerate() {
+    let bytes = cx.pieces().flat_map(|(base, piece)| (base..).zip(piece.bytes()));
+    for (at, byte) in bytes {
         match byte {
             b'\n' | b'\r' => (in_comment, to_line_end, depth) = (false, false, 0),
             b'(' if !to_line_end => in_comment = true,
@@ -50,7 +50,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             b'[' => depth += 1,
             b']' => depth = depth.saturating_sub(1),
             b'\t' if depth == 0 && edits.len() < MOST_PLACES => {
-                edits.push(Edit { range: at as u32..at as u32 + 1, text: " ".to_owned() });
+                edits.push(Edit { range: at..at + 1, text: " ".to_owned() });
             }
             _ => {}
         }

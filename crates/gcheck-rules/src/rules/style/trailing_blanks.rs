@@ -34,14 +34,13 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let text = cx.slice(0..cx.region.end);
     let mut edits = Vec::new();
-    for line in text.split(['\n', '\r']) {
+    for (start, line) in cx.lines() {
+        let line = line.trim_end_matches(['\n', '\r']);
         let kept = line.trim_end_matches([' ', '\t']).len();
         // A blank line belongs to another rule.
         if kept > 0 && kept < line.len() && edits.len() < MOST_PLACES {
-            let start = line.as_ptr() as usize - text.as_ptr() as usize;
-            let range = (start + kept) as u32..(start + line.len()) as u32;
+            let range = start + kept as u32..start + line.len() as u32;
             edits.push(Edit { range, text: String::new() });
         }
     }
