@@ -2,7 +2,7 @@
 //!
 //! Knows: where a baseline lies and what files are called in it. Must not know: its form, rules, formats.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -94,9 +94,14 @@ fn name_in(folder: &Path, shown: &str) -> String {
 }
 
 fn words(path: &Path, stale: &[StaleEntry]) -> String {
+    // What was found many times in a file is named once.
+    let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for entry in stale {
+        *counts.entry((&entry.file, &entry.rule)).or_default() += 1;
+    }
     let named: Vec<String> =
-        stale.iter().take(NAMED).map(|entry| format!("{} of {}", entry.rule, entry.file)).collect();
-    let more = match stale.len().saturating_sub(NAMED) {
+        counts.keys().take(NAMED).map(|(file, rule)| format!("{rule} of {file}")).collect();
+    let more = match counts.values().skip(NAMED).sum::<usize>() {
         0 => String::new(),
         more => format!(" and {more} more"),
     };

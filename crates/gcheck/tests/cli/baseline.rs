@@ -58,6 +58,20 @@ fn what_is_new_does() {
 }
 
 #[test]
+fn what_was_found_many_times_in_a_file_is_named_once() {
+    let shop = shop();
+    shop.file("a.nc", BAD.replace("G999", "G999\nG999\nG999"));
+    update(&shop);
+    shop.file("a.nc", GOOD);
+    expect![[r#"
+        ! gcheck-baseline.json: 3 entries are stale, nothing is found there any more: unknown-code of a.nc; `--update-baseline` drops them
+        ! a.nc and 1 more file: control haas-mill, set by `--control`
+        ! no findings in 2 files (11 lines); 1 in the baseline
+        exit 0
+    "#]].assert_eq(&shop.gcheck(CHECK).to_string());
+}
+
+#[test]
 fn what_is_mended_is_stale_until_the_next_update() {
     let shop = shop();
     update(&shop);

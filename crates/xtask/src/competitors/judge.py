@@ -5,20 +5,26 @@ found.
 
 A mistake counts as found by a checker when it says anything, anywhere in the program, that it does not say about the program
 without the mistake: numbers in a message (lines, values) do not make it another one. That is more than gcheck is given.
+A checker that does not come to an end with a program in SECONDS says "does not end".
 """
 
 import collections
 import contextlib
+import functools
 import io
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from importlib import metadata
 from pathlib import Path
+
+SECONDS = 10
+ENDLESS = "does not end"
 
 MILLS = ("haas-mill", "fanuc-mill", "generic-mill")
 LATHES = ("haas-lathe", "fanuc-lathe")
@@ -69,9 +75,11 @@ def gcodeclean():
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder) / "program.gcode"
             shutil.copy(path, copy)
-            run = subprocess.run(
-                [binary, "clean", "--filename", copy], cwd=folder, capture_output=True, text=True, timeout=60
-            )
+            command = [binary, "clean", "--filename", copy]
+            try:
+                run = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=SECONDS)
+            except subprocess.TimeoutExpired:
+                return [ENDLESS]
             made = (Path(folder) / "program-gcc.gcode").exists()
             failed = [] if run.returncode == 0 and made else ["failed"]
             return failed + run.stderr.splitlines()
@@ -91,13 +99,33 @@ def rs274():
             home = dict(os.environ, HOME=folder)
             command = [program, "-t", table, "-v", f"{folder}/sim.var", "-g", path]
             try:
-                run = subprocess.run(command, cwd=folder, env=home, capture_output=True, text=True, timeout=20)
+                run = subprocess.run(command, cwd=folder, env=home, capture_output=True, text=True, timeout=SECONDS)
             except subprocess.TimeoutExpired:
-                return ["does not end"]
+                return [ENDLESS]
             # It stops at the first mistake: what it says is one message.
             return [] if run.returncode == 0 else [run.stderr.strip().splitlines()[0] if run.stderr.strip() else "stops"]
 
     return ("linuxcnc",), messages
+
+
+class TimeIsUp(BaseException):
+    """No `Exception`: a checker may catch those and go on."""
+
+
+def within_limit(messages, path, control):
+    """For a checker that runs in this process."""
+
+    def stop(*_):
+        raise TimeIsUp
+
+    signal.signal(signal.SIGALRM, stop)
+    signal.alarm(SECONDS)
+    try:
+        return messages(path, control)
+    except TimeIsUp:
+        return [ENDLESS]
+    finally:
+        signal.alarm(0)
 
 
 def told(messages, path, control):
@@ -134,6 +162,9 @@ def main():
         if not controls:
             print(f"about\t*{name}* was not at hand.")
             continue
+        is_apart = make in (gcodeclean, rs274)
+        if not is_apart:
+            messages = functools.partial(within_limit, messages)
         mine = [row for row in rows if row[3] in controls]
         clean = {}
         for _, path, _, control in mine:
@@ -146,7 +177,7 @@ def main():
             return bool(told(messages, folder / row[0], row[3]) - clean[row[1]])
 
         # Programs in another process may wait for each other; those in this one share standard output.
-        if make in (gcodeclean, rs274):
+        if is_apart:
             with ThreadPoolExecutor(2) as pool:
                 found = list(pool.map(is_found, mine))
         else:
