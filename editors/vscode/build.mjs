@@ -1,8 +1,18 @@
 // Bundles the extension, the script of its preview, and the tests that run inside VS Code.
+//
+//   node build.mjs [--production] [--tests]
+//
+// `--production` makes what is packed and given to users, without tests and maps; `--tests` makes the tests beside it.
+
+import * as fs from "node:fs";
 
 import * as esbuild from "esbuild";
 
 const production = process.argv.includes("--production");
+const tests = !production || process.argv.includes("--tests");
+
+// All of it is packed, so that nothing may be left of another build.
+fs.rmSync("dist", { recursive: true, force: true });
 
 const shared = {
   bundle: true,
@@ -32,11 +42,12 @@ await esbuild.build({
   target: "es2022",
 });
 
-if (!production) {
+if (tests) {
   await esbuild.build({
     ...shared,
+    minify: false,
     entryPoints: { tests: "src/test/index.ts" },
-    outdir: "dist",
+    outdir: "dist-tests",
     platform: "node",
     format: "cjs",
     target: "node20",

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use gcheck_engine::{Look, Options, flow};
 use gcheck_program::Dialect;
-use gcheck_rules::{Edited, Finding, Incremental, Ledger, RuleMeta, Severity, Work};
+use gcheck_rules::{Edited, Finding, Incremental, Ledger, Outcome, RuleMeta, Severity, Whole, Work};
 use gcheck_syntax::{Document, OutOfRange};
 use rustc_hash::FxHashMap;
 
@@ -37,6 +37,13 @@ pub struct Analysis {
     pub ledger: Ledger,
     /// The analysis of paths ended before it had seen all.
     pub out_of_fuel: bool,
+}
+
+impl Analysis {
+    fn of(outcome: Outcome) -> Self {
+        let Outcome { findings, omitted, suppressed, ledger, out_of_fuel, lines: _ } = outcome;
+        Self { findings, omitted, suppressed, ledger, out_of_fuel }
+    }
 }
 
 /// The documents that are open, and what is known of them. One thread owns it.
@@ -76,6 +83,50 @@ impl Open {
         self.snapshot.get_or_insert_with(new).clone()
     }
 
+    fn outlined(&mut self, storage: &mut Storage) -> Snapshot {
+        let snapshot = self.snapshot();
+        if !snapshot.is_outlined() {
+            self.chunks.follow(storage, self.document.chunks());
+            let source = Asking { storage, chunks: &self.chunks };
+            let dialect = Dialect::new(&self.settings.control);
+            snapshot.outline_by(|| Whole::of_source(self.document.chunks(), &source, &dialect));
+        }
+        snapshot
+    }
+
+    /// Hands on the states before and after some blocks from what is kept of the paths. `false` when too little is.
+    fn show(
+        &mut self,
+        storage: &Storage,
+        blocks: &Range<u32>,
+        stop: &dyn Fn() -> bool,
+        with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
+    ) -> bool {
+        let dialect = Dialect::new(&self.settings.control);
+        let source = Asking { storage, chunks: &self.chunks };
+        let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
+        let mut keeper = Keeper::new(blocks.clone());
+        self.incremental
+            .show_again(&edited, blocks, &mut keeper, |keeper, look| keeper.hand_on(look, stop, with))
+    }
+
+    /// The same by an analysis of its own: the one that is kept had no path rules, or the switches of block delete are on for
+    /// good.
+    fn show_anew(
+        &mut self,
+        blocks: Range<u32>,
+        stop: &dyn Fn() -> bool,
+        with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
+    ) {
+        let snapshot = self.snapshot();
+        let (machine, fuel) = (&self.settings.machine.engine, self.settings.execution.fuel);
+        let mut keeper = Keeper::new(blocks);
+        snapshot.with_program(|program, model| {
+            flow(program, model, machine, Options::NONE, fuel, &mut keeper);
+            keeper.hand_on(&mut Look::new(program, model, machine), stop, with);
+        });
+    }
+
     fn analyse(
         &mut self,
         storage: &mut Storage,
@@ -92,13 +143,7 @@ impl Open {
         let source = Asking { storage, chunks: &self.chunks };
         let edited = edited(&self.document, &self.settings, &dialect, &source, stop);
         let outcome = self.incremental.check(&edited).map_err(|_| Cancelled)?;
-        let analysis = Arc::new(Analysis {
-            findings: outcome.findings,
-            omitted: outcome.omitted,
-            suppressed: outcome.suppressed,
-            ledger: outcome.ledger,
-            out_of_fuel: outcome.out_of_fuel,
-        });
+        let analysis = Arc::new(Analysis::of(outcome));
         self.analysis = Some(Arc::clone(&analysis));
         // One that was taken before would have to find out for itself what is known now.
         self.snapshot = None;
@@ -203,6 +248,13 @@ impl Database {
         self.documents.get_mut(&id).map(Open::snapshot)
     }
 
+    /// The document as it is now, with survey and outline joined from what is kept of its chunks: behind an edit they cost the
+    /// chunks that it changed, where a [`Database::snapshot`] reads the whole text when it is asked for them.
+    pub fn outlined(&mut self, id: DocumentId) -> Option<Snapshot> {
+        let open = self.documents.get_mut(&id)?;
+        Some(open.outlined(&mut self.storage))
+    }
+
     /// Findings and the like, up to date. `stop` is asked now and then; when it says yes the work is given up, and what was
     /// done of it is kept where it can be.
     ///
@@ -211,6 +263,39 @@ impl Database {
     pub fn analysis(&mut self, id: DocumentId, stop: &dyn Fn() -> bool) -> Result<Arc<Analysis>, Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
         open.analyse(&mut self.storage, stop)
+    }
+
+    /// Some findings of the first lines of a document, as many chunks as it takes to have so many bytes, before the rest is looked
+    /// at by more than it takes: those that the rest cannot take back. `None` when the document is no longer, or all is known.
+    ///
+    /// # Errors
+    /// As [`Database::analysis`].
+    pub fn first_findings(
+        &mut self,
+        id: DocumentId,
+        bytes: usize,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Option<Analysis>, Cancelled> {
+        let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
+        let mut seen = 0;
+        let is_missing = |chunk: &&Arc<str>| {
+            let is_missing = seen < bytes;
+            seen += chunk.len();
+            is_missing
+        };
+        let chunks = open.document.chunks().iter().take_while(is_missing).count();
+        if open.analysis.is_some() || chunks == open.document.chunks().len() {
+            return Ok(None);
+        }
+        if stop() {
+            return Err(Cancelled);
+        }
+        open.chunks.follow(&mut self.storage, open.document.chunks());
+        let dialect = Dialect::new(&open.settings.control);
+        let source = Asking { storage: &self.storage, chunks: &open.chunks };
+        let edited = edited(&open.document, &open.settings, &dialect, &source, stop);
+        let outcome = open.incremental.check_first(&edited, chunks).map_err(|_| Cancelled)?;
+        Ok(Some(Analysis::of(outcome)))
     }
 
     /// How much of the paths the last analysis executed, and how much it did not.
@@ -247,27 +332,13 @@ impl Database {
         with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
     ) -> Result<(), Cancelled> {
         let open = self.documents.get_mut(&id).ok_or(Cancelled)?;
-        open.analyse(&mut self.storage, stop)?;
-        let snapshot = open.snapshot();
-        let settings = &open.settings;
-        let dialect = Dialect::new(&settings.control);
-        let source = Asking { storage: &self.storage, chunks: &open.chunks };
-        let edited = edited(&open.document, settings, &dialect, &source, stop);
-        let mut hand_on = |keeper: &mut Keeper, look: &mut Look<'_, '_>| {
-            // What was cut short is not all that comes by.
-            if !stop() {
-                keeper.seen.values().for_each(|state| with(state, look));
+        // Of a document that was just opened the first part may be known, and be all that is asked for.
+        let is_shown = open.analysis.is_none() && open.show(&self.storage, &blocks, stop, with);
+        if !is_shown {
+            open.analyse(&mut self.storage, stop)?;
+            if !open.show(&self.storage, &blocks, stop, with) {
+                open.show_anew(blocks, stop, with);
             }
-        };
-        let mut keeper = Keeper::new(blocks.clone());
-        if !open.incremental.show_again(&edited, &blocks, &mut keeper, &mut hand_on) {
-            // The analysis had no path rules, or the switches of block delete are on for good.
-            let mut keeper = Keeper::new(blocks);
-            let (machine, fuel) = (&settings.machine.engine, settings.execution.fuel);
-            snapshot.with_program(|program, model| {
-                flow(program, model, machine, Options::NONE, fuel, &mut keeper);
-                hand_on(&mut keeper, &mut Look::new(program, model, machine));
-            });
         }
         if stop() { Err(Cancelled) } else { Ok(()) }
     }

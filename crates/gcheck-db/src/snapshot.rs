@@ -4,11 +4,12 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use gcheck_controls::Control;
 use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Outline, Survey, lower, profile};
-use gcheck_rules::Whole;
+use gcheck_rules::{ChunkFacts, Whole};
 use gcheck_syntax::{Document, Parse, line_len, parse};
 
 use crate::Settings;
@@ -28,6 +29,8 @@ struct Inner {
     whole: OnceLock<Arc<Whole>>,
     /// The chunk that was read last, with its blocks: who asks for one block asks for its neighbours next.
     read: Mutex<Option<(usize, Arc<BlockTable>)>>,
+    /// How often a chunk was read.
+    tables_read: AtomicUsize,
 }
 
 /// A chunk of whole lines.
@@ -113,7 +116,8 @@ impl Snapshot {
             lines.push(line);
         }
         let whole = whole.map_or_else(OnceLock::new, OnceLock::from);
-        Self(Arc::new(Inner { document, settings, starts, lines, whole, read: Mutex::default() }))
+        let (read, tables_read) = (Mutex::default(), AtomicUsize::new(0));
+        Self(Arc::new(Inner { document, settings, starts, lines, whole, read, tables_read }))
     }
 
     /// What is in force.
@@ -236,6 +240,7 @@ impl Snapshot {
             return Some(Arc::clone(table));
         }
         let table = Arc::new(lower(self.chunk(chunk)?.text, &self.dialect()));
+        self.0.tables_read.fetch_add(1, Ordering::Relaxed);
         *read = Some((chunk, Arc::clone(&table)));
         Some(table)
     }
@@ -253,6 +258,27 @@ impl Snapshot {
     /// The control flow of the file as far as the text decides it.
     pub fn outline(&self) -> &Outline {
         &self.whole().outline
+    }
+
+    /// Are survey and outline known?
+    pub(crate) fn is_outlined(&self) -> bool {
+        self.0.whole.get().is_some()
+    }
+
+    /// Takes survey and outline from somewhere else than the text, unless they are known.
+    pub(crate) fn outline_by(&self, make: impl FnOnce() -> Whole) {
+        self.0.whole.get_or_init(|| Arc::new(make()));
+    }
+
+    /// What a chunk holds by itself, so that one without what is looked for need not be read; `None` for one that the control
+    /// does not read.
+    pub fn facts(&self, chunk: usize) -> Option<&ChunkFacts> {
+        self.whole().facts(chunk)
+    }
+
+    /// How many block tables were made for readers of this snapshot: what a feature costs, for tests.
+    pub fn tables_read(&self) -> usize {
+        self.0.tables_read.load(Ordering::Relaxed)
     }
 
     fn whole(&self) -> &Whole {

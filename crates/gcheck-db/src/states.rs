@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use gcheck_engine::{Abstract, FlowCx, FlowObserver, State, Trace};
+use gcheck_engine::{Abstract, FlowCx, FlowObserver, Look, State, Trace};
 
 /// What was seen of a block.
 #[derive(Debug, Clone)]
@@ -33,6 +33,18 @@ pub(crate) struct Keeper {
 impl Keeper {
     pub(crate) fn new(blocks: Range<u32>) -> Self {
         Self { blocks, seen: BTreeMap::new() }
+    }
+
+    /// Hands on what was seen, unless it was cut short: then it is not all that comes by.
+    pub(crate) fn hand_on(
+        &self,
+        look: &mut Look<'_, '_>,
+        stop: &dyn Fn() -> bool,
+        with: &mut dyn FnMut(&StateAt, &mut Look<'_, '_>),
+    ) {
+        if !stop() {
+            self.seen.values().for_each(|state| with(state, look));
+        }
     }
 
     fn is_wanted(&self, cx: &FlowCx<'_>) -> bool {

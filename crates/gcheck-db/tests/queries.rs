@@ -145,3 +145,37 @@ fn states_are_those_of_the_place() {
     assert!(state.on_every_path && state.visits == 1);
     assert_eq!(format!("{values:?}"), "[1.0, 2.0, 3.0]");
 }
+
+#[test]
+fn the_first_lines_of_a_document_are_checked_ahead_of_the_rest() {
+    // Nobody has said a feed, and in the last lines stands a code that is none.
+    let text = inputs::surfacing(60_000).replace(" F2500.", "").replace("\nM30", "\nG999\nM30");
+    let executed = Arc::new(Mutex::new(0));
+    let told = Arc::clone(&executed);
+    let mut database = Database::telling(move |query| {
+        *told.lock().unwrap() += usize::from(query.starts_with("findings"));
+    });
+    let id = database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap()));
+    let first = database.first_findings(id, 20_000, &|| false).unwrap().unwrap();
+    let states = database.states(id, 20..30, &|| false).unwrap();
+    assert_eq!(states.len(), 10);
+    let (work, executed) = (database.work(id).unwrap(), *executed.lock().unwrap());
+    assert!(work.executed <= 5 && executed <= 5, "{work:?} {executed}");
+    let rules: Vec<&str> = first.findings.iter().map(|finding| finding.rule.id).collect();
+    assert_eq!(rules, ["feed-missing"]);
+
+    let whole = database.analysis(id, &|| false).unwrap();
+    assert!(first.findings.iter().all(|finding| whole.findings.contains(finding)));
+    assert!(database.work(id).unwrap().from_the_start == 0);
+    assert!(whole.findings.iter().any(|finding| finding.rule.id == "unknown-code"));
+    let fresh = Database::new().open_and_analyse(&text);
+    assert_eq!(format!("{:?}", whole.findings), format!("{:?}", fresh.findings));
+    assert!(database.first_findings(id, 20_000, &|| false).unwrap().is_none());
+    // Edited, it is not known ahead of the analysis.
+    database.edit(id, 0..0, "(HERE)\n").unwrap();
+    let after = database.states(id, 21..31, &|| false).unwrap();
+    let places = |states: &[gcheck_db::StateAt]| {
+        states.iter().map(|state| format!("{:?}", state.before.position())).collect::<Vec<_>>()
+    };
+    assert_eq!(places(&after), places(&states));
+}

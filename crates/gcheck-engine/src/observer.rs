@@ -54,6 +54,11 @@ pub trait Observer<D: Domain> {
     fn fault(&mut self, origin: Origin, state: &State<D>, fault: &Fault) {
         let _ = (origin, state, fault);
     }
+
+    /// Has it seen enough? A run asks now and then, and ends when it has.
+    fn stops(&mut self) -> bool {
+        false
+    }
 }
 
 /// Watches nothing.
@@ -81,5 +86,9 @@ impl<D: Domain, O: Observer<D>> Observer<D> for &mut O {
 
     fn fault(&mut self, origin: Origin, state: &State<D>, fault: &Fault) {
         (**self).fault(origin, state, fault);
+    }
+
+    fn stops(&mut self) -> bool {
+        (**self).stops()
     }
 }

@@ -22,7 +22,7 @@ pub enum Stopped {
     Ended(Ending),
     /// At a block that cannot be executed.
     Faulted(Fault),
-    /// After as many blocks as were allowed.
+    /// After as many blocks as were allowed, or when the observer wanted no more.
     OutOfFuel,
 }
 
@@ -41,7 +41,10 @@ pub struct RunResult {
     pub assumptions: BTreeSet<Assumption>,
 }
 
-/// Executes a program until it ends, faults, or has executed `fuel` blocks.
+/// The observer is asked so often, in blocks, whether it wants to see more.
+const ASKED_EVERY: u64 = 4096;
+
+/// Executes a program until it ends, faults, has executed `fuel` blocks, or the observer wants no more.
 pub fn run<O: Observer<Concrete>>(
     program: &Program<'_>,
     model: &Model<'_>,
@@ -55,9 +58,16 @@ pub fn run<O: Observer<Concrete>>(
     let mut at = At { file: 0, block: 0 };
     let mut blocks = 0;
     let mut feeds = 0;
+    let mut ask_at = ASKED_EVERY;
     let stopped = loop {
+        if blocks >= ask_at {
+            if executor.observer.stops() {
+                break Stopped::OutOfFuel;
+            }
+            ask_at = blocks + ASKED_EVERY;
+        }
         if let Some(moves) = executor.plain_moves(at, &state) {
-            while blocks < fuel && executor.plain_move(&moves, at, &mut state) {
+            while blocks < fuel.min(ask_at) && executor.plain_move(&moves, at, &mut state) {
                 blocks += 1;
                 at = at.next();
             }

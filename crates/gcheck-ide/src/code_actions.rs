@@ -72,7 +72,7 @@ pub fn code_actions(
     analysis: Option<&Analysis>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<CodeAction>, Cancelled> {
-    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
     let range =
         range.start.min(snapshot.len())..range.end.clamp(range.start.min(snapshot.len()), snapshot.len());
     let is_whole = snapshot.len() <= LARGE || range == (0..snapshot.len());
@@ -382,7 +382,7 @@ mod tests {
             let rounded = |position: &gcheck_engine::Position| {
                 position.values().map(|value| (value * 1_000.0).round() / 1_000.0 + 0.0)
             };
-            crate::running::run_through(&snapshot, 10_000, &mut |step| match step.event {
+            crate::running::run_through(&snapshot, 10_000, &|| false, &mut |step| match step.event {
                 gcheck_engine::Event::Travel(travel) if travel.from != travel.to => {
                     moves.push(format!("{:?} {:?}", travel.kind, rounded(&travel.to)));
                 }
@@ -391,7 +391,8 @@ mod tests {
                 }
                 gcheck_engine::Event::Dwell(time) => moves.push(format!("dwell {}", time.0)),
                 _ => {}
-            });
+            })
+            .unwrap();
             moves
         };
         for (control, text) in [

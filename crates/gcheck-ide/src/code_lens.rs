@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use gcheck_db::Snapshot;
+use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::{Axis, Model, Units};
 use gcheck_geometry::Bounds;
 use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
@@ -53,17 +53,20 @@ pub struct CodeLens {
 }
 
 /// Runs the document for its figures, at most so many blocks.
-pub fn figures(snapshot: &Snapshot, fuel: u64) -> RunFigures {
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn figures(snapshot: &Snapshot, fuel: u64, stop: &dyn Fn() -> bool) -> Result<RunFigures, Cancelled> {
     let model = Model::new(snapshot.control());
     let view = view(snapshot, &model);
     let timing = Timing::of_machine(&model, &snapshot.settings().machine.engine);
     let mut statistics = Statistics::new(view, timing, model.work_at_power_on());
-    let stopped = run_through(snapshot, fuel, &mut |step| statistics.add(step));
+    let stopped = run_through(snapshot, fuel, stop, &mut |step| statistics.add(step))?;
     let units = statistics.units();
     let total = statistics.total();
     // Sections that began in a called program belong to lines of other files.
     let own = statistics.sections().iter().filter(|section| section.file.is_empty() && section.line > 0);
-    RunFigures {
+    Ok(RunFigures {
         sections: own
             .map(|section| SectionFigures {
                 line: section.line - 1,
@@ -76,7 +79,7 @@ pub fn figures(snapshot: &Snapshot, fuel: u64) -> RunFigures {
         seconds: total.times.total().0,
         extents: extents(&total.cut, view, units),
         stopped,
-    }
+    })
 }
 
 /// `X 0 to 50, Z -5 to 2 mm`.
@@ -191,7 +194,7 @@ mod tests {
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let snapshot = Fixture::new(control, text).snapshot();
-        let lenses = code_lenses(&snapshot, &figures(&snapshot, 100_000)).into_iter();
+        let lenses = code_lenses(&snapshot, &figures(&snapshot, 100_000, &|| false).unwrap()).into_iter();
         let lines = lenses.map(|lens| {
             format!(
                 "{}\n  {}\n  {}\n",

@@ -85,7 +85,7 @@ pub fn completion(
     offset: u32,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<Completion>, Cancelled> {
-    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
     let typing = Typing::new(&snapshot, offset);
     let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
     if let Some(comment) = typing.comment() {

@@ -8,8 +8,18 @@ use gcheck_controls::{Access, Code, Control, Letter, VariableEntry, VariableKind
 
 /// A code: title, rules, words, prose, example, source.
 pub(crate) fn code(control: &Control, code: Code<'_>) -> String {
+    format!("{}\n\n{}", title(code), details(control, code))
+}
+
+/// A code and what it is called, in one line.
+pub(crate) fn title(code: Code<'_>) -> String {
+    format!("**{}** {}", code.entry().code, code.entry().title)
+}
+
+/// All about a code but its title.
+pub(crate) fn details(control: &Control, code: Code<'_>) -> String {
     let entry = code.entry();
-    let mut text = format!("**{}** {}\n\n{}\n", entry.code, entry.title, entry.summary);
+    let mut text = format!("{}\n", entry.summary);
     let mut facts: Vec<String> = Vec::new();
     let group = code.group();
     let number = group.number.as_ref().map(|n| format!(" (group {n})")).unwrap_or_default();

@@ -47,7 +47,7 @@ pub fn hover(
     analysis: Option<&Analysis>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Hover>, Cancelled> {
-    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
     let Some(place) = snapshot.block_at(offset).filter(|place| touches(&place.range(), offset)) else {
         return Ok(None);
     };
@@ -68,6 +68,7 @@ pub fn hover(
     if parts.is_empty() {
         return Ok(None);
     }
+    let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).collect();
     Ok(Some(Hover { range: subject.range(), markdown: parts.join("\n\n---\n\n") }))
 }
 
@@ -161,10 +162,15 @@ impl Cx<'_> {
         let mut parts: Vec<String> = findings.iter().map(|finding| self.finding(finding)).collect();
         match subject {
             Subject::Code(_, ix) => {
+                // What the state is here no manual tells, so it stands above what manuals do.
+                let around = look.as_deref().map(|look| self.around(look));
                 if let Some(code) = self.control().code_at(*ix) {
-                    parts.push(describe::code(self.control(), code));
+                    let title = describe::title(code);
+                    parts.push(around.map_or(title.clone(), |around| format!("{title}\n\n{around}")));
+                    parts.push(describe::details(self.control(), code));
+                } else {
+                    parts.extend(around);
                 }
-                parts.extend(look.as_deref().map(|look| self.around(look)));
             }
             Subject::Word(_, word) => parts.push(self.word(word, look)),
             Subject::Thing(_, thing) => parts.push(self.thing(thing, look.take())),
@@ -571,67 +577,66 @@ mod tests {
             "haas-mill",
             "%\nO1\nG21 G90 G54 G0 X1. Y2.\nG43 H1 Z5.\nG$083 Z-10. R2. Q3. F100.\nM30\n%\n",
             &expect![[r#"
-            [G83]
-            **G83** peck drilling
+                [G83]
+                **G83** peck drilling
 
-            Drills in pecks and goes up to R after each to clear the chips.
+                before: `G0` `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `spindle stopped` `H1`, at `X1 Y2 Z5`
 
-            - canned cycle (group 09): stays in effect
-            - better with `G17`
-            - ends `G73`, `G74`, `G76`, `G77`, `G81`, `G82`, `G84`, `G85`, `G86`, `G87`, `G88`, `G89`
-            - ended by `G80`, `G0`, `G1`
+                after: `G83` `F100 mm/min`
 
-            | word | meaning | |
-            |---|---|---|
-            | `X` | hole position | optional, length |
-            | `Y` | hole position | optional, length |
-            | `A` | rotary position of the hole | optional, degrees |
-            | `B` | rotary position of the hole | optional, degrees |
-            | `C` | rotary position of the hole | optional, degrees |
-            | `Z` | bottom of the hole | here or earlier, length |
-            | `R` | R plane, where feeding begins | here or earlier, length |
-            | `F` | feed rate | here or earlier, feed rate |
-            | `L` | number of repeats; 0 only stores the cycle | optional, else 1, whole number, from 0 |
-            | `Q` | depth of one peck | here or earlier, length, above 0 |
-            | `I` | first peck | optional, length, above 0 |
-            | `J` | how much each further peck is smaller | optional, length, above 0 |
-            | `K` | smallest peck | optional, length, above 0 |
-            | `P` | dwell at the bottom | optional, seconds with a decimal point, milliseconds without, from 0 |
-            | `E` | speed at which the spindle turns backwards after each hole to throw chips off, NGC | optional, spindle speed, above 0 |
+                ---
 
-            Deep-hole drilling: after each peck the drill goes all the way up to R, then rapids back to just above the last depth (Setting 22).
+                Drills in pecks and goes up to R after each to clear the chips.
 
-            - `Q` for equal pecks, **or** `I` first peck, less `J` each time, at least `K`. Do not mix the two. All positive.
-            - Setting 52 lifts the clearing height above R.
-            - `P` dwells at the bottom.
+                - canned cycle (group 09): stays in effect
+                - better with `G17`
+                - ends `G73`, `G74`, `G76`, `G77`, `G81`, `G82`, `G84`, `G85`, `G86`, `G87`, `G88`, `G89`
+                - ended by `G80`, `G0`, `G1`
 
-            **Common mistake:** a negative or missing Q. Q is a distance, not a position.
+                | word | meaning | |
+                |---|---|---|
+                | `X` | hole position | optional, length |
+                | `Y` | hole position | optional, length |
+                | `A` | rotary position of the hole | optional, degrees |
+                | `B` | rotary position of the hole | optional, degrees |
+                | `C` | rotary position of the hole | optional, degrees |
+                | `Z` | bottom of the hole | here or earlier, length |
+                | `R` | R plane, where feeding begins | here or earlier, length |
+                | `F` | feed rate | here or earlier, feed rate |
+                | `L` | number of repeats; 0 only stores the cycle | optional, else 1, whole number, from 0 |
+                | `Q` | depth of one peck | here or earlier, length, above 0 |
+                | `I` | first peck | optional, length, above 0 |
+                | `J` | how much each further peck is smaller | optional, length, above 0 |
+                | `K` | smallest peck | optional, length, above 0 |
+                | `P` | dwell at the bottom | optional, seconds with a decimal point, milliseconds without, from 0 |
+                | `E` | speed at which the spindle turns backwards after each hole to throw chips off, NGC | optional, spindle speed, above 0 |
 
-            Alarm 305: Q is not positive (unverified)
+                Deep-hole drilling: after each peck the drill goes all the way up to R, then rapids back to just above the last depth (Setting 22).
 
-            Alarm 306: I, J, K or Q is not positive (unverified)
+                - `Q` for equal pecks, **or** `I` first peck, less `J` each time, at least `K`. Do not mix the two. All positive.
+                - Setting 52 lifts the clearing height above R.
+                - `P` dwells at the bottom.
 
-            Alarm 348: G93 is active (unverified)
+                **Common mistake:** a negative or missing Q. Q is a distance, not a position.
 
-            Alarm 372: tool change with a cycle active (unverified)
+                Alarm 305: Q is not positive (unverified)
 
-            ```gcode
-            T1 M6
-            G90 G54 G0 X0. Y0.
-            S3000 M3
-            G43 H1 Z1. M8
-            G98 G83 X1. Y1. Z-2. R0.1 Q0.25 F8.
-            ```
+                Alarm 306: I, J, K or Q is not positive (unverified)
 
-            *Haas mill (classic control and NGC): HM17 p.296; Haas 96-8000 June 1999 (easymanua.ls page 182); Haas 96-8000 June 1999 (easymanua.ls page 191)*
+                Alarm 348: G93 is active (unverified)
 
+                Alarm 372: tool change with a cycle active (unverified)
 
-            ---
+                ```gcode
+                T1 M6
+                G90 G54 G0 X0. Y0.
+                S3000 M3
+                G43 H1 Z1. M8
+                G98 G83 X1. Y1. Z-2. R0.1 Q0.25 F8.
+                ```
 
-            before: `G0` `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `spindle stopped` `H1`, at `X1 Y2 Z5`
-
-            after: `G83` `F100 mm/min`
-        "#]],
+                *Haas mill (classic control and NGC): HM17 p.296; Haas 96-8000 June 1999 (easymanua.ls page 182); Haas 96-8000 June 1999 (easymanua.ls page 191)*
+            "#]],
         );
     }
 

@@ -2,6 +2,7 @@
 //!
 //! Knows: which facts of the state are worth reading there. Must not know: how states come about.
 
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use gcheck_controls::{Effect, Letter};
@@ -79,11 +80,11 @@ pub fn inlay_hints(
     options: InlayOptions,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<InlayHint>, Cancelled> {
-    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
     let Some(last) = snapshot.block_at(range.end) else { return Ok(Vec::new()) };
     let first = snapshot.block_at(range.start).map_or(0, |place| place.number);
     let blocks = first..(last.number + 1).min(first.saturating_add(MOST_BLOCKS));
-    let names = (options.tools && snapshot.len() <= LARGE).then(|| tool_names(&snapshot));
+    let names = OnceCell::new();
     let mut hints = Hints { snapshot: &snapshot, options, names, shown: [None, None], list: Vec::new() };
     database.look(document, blocks, stop, &mut |state, look| {
         if let Some(place) = snapshot.place(state.block) {
@@ -99,7 +100,8 @@ pub fn inlay_hints(
 struct Hints<'s> {
     snapshot: &'s Snapshot,
     options: InlayOptions,
-    names: Option<ToolNames<'s>>,
+    /// Asked for by a block that names a tool and no more.
+    names: OnceCell<ToolNames<'s>>,
     /// Feed and speed as they were read last.
     shown: [Option<String>; 2],
     list: Vec<InlayHint>,
@@ -112,7 +114,7 @@ impl Hints<'_> {
         if self.options.values && block.flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             self.values(place, state, look);
         }
-        if block.letters.contains(Letter::of('T')) {
+        if self.options.tools && block.letters.contains(Letter::of('T')) {
             self.tool(place, words);
         }
         let Some(after) = &state.after else { return };
@@ -244,10 +246,9 @@ impl Hints<'_> {
 
     /// What the tool is called, where the block does not say it itself.
     fn tool(&mut self, place: &BlockPlace, words: &[Word]) {
-        let Some(names) = self.names.as_ref().filter(|_| !place.block().flags.contains(BlockFlags::COMMENT))
-        else {
+        if place.block().flags.contains(BlockFlags::COMMENT) || self.snapshot.len() > LARGE {
             return;
-        };
+        }
         let control = self.snapshot.control();
         let is_call = |word: &Word| control.code_at(word.code).is_some_and(|code| code.entry().any_words);
         if words.iter().any(is_call) {
@@ -256,7 +257,9 @@ impl Hints<'_> {
         let Some(word) = words.iter().find(|word| word.letter == Letter::of('T')) else { return };
         let number = word.integer();
         let number = number.map(|tool| if control.semantics().tools.offset_in_t { tool / 100 } else { tool });
-        if let Some(name) = number.and_then(|number| names.get(number)) {
+        let Some(number) = number else { return };
+        let names = self.names.get_or_init(|| tool_names(self.snapshot));
+        if let Some(name) = names.get(number) {
             let (offset, name) = (place.in_file(word.range()).end, name.to_owned());
             self.add(offset, name, "what the program calls this tool", InlayKind::Tool);
         }
@@ -401,5 +404,29 @@ mod tests {
             M30
         "#]],
         );
+    }
+
+    #[test]
+    fn a_few_lines_cost_their_surroundings_not_the_file() {
+        let section = |tool: usize| {
+            format!("T{tool} M6 (TOOL)\nG90 G0 X0. Y0.\n{}T0\n", "G91 X1.5 Y2.25\n".repeat(300))
+        };
+        let text: String = (1..200).map(section).collect();
+        let mut fixture = Fixture::new("haas-mill", &text);
+        fixture.analysis();
+        let from = text.find("T100 ").unwrap() as u32 + 20;
+        // Typed: what is known of the rest stays so.
+        fixture.database.edit(fixture.document, from..from, "\n").unwrap();
+        let snapshot = fixture.database.outlined(fixture.document).unwrap();
+        let hints = inlay_hints(
+            &mut fixture.database,
+            fixture.document,
+            from..from + 1_000,
+            InlayOptions::default(),
+            &|| false,
+        )
+        .unwrap();
+        assert!(hints.len() > 30, "{hints:?}");
+        assert!(snapshot.tables_read() < 5, "{} of {}", snapshot.tables_read(), snapshot.chunks().len());
     }
 }

@@ -8,7 +8,7 @@ use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_db::Snapshot;
 use gcheck_program::{Block, BlockFlags, BlockTable, ToolNames, Word, remark};
 
-use crate::things::code_end;
+use crate::things::{code_end, program_around};
 
 /// Operations of a file that are kept: a program with a comment at every line has none that matters.
 const MOST_OPERATIONS: usize = 5_000;
@@ -49,22 +49,9 @@ pub(crate) struct Parts {
 
 /// Finds the parts of a file.
 pub(crate) fn parts(snapshot: &Snapshot) -> Parts {
-    let control = snapshot.control();
     let end = code_end(snapshot);
-    let mut names = ToolNames::new(control);
-    let mut finder = Finder { snapshot, called: None, comments: None, parts: Parts::default() };
-    for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
-        let Some(table) = snapshot.table(chunk.index) else { continue };
-        names.look(&table, chunk.text);
-        for (_, block) in table.blocks() {
-            if chunk.base + block.range.start >= end {
-                break;
-            }
-            finder.block(&table, block, chunk.base, chunk.text);
-        }
-    }
-    let Finder { comments, mut parts, .. } = finder;
-    parts.comments.extend(comments);
+    let mut names = ToolNames::new(snapshot.control());
+    let mut parts = find(snapshot, 0..snapshot.chunks().len(), end, Some(&mut names));
     close(snapshot, &mut parts, end);
     for part in &mut parts.tools {
         if let Some(name) = part.tool.and_then(|tool| names.get(tool)) {
@@ -74,19 +61,115 @@ pub(crate) fn parts(snapshot: &Snapshot) -> Parts {
     parts
 }
 
+/// The operations and tool sections that hold an offset. Of the file no more is read than the section goes.
+pub(crate) fn parts_around(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
+    let end = code_end(snapshot);
+    let Some(own) = snapshot.chunk_at(offset).map(|chunk| chunk.index) else { return Vec::new() };
+    let changes = |chunk: usize| {
+        let tools = if may_change_tool(snapshot, chunk) {
+            find(snapshot, chunk..chunk + 1, end, None).tools
+        } else {
+            Vec::new()
+        };
+        tools.into_iter().map(|tool| tool.change.start)
+    };
+    // From the change in front, with the comments above it …
+    let mut first = own;
+    while first > 0 && changes(first).all(|change| change > offset) {
+        first -= 1;
+    }
+    while first > 0 && may_go_on_above(snapshot, first) {
+        first -= 1;
+    }
+    // … to the one behind, or the next program.
+    let limit = program_around(snapshot, offset).end.min(end);
+    let is_before = |chunk: usize| snapshot.chunk(chunk).is_some_and(|chunk| chunk.base < limit);
+    let mut last = own;
+    while is_before(last + 1) && changes(last).all(|change| change <= offset) {
+        last += 1;
+    }
+    let mut parts = find(snapshot, first..last + 1, end, None);
+    close(snapshot, &mut parts, end);
+    let operations = parts.operations.into_iter().map(|part| part.range);
+    let tools = parts.tools.into_iter().map(|part| part.range);
+    operations.chain(tools).filter(|range| range.contains(&offset)).collect()
+}
+
+/// Does a chunk begin with a comment or with a tool change, so that comments at the end of the chunk in front may belong to it?
+fn may_go_on_above(snapshot: &Snapshot, chunk: usize) -> bool {
+    if is_plain(snapshot, chunk) {
+        return false;
+    }
+    let Some(table) = snapshot.table(chunk) else { return false };
+    let first = table.blocks().next();
+    first.is_some_and(|(_, block)| is_comment_alone(block) || block.letters.intersects(CHANGES))
+}
+
+/// Finds parts among some chunks; none but the last of its kind has its end yet.
+fn find(snapshot: &Snapshot, chunks: Range<usize>, end: u32, mut names: Option<&mut ToolNames<'_>>) -> Parts {
+    let mut finder = Finder { snapshot, called: None, comments: None, parts: Parts::default() };
+    let chunks = chunks.filter_map(|chunk| snapshot.chunk(chunk)).take_while(|chunk| chunk.base < end);
+    for chunk in chunks {
+        if is_plain(snapshot, chunk.index) {
+            if !snapshot.outline().blocks_of(chunk.index).is_empty() {
+                finder.pass_over();
+            }
+            if has_words(snapshot, chunk.index)
+                && let Some(names) = names.as_deref_mut()
+            {
+                names.pass_over();
+            }
+            continue;
+        }
+        let Some(table) = snapshot.table(chunk.index) else { continue };
+        if let Some(names) = names.as_deref_mut() {
+            names.look(&table, chunk.text);
+        }
+        for (_, block) in table.blocks() {
+            if chunk.base + block.range.start >= end {
+                break;
+            }
+            finder.block(&table, block, chunk.base, chunk.text);
+        }
+    }
+    let Finder { comments, mut parts, .. } = finder;
+    parts.comments.extend(comments);
+    parts
+}
+
 /// What the program calls its tools.
 pub(crate) fn tool_names(snapshot: &Snapshot) -> ToolNames<'_> {
     let end = code_end(snapshot);
     let mut names = ToolNames::new(snapshot.control());
     for chunk in snapshot.chunks().take_while(|chunk| chunk.base < end) {
-        // Names stand in comments.
-        if chunk.text.contains(['(', ';'])
-            && let Some(table) = snapshot.table(chunk.index)
-        {
+        if is_plain(snapshot, chunk.index) {
+            if has_words(snapshot, chunk.index) {
+                names.pass_over();
+            }
+        } else if let Some(table) = snapshot.table(chunk.index) {
             names.look(&table, chunk.text);
         }
     }
     names
+}
+
+/// Has a chunk neither comments nor tools? Of a large file most have not, and need not be read for its parts.
+fn is_plain(snapshot: &Snapshot, chunk: usize) -> bool {
+    snapshot.facts(chunk).is_some_and(|facts| !facts.flags().contains(BlockFlags::COMMENT))
+        && !may_change_tool(snapshot, chunk)
+}
+
+/// May a tool be called for or changed in a chunk?
+fn may_change_tool(snapshot: &Snapshot, chunk: usize) -> bool {
+    let Some(facts) = snapshot.facts(chunk) else { return true };
+    let control = snapshot.control();
+    let changes = |number| control.code(number).is_some_and(|code| code.effect() == Effect::ToolChange);
+    facts.survey().letters.contains(Letter::of('T'))
+        || facts.survey().codes.iter().any(|(number, _)| changes(*number))
+}
+
+fn has_words(snapshot: &Snapshot, chunk: usize) -> bool {
+    snapshot.facts(chunk).is_none_or(|facts| !facts.survey().letters.is_empty())
 }
 
 /// Parts end where the next one of their kind or of a larger kind begins.
@@ -136,6 +219,11 @@ struct Finder<'s> {
 const CHANGES: LetterSet = LetterSet::of("TM");
 
 impl Finder<'_> {
+    /// Blocks without comments come between.
+    fn pass_over(&mut self) {
+        self.parts.comments.extend(self.comments.take());
+    }
+
     fn block(&mut self, table: &BlockTable, block: &Block, base: u32, text: &str) {
         let range = base + block.range.start..base + block.range.end;
         if is_comment_alone(block) {

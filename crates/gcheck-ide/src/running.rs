@@ -5,7 +5,7 @@
 use std::rc::Rc;
 
 use gcheck_controls::Machine as MachineKind;
-use gcheck_db::Snapshot;
+use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::{
     Axis, Concrete, Ending, Event, Model, Observer, Options, Origin, Program, State, Stop, Stopped, Units,
     run,
@@ -17,14 +17,28 @@ use crate::reading::Reading;
 
 /// Runs a document, at most so many blocks; `step` sees every event. Says why the run did not reach the program's end, in a
 /// few words.
-pub(crate) fn run_through(snapshot: &Snapshot, fuel: u64, step: &mut dyn FnMut(&Step<'_>)) -> Option<String> {
+///
+/// # Errors
+/// [`Cancelled`] when `stop`, which is asked now and then, said yes.
+pub(crate) fn run_through(
+    snapshot: &Snapshot,
+    fuel: u64,
+    stop: &dyn Fn() -> bool,
+    step: &mut dyn FnMut(&Step<'_>),
+) -> Result<Option<String>, Cancelled> {
+    if stop() {
+        return Err(Cancelled);
+    }
     snapshot.with_program(|program, model| {
         let machine = &snapshot.settings().machine.engine;
         let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).unwrap_or(Units::Mm);
-        let mut watcher = Watcher { program, model, units, files: Vec::new(), step };
+        let mut watcher = Watcher { program, model, units, files: Vec::new(), stop, stopped: false, step };
         let result = run(program, model, machine, Options::NONE, fuel, &mut watcher);
+        if watcher.stopped {
+            return Err(Cancelled);
+        }
         let line = watcher.line(result.origin);
-        match &result.stopped {
+        Ok(match &result.stopped {
             Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => None,
             Stopped::Ended(Ending::Text) => Some("the text ends without a program end".to_owned()),
             Stopped::Ended(Ending::Alarm(number)) => {
@@ -32,7 +46,7 @@ pub(crate) fn run_through(snapshot: &Snapshot, fuel: u64, step: &mut dyn FnMut(&
             }
             Stopped::Faulted(_) => Some(format!("the control would stop in line {line}")),
             Stopped::OutOfFuel => Some(format!("ended after {} blocks", result.blocks)),
-        }
+        })
     })
 }
 
@@ -55,6 +69,9 @@ struct Watcher<'a> {
     model: &'a Model<'a>,
     units: Units,
     files: Vec<Option<Lines>>,
+    stop: &'a dyn Fn() -> bool,
+    /// It said yes.
+    stopped: bool,
     step: &'a mut dyn FnMut(&Step<'_>),
 }
 
@@ -119,5 +136,9 @@ impl Observer<Concrete> for Watcher<'_> {
         };
         let spot = Spot { file: &name, line, n: origin.n };
         (self.step)(&Step::seen(event, state, self.model, spot, self.units));
+    }
+    fn stops(&mut self) -> bool {
+        self.stopped |= (self.stop)();
+        self.stopped
     }
 }

@@ -5,9 +5,10 @@
 use std::ops::Range;
 
 use gcheck_db::Snapshot;
-use gcheck_syntax::SyntaxKind;
+use gcheck_program::profile;
+use gcheck_syntax::{SyntaxKind, parse};
 
-use crate::parts::parts;
+use crate::parts::parts_around;
 use crate::things::{program_around, subs};
 
 /// Ranges around `offset`, each inside the next: token, word or expression, block, line, operation, tool section or
@@ -16,12 +17,8 @@ pub fn selection_ranges(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
     let offset = offset.min(snapshot.len());
     let mut ranges = inside_the_block(snapshot, offset);
     ranges.push(snapshot.line_range(snapshot.line_at(offset)));
-    let parts = parts(snapshot);
-    let operations = parts.operations.into_iter().map(|part| part.range);
-    let tools = parts.tools.into_iter().map(|part| part.range);
-    let subs = subs(snapshot).into_iter().map(|sub| sub.range);
-    let mut around: Vec<Range<u32>> =
-        operations.chain(tools).chain(subs).filter(|range| range.contains(&offset)).collect();
+    let mut around = parts_around(snapshot, offset);
+    around.extend(subs(snapshot).into_iter().map(|sub| sub.range).filter(|range| range.contains(&offset)));
     around.push(program_around(snapshot, offset));
     around.push(0..snapshot.len());
     around.sort_by_key(|range| range.end - range.start);
@@ -41,8 +38,10 @@ pub fn selection_ranges(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
 }
 
 fn inside_the_block(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
-    let found = snapshot.chunk_at(offset).and_then(|chunk| Some((chunk.base, snapshot.tree(chunk.index)?)));
-    let Some((base, tree)) = found else { return Vec::new() };
+    // A block never goes over the end of its line.
+    let line = snapshot.line_range(snapshot.line_at(offset));
+    let base = line.start;
+    let tree = parse(&snapshot.slice(line.clone()), profile(snapshot.control()));
     let root = tree.syntax();
     let inside = (offset - base).min(root.text_range().end().into());
     let tokens = root.token_at_offset(inside.into());
@@ -65,10 +64,13 @@ fn inside_the_block(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> {
 
 #[cfg(test)]
 mod tests {
+    use std::ops::Range;
+
     use expect_test::{Expect, expect};
 
     use super::selection_ranges;
     use crate::fixture::{Fixture, shown};
+    use crate::parts::{parts, parts_around};
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let fixture = Fixture::new(control, text);
@@ -130,5 +132,57 @@ mod tests {
             1: 
         "#]],
         );
+    }
+
+    /// Tools, comments and moves in every order, cut into chunks of their own lines.
+    fn program(seed: usize) -> String {
+        let mut text = "%\nO1\n".to_owned();
+        let mut number = seed.wrapping_mul(0x9E37_79B9) | 1;
+        for line in 0..1_500 {
+            number = number.wrapping_mul(1_103_515_245).wrapping_add(12_345) & 0x7FFF_FFFF;
+            text += match number / 65_536 % 400 {
+                0 => "T1 M6\n",
+                1 => "(OPERATION)\n",
+                2 => "(ABOVE)\n(THE CHANGE)\nT2 M6\n",
+                3 => "O2\n",
+                4 => "M8 (COOLANT)\n",
+                5 => "T3\n",
+                _ => "X1.5 Y2.25\n",
+            };
+            if line == 900 && seed % 2 == 0 {
+                text += "M30\n%\n";
+            }
+        }
+        text
+    }
+
+    #[test]
+    fn what_is_around_a_place_is_what_a_look_at_the_whole_file_finds() {
+        for seed in 0..6 {
+            let snapshot = Fixture::new("haas-mill", &program(seed)).snapshot();
+            let parts = parts(&snapshot);
+            let all: Vec<Range<u32>> = parts
+                .operations
+                .into_iter()
+                .map(|part| part.range)
+                .chain(parts.tools.into_iter().map(|part| part.range))
+                .collect();
+            for offset in (0..snapshot.len()).step_by(97) {
+                let around: Vec<&Range<u32>> = all.iter().filter(|range| range.contains(&offset)).collect();
+                let found = parts_around(&snapshot, offset);
+                assert_eq!(found.iter().collect::<Vec<_>>(), around, "seed {seed}, byte {offset}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_place_costs_its_tool_section_not_the_file() {
+        let section = |tool: usize| format!("T{tool} M6\n(OPERATION)\n{}", "X1.5 Y2.25\n".repeat(300));
+        let text: String = (1..200).map(section).collect();
+        let mut fixture = Fixture::new("haas-mill", &text);
+        let snapshot = fixture.database.outlined(fixture.document).unwrap();
+        let ranges = selection_ranges(&snapshot, snapshot.len() / 2);
+        assert!(ranges.iter().any(|range| range.end - range.start < 6_000), "{ranges:?}");
+        assert!(snapshot.tables_read() < 10, "{} of {}", snapshot.tables_read(), snapshot.chunks().len());
     }
 }

@@ -113,7 +113,7 @@ pub fn state_at(
     offset: u32,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<StateView>, Cancelled> {
-    let snapshot = database.snapshot(document).ok_or(Cancelled)?;
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
     let Some(place) = snapshot.block_at(offset) else { return Ok(None) };
     let mut view = None;
     database.look(document, place.number..place.number + 1, stop, &mut |state, look| {

@@ -2,7 +2,7 @@
 //!
 //! Knows: what a preview is told beside the drawing. Must not know: how moves are recorded and drawn.
 
-use gcheck_db::Snapshot;
+use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::Model;
 use gcheck_toolpath::plot::Plot;
 use gcheck_toolpath::{Names, Timing, WorkCoordinates};
@@ -35,7 +35,15 @@ pub struct Toolpath {
 }
 
 /// Runs the document for its toolpath, at most so many blocks.
-pub fn toolpath(snapshot: &Snapshot, fuel: u64, most_segments: usize) -> Toolpath {
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn toolpath(
+    snapshot: &Snapshot,
+    fuel: u64,
+    most_segments: usize,
+    stop: &dyn Fn() -> bool,
+) -> Result<Toolpath, Cancelled> {
     let model = Model::new(snapshot.control());
     let machine = &snapshot.settings().machine.engine;
     let timing = Timing::of_machine(&model, machine);
@@ -44,33 +52,40 @@ pub fn toolpath(snapshot: &Snapshot, fuel: u64, most_segments: usize) -> Toolpat
     if is_turned(snapshot) {
         plot = plot.for_lathe();
     }
-    let stopped = run_through(snapshot, fuel, &mut |step| plot.add(step));
+    let stopped = run_through(snapshot, fuel, stop, &mut |step| plot.add(step))?;
     let drawing = plot.finish();
     let names = tool_names(snapshot);
     let tool = |tool| names.get(tool).map(str::to_owned);
     let mut notes = drawing.notes();
     notes.extend(stopped.clone());
-    Toolpath {
+    Ok(Toolpath {
         data: drawing.to_json(&Names { tool: &tool, ..Names::NONE }),
         moves: drawing.moves(),
         seconds: drawing.seconds().0,
         notes,
         travel: crate::running::LINEAR.map(|axis| machine.travel.get(&axis).copied()),
         stopped,
-    }
+    })
 }
 
 #[cfg(test)]
 mod tests {
+    use std::cell::Cell;
+
     use serde_json::json;
 
-    use super::{MAX_SEGMENTS, toolpath};
+    use super::{MAX_SEGMENTS, Toolpath, toolpath};
     use crate::fixture::Fixture;
+
+    fn drawn(text: &str, most_segments: usize) -> Toolpath {
+        let snapshot = Fixture::new("haas-mill", text).snapshot();
+        toolpath(&snapshot, 1_000, most_segments, &|| false).unwrap()
+    }
 
     #[test]
     fn points_with_their_lines() {
         let text = "%\nO1\nG21 G90 G54\nT1 M6 (END MILL)\nG0 X0. Y0. Z2.\nG1 X50. F100.\nG2 X60. Y10. R10.\nM30\n%\n";
-        let path = toolpath(&Fixture::new("haas-mill", text).snapshot(), 1_000, MAX_SEGMENTS);
+        let path = drawn(text, MAX_SEGMENTS);
         assert_eq!(path.data["version"], json!(1));
         assert_eq!(path.data["tools"][0]["name"], json!("END MILL"));
         assert_eq!(path.moves, 3);
@@ -80,8 +95,19 @@ mod tests {
 
     #[test]
     fn an_endless_program_is_drawn_as_far_as_it_ran() {
-        let path =
-            toolpath(&Fixture::new("haas-mill", "O1\nN1 G91 G0 X1.\nGOTO 1\nM30\n").snapshot(), 1_000, 100);
+        let path = drawn("O1\nN1 G91 G0 X1.\nGOTO 1\nM30\n", 100);
         assert_eq!(path.stopped.as_deref(), Some("ended after 1000 blocks"));
+    }
+
+    #[test]
+    fn it_is_given_up_when_nobody_waits_any_more() {
+        let endless = Fixture::new("haas-mill", "O1\nN1 G91 G0 X1.\nGOTO 1\nM30\n").snapshot();
+        let asked = Cell::new(0);
+        let stop = || {
+            asked.set(asked.get() + 1);
+            asked.get() > 3
+        };
+        assert!(toolpath(&endless, u64::MAX, MAX_SEGMENTS, &stop).is_err());
+        assert_eq!(asked.get(), 4);
     }
 }

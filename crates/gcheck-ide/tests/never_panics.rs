@@ -270,7 +270,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
     for hint in gcheck_ide::inlay_hints(&mut world.database, id, range.clone(), options, &go).unwrap() {
         assert!(hint.offset <= end);
     }
-    let figures = gcheck_ide::figures(&snapshot, 500);
+    let figures = gcheck_ide::figures(&snapshot, 500, &|| false).unwrap();
     for lens in gcheck_ide::code_lenses(&snapshot, &figures) {
         world.inside(id, &lens.range);
     }
@@ -286,7 +286,7 @@ fn ask_everything(world: &mut World, offset: u32, other: u32, new_name: &str) {
         world.inside(id, &link.range);
         world.inside(link.target.file, &link.target.range);
     }
-    let _ = gcheck_ide::toolpath(&snapshot, 500, 100);
+    let _ = gcheck_ide::toolpath(&snapshot, 500, 100, &|| false);
     let _ = gcheck_ide::state_at(&mut world.database, id, offset, &go).unwrap();
     let _ = gcheck_ide::syntax_tree(&snapshot, Some(offset));
     let _ = gcheck_ide::syntax_tree(&snapshot, None);

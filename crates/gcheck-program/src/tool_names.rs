@@ -54,7 +54,7 @@ impl<'c> ToolNames<'c> {
         for (_, block) in table.blocks() {
             if !interesting(block) {
                 if !block.letters.is_empty() {
-                    self.above = None;
+                    self.pass_over();
                 }
                 continue;
             }
@@ -65,6 +65,12 @@ impl<'c> ToolNames<'c> {
                 .flatten();
             self.block(table, block, remark);
         }
+    }
+
+    /// Passes over blocks with words that have neither a remark nor anything of tools: what stands above them names no tool
+    /// behind them.
+    pub fn pass_over(&mut self) {
+        self.above = None;
     }
 
     fn block(&mut self, table: &BlockTable, block: &Block, remark: Option<&str>) {

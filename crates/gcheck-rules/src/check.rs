@@ -122,6 +122,11 @@ impl Plan {
         plan
     }
 
+    /// The same without rules about suppressions.
+    pub(crate) fn without_suppressions(self) -> Self {
+        Self { suppressions: Vec::new(), ..self }
+    }
+
     /// The user chose the severity of the rule's findings.
     fn is_overridden(&self, rule: &'static RuleMeta) -> bool {
         let pairs = self.token.iter().chain(&self.program).chain(&self.path).map(|(r, s)| (r, s));

@@ -110,6 +110,8 @@ pub struct Whole {
     pub region_end: u32,
     /// How many chunks hold some of it.
     pub chunks: usize,
+    /// What each of these holds by itself.
+    facts: Vec<Arc<ChunkFacts>>,
     flags: Vec<BlockFlags>,
     skeleton: Skeleton,
     /// Offset of each chunk, and the length of the text.
@@ -122,8 +124,26 @@ impl Whole {
         let facts = |chunk: usize, end: u32| {
             Arc::new(ChunkFacts::new(chunks.get(chunk).map_or("", |text| text), end, dialect))
         };
+        Self::of_facts(chunks, facts, dialect)
+    }
+
+    /// Of the chunks of a text whose facts somebody keeps.
+    pub fn of_source(chunks: &[Arc<str>], source: &dyn ChunkSource, dialect: &Dialect<'_>) -> Self {
+        Self::of_facts(chunks, |chunk, end| source.facts(chunk, end), dialect)
+    }
+
+    fn of_facts(
+        chunks: &[Arc<str>],
+        facts: impl Fn(usize, u32) -> Arc<ChunkFacts>,
+        dialect: &Dialect<'_>,
+    ) -> Self {
         let all: Vec<Arc<ChunkFacts>> = (0..chunks.len()).map(|chunk| facts(chunk, u32::MAX)).collect();
         Self::join(chunks, all, facts, dialect, |_, _, _| ())
+    }
+
+    /// What a chunk holds by itself; `None` for one that the control does not read.
+    pub fn facts(&self, chunk: usize) -> Option<&ChunkFacts> {
+        self.facts.get(chunk).map(AsRef::as_ref)
     }
 
     fn new(edited: &Edited<'_>, look: impl FnMut(usize, u32, &ChunkFacts)) -> Result<Self, Stopped> {
@@ -157,6 +177,7 @@ impl Whole {
         let mut outline = Outline::builder();
         let mut skeleton = Skeleton::default();
         let mut flags = Vec::with_capacity(facts.len());
+        let mut read = Vec::with_capacity(facts.len());
         for (index, ((base, end), mut facts)) in
             starts.iter().copied().zip(starts.iter().skip(1).copied()).zip(facts).enumerate()
         {
@@ -170,10 +191,13 @@ impl Whole {
                 flags.push(facts.flags);
             }
             look(index, base, &facts);
+            if read.len() < flags.len() {
+                read.push(facts);
+            }
         }
         let chunks = flags.len();
         let outline = Arc::new(outline.finish());
-        Self { survey, outline, region_end, chunks, flags, skeleton, starts }
+        Self { survey, outline, region_end, chunks, facts: read, flags, skeleton, starts }
     }
 
     /// Where the part of a chunk ends that the control reads, in bytes of the chunk; the greatest number for all of it.
@@ -183,10 +207,46 @@ impl Whole {
         if end > self.region_end { self.region_end - base } else { u32::MAX }
     }
 
+    /// Adds what is found in some chunks, each by itself.
+    fn check_chunks(&self, edited: &Edited<'_>, chunks: Range<usize>, collector: &mut Collector<'_>) {
+        for chunk in chunks {
+            let end = self.end_in(chunk);
+            if collector.is_full() {
+                for (rule, severity, count) in edited.source.counts(chunk, end).iter() {
+                    collector.omit(rule, severity, count);
+                }
+            } else {
+                let base = self.starts.get(chunk).copied().unwrap_or(0);
+                edited.source.findings(chunk, end).add_to(collector, base);
+            }
+        }
+    }
+
     /// How many blocks of a chunk the control reads.
     fn blocks_in(&self, chunk: usize) -> u32 {
         let blocks = self.outline.blocks_of(chunk);
         blocks.end - blocks.start
+    }
+}
+
+/// A file joined from its chunks, with what beside it is asked once.
+struct JoinedFile {
+    whole: Arc<Whole>,
+    /// Comments with directives in what the control reads.
+    directives: Vec<Range<u32>>,
+    lines: usize,
+}
+
+impl JoinedFile {
+    fn new(edited: &Edited<'_>) -> Result<Self, Stopped> {
+        let mut directives = Vec::new();
+        let mut lines = 0;
+        let whole = Whole::new(edited, |_, base, facts| {
+            lines += facts.lines;
+            directives.extend(facts.directives.iter().map(|range| range.start + base..range.end + base));
+        })?;
+        directives.retain(|range: &Range<u32>| range.start < whole.region_end);
+        Ok(Self { whole: Arc::new(whole), directives, lines })
     }
 }
 
@@ -212,24 +272,9 @@ impl Incremental {
     /// [`Stopped`] when `stop` said yes; what was done is kept.
     pub fn check(&mut self, edited: &Edited<'_>) -> Result<Outcome, Stopped> {
         let plan = Plan::new(edited.selection);
-        let mut directives = Vec::new();
-        let mut lines = 0;
-        let whole = Whole::new(edited, |_, base, facts| {
-            lines += facts.lines;
-            directives.extend(facts.directives.iter().map(|range| range.start + base..range.end + base));
-        })?;
-        directives.retain(|range: &Range<u32>| range.start < whole.region_end);
+        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited)?;
         let mut collector = Collector::new(edited.scene.control());
-        for (chunk, base) in (0..whole.chunks).zip(&whole.starts) {
-            let end = whole.end_in(chunk);
-            if collector.is_full() {
-                for (rule, severity, count) in edited.source.counts(chunk, end).iter() {
-                    collector.omit(rule, severity, count);
-                }
-            } else {
-                edited.source.findings(chunk, end).add_to(&mut collector, *base);
-            }
-        }
+        whole.check_chunks(edited, 0..whole.chunks, &mut collector);
         // The head of a large file is as it was most of the time.
         let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= EVIDENCE_BYTES as u32;
         let head: Vec<Arc<str>> =
@@ -242,22 +287,45 @@ impl Incremental {
             text = text.with_evidence(evidence);
         }
         check_file(edited.scene, &plan, &text, 0..whole.region_end, &whole.survey, &mut collector);
-        let whole = Arc::new(whole);
-        let (ledger, out_of_fuel) = self.check_paths(edited, &plan, &whole, &mut collector)?;
+        self.whole = Some(Arc::clone(&whole));
+        let (ledger, out_of_fuel) = self.check_paths(edited, &plan, &whole, u32::MAX, &mut collector)?;
         let remarks = Remarks { suppressions: edited.suppressions, directives: &directives, lines };
         let mut outcome = conclude(&plan, &text, &whole.survey, collector, &remarks);
-        self.whole = Some(whole);
         self.evidence = text.into_evidence().map(|evidence| (head, evidence));
         outcome.ledger = ledger;
         outcome.out_of_fuel = out_of_fuel;
         Ok(outcome)
     }
 
+    /// Checks the first chunks of the file, ahead of the rest: what is found there by rules that see a chunk, or a path as far as
+    /// to a block that nothing leads back over. Later text cannot take it back; what [`Incremental::check`] gives holds all of it,
+    /// unless there are too many findings to keep.
+    ///
+    /// # Errors
+    /// [`Stopped`] when `stop` said yes; what was done is kept.
+    pub fn check_first(&mut self, edited: &Edited<'_>, chunks: usize) -> Result<Outcome, Stopped> {
+        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited)?;
+        // Which suppressions are of no use is known at the end.
+        let plan = Plan::new(edited.selection).without_suppressions();
+        let mut collector = Collector::new(edited.scene.control());
+        let chunks = chunks.min(whole.chunks);
+        whole.check_chunks(edited, 0..chunks, &mut collector);
+        let text = ProgramText::chunks(edited.chunks);
+        self.whole = Some(Arc::clone(&whole));
+        let end = whole.outline.blocks_of(chunks).start;
+        let (ledger, _) = self.check_paths(edited, &plan, &whole, end, &mut collector)?;
+        let remarks = Remarks { suppressions: edited.suppressions, directives: &directives, lines };
+        Ok(Outcome { ledger, ..conclude(&plan, &text, &whole.survey, collector, &remarks) })
+    }
+
+    /// Adds what the analysis of paths finds; from the first checkpoint at block `enough` or behind it on it may be left for the
+    /// next time.
     fn check_paths(
         &mut self,
         edited: &Edited<'_>,
         plan: &Plan,
         whole: &Whole,
+        enough: u32,
         collector: &mut Collector<'_>,
     ) -> Result<(crate::Ledger, bool), Stopped> {
         self.work = Work::default();
@@ -295,6 +363,7 @@ impl Incremental {
                 fuel: edited.execution.fuel,
                 layout: &self.layout,
                 stop: edited.stop,
+                enough,
             };
             let mut work = Work::default();
             collector.rewind(&mark);
@@ -307,6 +376,7 @@ impl Incremental {
             let new_files = self.looked_up.files() > files && work.kept > 0;
             match done {
                 Err(Broken::Stopped) => return Err(Stopped),
+                Err(Broken::Enough) => return Ok((crate::Ledger::new(), false)),
                 Ok(result) if !new_files => return Ok(result),
                 // What was kept is used up by this, so that it happens once.
                 Ok(_) | Err(Broken::Useless) => self.begin_anew(texts, whole),
@@ -363,7 +433,7 @@ impl Incremental {
     }
 
     /// Executes again what came by any of some blocks of the main file, with every switch of block delete off, and shows it to
-    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when nothing is
+    /// an observer, then hands the observer on with what can look into the states that it was shown. `false` when not enough is
     /// known of the paths of the text as it is.
     pub fn show_again<O: FlowObserver>(
         &mut self,
@@ -397,6 +467,7 @@ impl Incremental {
             fuel: edited.execution.fuel,
             layout: &self.layout,
             stop: edited.stop,
+            enough: u32::MAX,
         };
         let machine = &edited.scene.machine.engine;
         let shown = self.paths.show_again(&ground, machine, blocks, observer);

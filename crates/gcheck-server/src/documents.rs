@@ -31,6 +31,8 @@ pub(crate) struct Document {
     pub(crate) wants_findings: bool,
     /// The clock when findings were published last.
     pub(crate) published: Option<u64>,
+    /// The clock when findings of its first lines were worked out ahead of the rest.
+    pub(crate) looked_ahead: Option<u64>,
     /// How often the analysis was given up for a question since it last came to its end.
     pub(crate) given_up: u32,
     /// The clock when its analysis met a mistake of our own: it is not tried again with the same text.

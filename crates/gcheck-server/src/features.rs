@@ -40,6 +40,7 @@ impl Owner {
     fn place(&mut self, params: &TextDocumentPositionParams) -> Result<(gcheck_db::DocumentId, u32)> {
         let uri = &params.text_document.uri;
         self.choose_settings(uri);
+        self.look_ahead(uri, &|| false);
         let snapshot = self.snapshot(uri)?;
         let offset = self.places(&snapshot).offset(params.position);
         Ok((self.document(uri)?.id, offset))

@@ -184,6 +184,12 @@ impl Owner {
         self.database.snapshot(id).ok_or_else(|| not_open(uri))
     }
 
+    /// The same for who asks for survey or outline, which cost little behind an edit.
+    pub(crate) fn outlined(&mut self, uri: &Uri) -> Result<Snapshot> {
+        let id = self.document(uri)?.id;
+        self.database.outlined(id).ok_or_else(|| not_open(uri))
+    }
+
     /// For translating places of a document.
     pub(crate) fn places<'s>(&self, snapshot: &'s Snapshot) -> Places<'s> {
         Places::new(snapshot, self.abilities.encoding)

@@ -96,6 +96,11 @@ export class Server implements vscode.Disposable {
     this.output.show(true);
   }
 
+  /** The program that runs, or ran last; `undefined` when none was found. */
+  get path(): string | undefined {
+    return this.program;
+  }
+
   get isRunning(): boolean {
     return this.client?.state === State.Running;
   }

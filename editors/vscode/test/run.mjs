@@ -1,11 +1,12 @@
-// Runs the tests of src/test inside VS Code: its own server, its workbench in Chromium, its extension host.
+// Packs the extension, installs it into VS Code's own server, and runs the tests of src/test in its extension host, with
+// its workbench in Chromium: what runs is what users get, the server in the package included.
 //
 //   node test/run.mjs TOOLS GCHECK [PICTURES]
 //
-// TOOLS holds node_modules with code-server and playwright-core; GCHECK is the program; pictures go to PICTURES.
-// CHROMIUM names the browser when it is not /usr/bin/chromium.
+// `node build.mjs --production --tests` comes before. TOOLS holds node_modules with code-server and playwright-core; GCHECK
+// is the program that is packed; pictures go to PICTURES. CHROMIUM names the browser when it is not /usr/bin/chromium.
 
-import { spawn } from "node:child_process";
+import { spawn, spawnSync } from "node:child_process";
 import * as fs from "node:fs";
 import { createRequire } from "node:module";
 import * as net from "node:net";
@@ -20,57 +21,82 @@ const { chromium } = require("playwright-core");
 const vscode = path.join(tools, "node_modules/code-server/lib/vscode");
 
 const home = fs.mkdtempSync(path.join(os.tmpdir(), "gcheck-vscode-"));
-const workspace = path.join(home, "programs");
-fs.cpSync(path.join(extension, "test/programs"), workspace, { recursive: true });
-fs.mkdirSync(path.join(home, "user/User"), { recursive: true });
-const settings = {
-  "security.workspace.trust.enabled": false,
-  "workbench.startupEditor": "none",
-  "workbench.colorTheme": "Default Dark Modern",
-  "telemetry.telemetryLevel": "off",
-  "extensions.autoCheckUpdates": false,
-  "update.mode": "none",
-  "editor.minimap.enabled": false,
-  "workbench.tips.enabled": false,
-};
-fs.writeFileSync(path.join(home, "user/User/settings.json"), JSON.stringify(settings));
+const installed = path.join(home, "extensions");
+// Nothing but the package tells where a server is.
+const environment = { ...process.env };
+delete environment.GCHECK_PATH;
 
-const port = await new Promise((resolve) => {
-  const probe = net.createServer().listen(0, "127.0.0.1", () => {
-    const { port } = probe.address();
-    probe.close(() => resolve(port));
-  });
-});
-
-const server = spawn(
-  process.execPath,
-  [
-    path.join(vscode, "out/server-main.js"),
-    "--server-data-dir", path.join(home, "server"),
-    "--user-data-dir", path.join(home, "user"),
-    "--extensions-dir", path.join(home, "extensions"),
-    "--accept-server-license-terms",
-    "--host", "127.0.0.1",
-    "--port", String(port),
-    "--without-connection-token",
-    "--telemetry-level", "off",
-  ],
-  { env: { ...process.env, GCHECK_PATH: gcheck }, stdio: ["ignore", "pipe", "pipe"] },
-);
 let said = "";
-for (const stream of [server.stdout, server.stderr]) {
-  stream.on("data", (data) => (said += data));
-}
-
+let server;
 let browser;
-async function end(code) {
-  await browser?.close().catch(() => undefined);
-  server.kill("SIGKILL");
-  fs.rmSync(home, { recursive: true, force: true });
-  process.exit(code);
+let page;
+
+/** Runs a program to its end; complains with what it says when it fails. */
+function runs(program, args, options = {}) {
+  const result = spawnSync(program, args, { encoding: "utf8", env: environment, ...options });
+  if (result.status !== 0) {
+    throw new Error(`${program} ${args.join(" ")} failed:\n${result.error ?? ""}${result.stdout}${result.stderr}`);
+  }
+  return result.stdout;
 }
 
-async function listening() {
+/** Packs what the release packs, with the program under test as its server. */
+function packed() {
+  const stage = path.join(home, "package");
+  for (const part of fs.readdirSync(extension)) {
+    if (!["node_modules", "server", "src", "test", "dist-tests"].includes(part) && !part.endsWith(".vsix")) {
+      fs.cpSync(path.join(extension, part), path.join(stage, part), { recursive: true });
+    }
+  }
+  const bundled = path.join(stage, "server/gcheck");
+  fs.mkdirSync(path.dirname(bundled));
+  fs.copyFileSync(gcheck, bundled);
+  // What tests are built with has symbols that take longer to pack than the tests to run.
+  spawnSync("strip", [bundled]);
+  const file = path.join(home, "gcheck.vsix");
+  const vsce = path.join(extension, "node_modules/@vscode/vsce/vsce");
+  const target = `${process.platform}-${process.arch}`;
+  runs(process.execPath, [vsce, "package", "--no-dependencies", "--target", target, "--out", file], { cwd: stage });
+  return file;
+}
+
+/** Where VS Code keeps its things in a session. */
+function folders(name) {
+  return [
+    "--server-data-dir", path.join(home, name, "server"),
+    "--user-data-dir", path.join(home, name, "user"),
+    "--extensions-dir", installed,
+    "--accept-server-license-terms",
+  ];
+}
+
+function install(file) {
+  const told = runs(process.execPath, [
+    path.join(vscode, "out/server-main.js"), ...folders("install"), "--install-extension", file,
+  ]);
+  if (!told.includes("successfully installed")) {
+    throw new Error(`the package is not installed:\n${told}`);
+  }
+  console.log("ok the package is installed");
+}
+
+/** A program that leaves a note when it is run. */
+function intruder() {
+  const program = path.join(home, "intruder");
+  fs.writeFileSync(program, `#!/bin/sh\ntouch '${home}/intruded'\nexec '${gcheck}' "$@"\n`, { mode: 0o755 });
+  return program;
+}
+
+async function freePort() {
+  return new Promise((resolve) => {
+    const probe = net.createServer().listen(0, "127.0.0.1", () => {
+      const { port } = probe.address();
+      probe.close(() => resolve(port));
+    });
+  });
+}
+
+async function listening(port) {
   for (let i = 0; i < 600; i++) {
     const answers = await new Promise((resolve) => {
       const socket = net.connect(port, "127.0.0.1", () => (socket.end(), resolve(true)));
@@ -82,6 +108,107 @@ async function listening() {
   throw new Error(`VS Code's server does not listen:\n${said}`);
 }
 
+async function picture(name) {
+  if (pictures !== undefined) {
+    fs.mkdirSync(pictures, { recursive: true });
+    await new Promise((resolve) => setTimeout(resolve, 1_500));
+    await page.screenshot({ path: path.join(pictures, `${name}.png`) });
+  }
+}
+
+/** Clicks from the left edge of the toolpath towards its middle, until the editor's cursor goes to another line. */
+async function clickPath() {
+  const found = await Promise.all(page.frames().map((frame) => frame.$("#canvas").catch(() => null)));
+  const canvas = found.find((element) => element !== null);
+  const frame = await canvas?.ownerFrame();
+  if (!canvas || !frame) {
+    throw new Error("no frame shows a toolpath");
+  }
+  await frame.selectOption("#view", "top");
+  await frame.click("#fit");
+  const line = () => page.textContent('[id="status.editor.selection"]').catch(() => "");
+  const before = await line();
+  const { width, height } = await canvas.boundingBox();
+  for (let x = 2; x < width / 2; x += 5) {
+    await canvas.click({ position: { x, y: height / 2 } });
+    await new Promise((resolve) => setTimeout(resolve, 100));
+    if ((await line()) !== before) return;
+  }
+}
+
+/** What tests ask of the runner, by lines in the log. */
+async function asked(line) {
+  const [, what, rest] = /^@(\S+) ?(.*)$/s.exec(line) ?? [];
+  if (what === "test") console.log(rest);
+  else if (what === "screenshot") await picture(rest);
+  else if (what === "click-path") await clickPath();
+  else said += `${line}\n`;
+}
+
+/** A session with VS Code: true when its tests pass. */
+async function session(name, settings, prepare = () => {}) {
+  const workspace = path.join(home, name, "programs");
+  fs.cpSync(path.join(extension, "test/programs"), workspace, { recursive: true });
+  prepare(workspace);
+  const own = path.join(home, name, "user/User/settings.json");
+  fs.mkdirSync(path.dirname(own), { recursive: true });
+  const usual = {
+    "workbench.startupEditor": "none",
+    "workbench.colorTheme": "Default Dark Modern",
+    "telemetry.telemetryLevel": "off",
+    "extensions.autoCheckUpdates": false,
+    "update.mode": "none",
+    "editor.minimap.enabled": false,
+    "workbench.tips.enabled": false,
+  };
+  fs.writeFileSync(own, JSON.stringify({ ...usual, ...settings }));
+  // VS Code runs tests for an extension under development only: this one does nothing.
+  const nothing = path.join(home, "nothing");
+  fs.mkdirSync(nothing, { recursive: true });
+  const manifest = { name: "nothing", publisher: "test", version: "0.0.1", engines: { vscode: "*" } };
+  fs.writeFileSync(path.join(nothing, "package.json"), JSON.stringify(manifest));
+
+  const port = await freePort();
+  server = spawn(
+    process.execPath,
+    [
+      path.join(vscode, "out/server-main.js"), ...folders(name),
+      "--host", "127.0.0.1",
+      "--port", String(port),
+      "--without-connection-token",
+      "--telemetry-level", "off",
+    ],
+    { env: environment, stdio: ["ignore", "pipe", "pipe"] },
+  );
+  for (const stream of [server.stdout, server.stderr]) {
+    stream.on("data", (data) => (said += data));
+  }
+  await listening(port);
+  page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  await page.exposeFunction("codeAutomationLog", (_type, args) =>
+    asked(args.map(String).join(" ")).catch((error) => (said += `${error.stack ?? error}\n`)),
+  );
+  const exited = new Promise((resolve) => page.exposeFunction("codeAutomationExit", (code) => resolve(code)));
+  const remote = (file) => `vscode-remote://127.0.0.1:${port}${file}`;
+  const payload = [
+    ["extensionDevelopmentPath", remote(nothing)],
+    ["extensionTestsPath", remote(path.join(extension, "dist-tests/tests.js"))],
+  ];
+  const query = `folder=${encodeURIComponent(workspace)}&payload=${encodeURIComponent(JSON.stringify(payload))}`;
+  await page.goto(`http://127.0.0.1:${port}/?${query}`);
+  const code = await exited;
+  await page.close();
+  server.kill("SIGKILL");
+  return code === 0;
+}
+
+async function end(code) {
+  await browser?.close().catch(() => undefined);
+  server?.kill("SIGKILL");
+  fs.rmSync(home, { recursive: true, force: true });
+  process.exit(code);
+}
+
 const deadline = setTimeout(async () => {
   console.log(`FAILED: not done after ten minutes\n${said.slice(-2000)}`);
   await page?.screenshot({ path: path.join(pictures ?? os.tmpdir(), "vscode-stuck.png") }).catch(() => undefined);
@@ -89,41 +216,29 @@ const deadline = setTimeout(async () => {
 }, 600_000);
 deadline.unref();
 
-let page;
 try {
-  await listening();
+  install(packed());
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
     args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
   });
-  page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
-  await page.exposeFunction("codeAutomationLog", async (_type, args) => {
-    const line = args.map(String).join(" ");
-    const wanted = /^@screenshot (\S+)$/.exec(line);
-    if (wanted === null) {
-      const told = /^@test (.*)$/s.exec(line);
-      if (told !== null) {
-        console.log(told[1]);
-      } else {
-        said += `${line}\n`;
-      }
-    } else if (pictures !== undefined) {
-      fs.mkdirSync(pictures, { recursive: true });
-      await new Promise((resolve) => setTimeout(resolve, 1_500));
-      await page.screenshot({ path: path.join(pictures, `${wanted[1]}.png`) });
-    }
-  });
-  const exited = new Promise((resolve) => page.exposeFunction("codeAutomationExit", (code) => resolve(code)));
-  const remote = (file) => `vscode-remote://127.0.0.1:${port}${file}`;
-  const payload = [
-    ["extensionDevelopmentPath", remote(extension)],
-    ["extensionTestsPath", remote(path.join(extension, "dist/tests.js"))],
-  ];
-  await page.goto(
-    `http://127.0.0.1:${port}/?folder=${encodeURIComponent(workspace)}&payload=${encodeURIComponent(JSON.stringify(payload))}`,
+  const trusted = await session("trusted", { "security.workspace.trust.enabled": false });
+  // The folder names a server of its own, and nobody has said that the folder is to be trusted.
+  const restricted = await session(
+    "restricted",
+    { "security.workspace.trust.startupPrompt": "never", "security.workspace.trust.banner": "never" },
+    (workspace) => {
+      fs.mkdirSync(path.join(workspace, ".vscode"));
+      const settings = JSON.stringify({ "gcheck.path": intruder() });
+      fs.writeFileSync(path.join(workspace, ".vscode/settings.json"), settings);
+    },
   );
-  await end((await exited) === 0 ? 0 : 1);
+  const intruded = fs.existsSync(path.join(home, "intruded"));
+  console.log(`${intruded ? "FAILED" : "ok"} a program that the folder names is not run`);
+  const passed = trusted && restricted && !intruded;
+  console.log(passed ? "all tests passed" : `FAILED\n${said.slice(-2000)}`);
+  await end(passed ? 0 : 1);
 } catch (error) {
   console.log(`FAILED: ${error.stack ?? error}\n${said.slice(-2000)}`);
   await end(1);

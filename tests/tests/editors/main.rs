@@ -92,10 +92,11 @@ fn vs_code() {
     if !server.is_file() {
         return passed_over("VS Code's server is missing");
     }
-    if !extension.join("node_modules/esbuild").is_dir() {
+    if !["esbuild", "@vscode/vsce"].iter().all(|name| extension.join("node_modules").join(name).is_dir()) {
         return passed_over("the extension's packages are missing");
     }
-    let built = Command::new(&node).arg("build.mjs").current_dir(&extension).status();
+    let built =
+        Command::new(&node).args(["build.mjs", "--production", "--tests"]).current_dir(&extension).status();
     assert!(built.is_ok_and(|status| status.success()), "the extension cannot be built");
     check_editor(
         Command::new(&node)

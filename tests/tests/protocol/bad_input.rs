@@ -3,6 +3,7 @@
 //! Knows: ways to be wrong. Must not know: features beyond those it needs to see the server alive.
 
 use std::fs;
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
@@ -225,4 +226,26 @@ fn the_same_number_for_two_requests_at_once_is_refused() {
     // Whatever comes of the second, the server goes on.
     let at = session.at("a.nc", 0, 0);
     session.client.request("textDocument/hover", at);
+}
+
+#[test]
+fn a_run_that_nobody_waits_for_any_more_makes_way() {
+    let mut session = Session::new(&[]);
+    // It would run for a minute.
+    session.open("endless.nc", "(gcheck: control=haas-mill)\nO1\nN1 G91 G0 X1.\nGOTO 1\nM30\n");
+    session.open("short.nc", "(gcheck: control=haas-mill)\nO2\nG21 G90 G54 G0 X1. Y1.\nX2.\nM30\n");
+    let endless = session.document("endless.nc");
+    let start = Instant::now();
+    // As many as run side by side.
+    let ids = [(); 2].map(|()| session.client.send_request("gcheck/toolpath", endless.clone()));
+    for id in ids {
+        session.client.notify("$/cancelRequest", json!({ "id": id }));
+    }
+    let short = session.document("short.nc");
+    let path = session.client.request("gcheck/toolpath", short);
+    assert!(path["moves"].as_u64().unwrap() > 0, "{path}");
+    assert!(start.elapsed() < Duration::from_secs(15), "{:?}", start.elapsed());
+    for id in ids {
+        assert_eq!(session.client.answer(id)["error"]["code"], CANCELLED);
+    }
 }

@@ -107,6 +107,27 @@ fn no_more_than_a_thousand_are_shown_and_the_rest_counted() {
 }
 
 #[test]
+fn of_a_large_program_the_first_lines_are_told_before_the_rest() {
+    let head =
+        "(gcheck: control=haas-mill)\n%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\nG0 X2.\n";
+    let text = format!("{head}{}G999\nM30\n%\n", "X1.5 Y2.25\nX2.5 Y3.25\n".repeat(120_000));
+    let mut session = Session::new(&[]);
+    session.open("a.nc", &text);
+    // What is asked about the first lines does not have to wait for the rest either.
+    let hover = session.at("a.nc", 6, 0);
+    let hover = session.client.send_request("textDocument/hover", hover);
+    let first = session.published("a.nc", 1);
+    expect!["6:0-6:6 error feed-missing"].assert_eq(&first.join("\n"));
+    let all = session.published("a.nc", 1);
+    assert!(first.iter().all(|finding| all.contains(finding)), "{all:?}");
+    assert!(all.iter().any(|finding| finding.ends_with("unknown-code")), "{all:?}");
+    assert!(session.client.answer(hover)["result"].to_string().contains("after:"));
+    // Behind that, findings come at once.
+    session.edit("a.nc", 2, [6, 6, 6, 6], " F100.");
+    assert!(!session.published("a.nc", 2).iter().any(|finding| finding.ends_with("feed-missing")));
+}
+
+#[test]
 fn who_asks_for_findings_is_not_sent_them() {
     let mut session = Session::with(&pulling(), &[]);
     assert_eq!(session.capabilities["diagnosticProvider"]["workspaceDiagnostics"], true);

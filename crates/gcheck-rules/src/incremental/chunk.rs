@@ -36,7 +36,7 @@ impl ChunkFacts {
         }
     }
 
-    /// Facts for survey and outline.
+    /// Labels, codes and the like.
     pub fn survey(&self) -> &Survey {
         &self.survey
     }
@@ -44,6 +44,11 @@ impl ChunkFacts {
     /// Facts for the outline.
     pub fn outline(&self) -> &ChunkOutline {
         &self.outline
+    }
+
+    /// What its blocks have, all together.
+    pub fn flags(&self) -> BlockFlags {
+        self.flags
     }
 
     /// Where tape marks stand.

@@ -71,6 +71,8 @@ struct Segment {
     findings: Vec<KeptFinding>,
     /// It must be executed again, whatever it read.
     is_stale: bool,
+    /// It was not executed: it stands for all that comes behind where it begins.
+    is_gap: bool,
 }
 
 /// Blocks that were reached.
@@ -94,6 +96,8 @@ enum RunPlace {
 pub(crate) enum Broken {
     /// Somebody asked for it.
     Stopped,
+    /// It has come as far as was wanted; what it found so far is collected.
+    Enough,
     /// What was kept is of no use.
     Useless,
 }
@@ -108,6 +112,8 @@ pub(crate) struct Ground<'g> {
     pub(crate) fuel: u64,
     pub(crate) layout: &'g Layout,
     pub(crate) stop: &'g dyn Fn() -> bool,
+    /// A checkpoint at this block of the main file, or behind it, is far enough.
+    pub(crate) enough: u32,
 }
 
 /// How much was executed, and how much was not.
@@ -162,7 +168,13 @@ impl Paths {
         for chain in &mut self.chains {
             loop {
                 let offers = remembers && !self.unsure;
-                let went_back = advance(chain, ground, &mut watchers, &found, offers, work)?;
+                let went_back = match advance(chain, ground, &mut watchers, &found, offers, work) {
+                    Err(Broken::Enough) => {
+                        collect(ground.layout, [&*chain], collector, Vec::new());
+                        return Err(Broken::Enough);
+                    }
+                    done => done?,
+                };
                 self.unsure |= chain.segments.iter().any(|segment| segment.out_of_fuel);
                 if !went_back {
                     break;
@@ -191,34 +203,12 @@ impl Paths {
             watchers.finish(first, others);
         }
         drop(watchers);
-        self.collect(ground.layout, collector, found.into_inner());
+        collect(ground.layout, &self.chains, collector, found.into_inner());
         let mut ledger = Ledger::new();
         for result in &results {
             ledger.extend(result.assumptions.iter().cloned());
         }
         Ok((ledger, results.iter().any(|result| result.out_of_fuel)))
-    }
-
-    /// Adds each finding once: a loop comes by many times, and so do calls from several segments.
-    fn collect(
-        &self,
-        layout: &Layout,
-        collector: &mut Collector<'_>,
-        last: Vec<(Option<Severity>, Finding)>,
-    ) {
-        let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
-        for segment in self.chains.iter().flat_map(|chain| &chain.segments) {
-            for kept in &segment.findings {
-                if made.insert(kept.key(layout)) {
-                    collector.add(kept.severity, kept.found(layout));
-                }
-            }
-        }
-        for (severity, finding) in last {
-            if !made.contains(&(finding.rule.id, finding.range.start, finding.message.as_str())) {
-                collector.add(severity, finding);
-            }
-        }
     }
 
     /// Executes again what came by any of the blocks, with every switch of block delete off, and shows it to an observer.
@@ -231,6 +221,9 @@ impl Paths {
         observer: &mut O,
     ) -> bool {
         let Some(chain) = self.chains.iter().find(|chain| chain.skip == 0) else { return false };
+        if !chain.covers(blocks, ground.layout) {
+            return false;
+        }
         let mut spent = 0;
         for segment in &chain.segments {
             let comes_by = segment.reached.iter().any(|run| match run.place {
@@ -255,7 +248,42 @@ impl Paths {
     }
 }
 
+/// Adds each finding once: a loop comes by many times, and so do calls from several segments.
+fn collect<'c>(
+    layout: &'c Layout,
+    chains: impl IntoIterator<Item = &'c Chain>,
+    collector: &mut Collector<'_>,
+    last: Vec<(Option<Severity>, Finding)>,
+) {
+    let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
+    let known = |chain: &'c Chain| chain.segments.iter().take_while(|segment| !segment.is_gap);
+    for segment in chains.into_iter().flat_map(known) {
+        for kept in &segment.findings {
+            if made.insert(kept.key(layout)) {
+                collector.add(kept.severity, kept.found(layout));
+            }
+        }
+    }
+    for (severity, finding) in last {
+        if !made.contains(&(finding.rule.id, finding.range.start, finding.message.as_str())) {
+            collector.add(severity, finding);
+        }
+    }
+}
+
 impl Chain {
+    /// Is all known of the paths that come by some blocks? An analysis that was given up, or has come far enough, knows what is
+    /// in front of the block where it is to be taken up: nothing leads back over that.
+    fn covers(&self, blocks: &Range<u32>, layout: &Layout) -> bool {
+        let Some(gap) = self.segments.iter().find(|segment| segment.is_gap) else {
+            return !self.segments.is_empty();
+        };
+        gap.entry.as_ref().is_some_and(|entry| {
+            let mut at = entry.checkpoint.at;
+            layout.number_again(&mut at) && at.file == 0 && blocks.end <= at.block
+        })
+    }
+
     fn result(&self, layout: &Layout) -> FlowResult {
         let mut result = FlowResult::default();
         for segment in &self.segments {
@@ -383,6 +411,8 @@ fn advance(
             found,
             offers,
             stop: ground.stop,
+            enough: ground.enough,
+            has_enough: false,
             entry,
             segments: &mut chain.segments,
             old: &old,
@@ -402,6 +432,7 @@ fn advance(
             recorder.close(leg);
         }
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
+        let broken = if recorder.has_enough { Broken::Enough } else { Broken::Stopped };
         work.executed += recorder.executed;
         if let Some(Joined { index, before, differing, trace }) = joined {
             at = index;
@@ -415,7 +446,7 @@ fn advance(
             // Given up on the way: what follows here is to be executed, and what was known may be met behind it.
             chain.segments.push(Segment::gap(entry));
             chain.segments.extend(old.into_iter().skip(at).flatten());
-            return Err(Broken::Stopped);
+            return Err(broken);
         }
         chain.end = Some(watchers.remember(layout));
         return Ok(went_back);
@@ -437,6 +468,7 @@ impl Segment {
             flags: BlockFlags::empty(),
             findings: Vec::new(),
             is_stale: true,
+            is_gap: true,
         }
     }
 }
@@ -461,6 +493,9 @@ struct Recorder<'r, 'w, 'c> {
     found: &'r RefCell<Vec<(Option<Severity>, Finding)>>,
     offers: bool,
     stop: &'r dyn Fn() -> bool,
+    /// The block that is far enough, and whether it was reached.
+    enough: u32,
+    has_enough: bool,
     /// Where the segment under way began.
     entry: Option<Entry>,
     segments: &'r mut Vec<Segment>,
@@ -520,6 +555,7 @@ impl Recorder<'_, '_, '_> {
             flags: touched.flags,
             findings,
             is_stale,
+            is_gap: false,
         });
     }
 }
@@ -560,6 +596,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
     fn checkpoint(&mut self, leg: Leg, mut checkpoint: Checkpoint) -> bool {
         self.close(leg);
         self.watchers.forget_made();
+        self.has_enough = checkpoint.at.block >= self.enough;
         checkpoint.trace = checkpoint.trace.apart();
         let before = checkpoint.at.block.checked_sub(1).map(|block| {
             let mut before = At { block, ..checkpoint.at };
@@ -592,7 +629,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
             _ => Rc::new(kept),
         };
         self.entry = Some(Entry { checkpoint, before, kept });
-        true
+        !self.has_enough
     }
 
     fn stops(&mut self) -> bool {

@@ -93,6 +93,8 @@ struct Bench<'a> {
     suppressions: bool,
     incremental: Incremental,
     execution: Execution,
+    /// Chunks that are checked ahead of the rest; none of them without a word about it.
+    ahead: usize,
 }
 
 impl Bench<'_> {
@@ -108,7 +110,11 @@ impl Bench<'_> {
             execution: self.execution,
             stop: &|| false,
         };
+        let first = (self.ahead > 0).then(|| self.incremental.check_first(&edited, self.ahead).unwrap());
         let outcome = self.incremental.check(&edited).unwrap();
+        for finding in first.iter().flat_map(|first| &first.findings) {
+            assert!(outcome.findings.contains(finding), "taken back: {finding:#?}\nin {chunks:#?}");
+        }
         (outcome, self.incremental.work())
     }
 
@@ -223,11 +229,14 @@ fn soak(seed: u64, control: &str, world: &World<'_>, start: &str, others: &[&str
         suppressions: world.suppressions,
         incremental: Incremental::new(),
         execution: Execution { fuel: 20_000, block_skip: None },
+        ahead: 0,
     };
     let mut text = start.to_owned();
     let mut told = Vec::new();
     let mut all = Work::default();
-    for _ in 0..=edits {
+    for round in 0..=edits {
+        // Every second time, more chunks each time.
+        bench.ahead = if round % 2 == 0 { (seed as usize + round) / 2 % 5 } else { 0 };
         let work = bench.assert_fresh(&text, lines, &|| format!("seed {seed}: {told:#?}"));
         all.executed += work.executed;
         all.kept += work.kept;
@@ -313,6 +322,7 @@ fn cost(change: impl Fn(&mut String)) -> Work {
         suppressions: true,
         incremental: Incremental::new(),
         execution: Execution::default(),
+        ahead: 0,
     };
     let mut text = long_program(20);
     let first = bench.assert_fresh(&text, 7, &|| "at first".to_owned());
@@ -426,6 +436,45 @@ fn work_that_is_given_up_is_taken_up_again() {
     assert_eq!(shown(&outcome), shown(&fresh));
 }
 
+#[test]
+fn the_first_chunks_are_checked_without_the_rest() {
+    let control = gcheck_controls::load("haas-mill").unwrap();
+    let dialect = Dialect::new(&control);
+    let world = World::default();
+    let scene = Scene {
+        dialect: &dialect,
+        machine: &world.machine,
+        programs: world.programs,
+        control_is_guessed: false,
+    };
+    let selection = everything();
+    // Nobody says a feed, at the first tool and at one behind it; one is silenced far away.
+    let text = long_program(400)
+        .replace(" F100.", "")
+        .replace("M30", "(gcheck: ignore-file spindle-speed-zero - x)\nM30");
+    let chunks = cut(&text, 7);
+    let source = Fresh { chunks: &chunks, scene, selection: &selection };
+    let edited = Edited {
+        chunks: &chunks,
+        source: &source,
+        scene,
+        selection: &selection,
+        suppressions: true,
+        execution: Execution::default(),
+        stop: &|| false,
+    };
+    let mut incremental = Incremental::new();
+    let first = incremental.check_first(&edited, 5).unwrap();
+    let work = incremental.work();
+    assert!(work.executed <= 10, "{work:?}");
+    let rules: Vec<&str> = first.findings.iter().map(|finding| finding.rule.id).collect();
+    assert!(rules.contains(&"feed-missing"), "{rules:?}");
+    let whole = incremental.check(&edited).unwrap();
+    assert!(incremental.work().kept >= work.executed && incremental.work().from_the_start == 0);
+    assert!(first.findings.len() < whole.findings.len());
+    assert!(first.findings.iter().all(|finding| whole.findings.contains(finding)));
+}
+
 /// Every rule.
 fn everything() -> Selection {
     let mut selection = Selection::default();
@@ -449,6 +498,7 @@ fn what_is_put_in_where_a_segment_begins_is_executed() {
             suppressions: true,
             incremental: Incremental::new(),
             execution: Execution::default(),
+            ahead: 0,
         };
         bench.assert_fresh(&format!("{head}{tail}"), lines, &|| format!("{lines} lines a chunk"));
         bench.assert_fresh(&format!("{head}X2 Y3\n{tail}"), lines, &|| {

@@ -66,9 +66,10 @@ impl Owner {
             Ok(snapshot) => snapshot,
             Err(error) => return reply.send(Err(error)),
         };
-        self.answer_elsewhere(uri, true, reply, move |_| {
+        self.answer_elsewhere(uri, true, reply, move |stop| {
             let fuel = snapshot.settings().execution.fuel;
-            let path = gcheck_ide::toolpath(&snapshot, fuel, gcheck_ide::MAX_SEGMENTS);
+            let path = gcheck_ide::toolpath(&snapshot, fuel, gcheck_ide::MAX_SEGMENTS, stop);
+            let path = path.map_err(given_up)?;
             Ok(serde_json::to_value(path).unwrap_or_default())
         });
     }

@@ -112,7 +112,12 @@ impl Owner {
         form: impl FnOnce(SemanticTokens) -> T + Send + 'static,
     ) {
         self.choose_settings(uri);
-        let snapshot = match self.snapshot(uri) {
+        // What is in view is wanted at once; a whole file is read elsewhere.
+        if range.is_some() {
+            self.look_ahead(uri, &|| reply.is_cancelled());
+        }
+        let snapshot = if range.is_some() { self.outlined(uri) } else { self.snapshot(uri) };
+        let snapshot = match snapshot {
             Ok(snapshot) => snapshot,
             Err(error) => return reply.send(Err(error)),
         };
@@ -156,6 +161,7 @@ impl Owner {
     ) -> Result<Option<Vec<InlayHint>>> {
         let uri = &params.text_document.uri;
         self.choose_settings(uri);
+        self.look_ahead(uri, stop);
         let snapshot = self.snapshot(uri)?;
         let range = self.places(&snapshot).bytes(params.range);
         let document = self.document(uri)?;
@@ -218,11 +224,18 @@ impl Owner {
             return;
         }
         document.is_running = true;
-        let (uri, now) = (uri.clone(), document.clock.now());
+        let clock = document.clock.clone();
+        let (uri, now) = (uri.clone(), clock.now());
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
         let fuel = snapshot.settings().execution.fuel;
         self.workers.start_work(move || {
-            let figures = Arc::new(gcheck_ide::figures(&snapshot, fuel));
+            // Somebody who waits wants them even if they are of a text that is gone; else they are worth no more than the text.
+            let stop = || reply.as_ref().map_or_else(|| clock.now() != now, Reply::is_cancelled);
+            let Ok(figures) = gcheck_ide::figures(&snapshot, fuel, &stop) else {
+                mailbox.post("figures", Kind::Result, move |owner| owner.have_no_figures(&uri));
+                return;
+            };
+            let figures = Arc::new(figures);
             let is_shown = reply.is_some();
             if let Some(reply) = reply {
                 reply.send(Ok(Some(lenses(&snapshot, &figures, encoding))));
@@ -231,6 +244,13 @@ impl Owner {
                 owner.put_figures(&uri, now, figures, is_shown);
             });
         });
+    }
+
+    /// The run was given up: the next who asks starts another.
+    fn have_no_figures(&mut self, uri: &Uri) {
+        if let Some(document) = self.documents.get_mut(uri) {
+            document.is_running = false;
+        }
     }
 
     fn put_figures(&mut self, uri: &Uri, at: u64, figures: Arc<RunFigures>, is_shown: bool) {

@@ -25,6 +25,11 @@ const MOST_GIVEN_UP: u32 = 20;
 /// An analysis that takes longer is shown to be under way.
 const SHOWN_AFTER: Duration = Duration::from_millis(500);
 
+/// Of a document of more bytes the findings of its first lines are shown ahead of the others.
+const LARGE: u32 = 2 << 20;
+/// Bytes of lines that an editor may show when it opens a document: a few thousand lines.
+const FIRST_LINES: usize = 64 << 10;
+
 impl Owner {
     /// The open document whose findings are to be worked out next: the one that was touched last.
     pub(super) fn next_to_diagnose(&self) -> Option<Uri> {
@@ -43,6 +48,8 @@ impl Owner {
         let Some(document) = self.documents.get(uri) else { return };
         let for_questions = document.given_up < MOST_GIVEN_UP;
         let waiting = Arc::clone(&self.waiting);
+        self.choose_settings(uri);
+        self.look_ahead(uri, &|| for_questions && waiting.has_questions());
         let analysis = self.analyse(uri, &|| for_questions && waiting.has_questions());
         if let Some(document) = self.documents.get_mut(uri) {
             document.given_up = if analysis.is_err() { document.given_up + 1 } else { 0 };
@@ -51,7 +58,37 @@ impl Owner {
         let list = self.diagnostics_of(uri, analysis.as_deref());
         let Some(document) = self.documents.get_mut(uri) else { return };
         document.published = Some(document.clock.now());
-        let version = Some(document.version);
+        self.publish(uri, list);
+    }
+
+    /// Works out and publishes what is found in the first lines of a large document that was just opened, before anything is done
+    /// that takes all of it: an editor shows these lines first. `stop` gives it up, and so does an edit.
+    pub(crate) fn look_ahead(&mut self, uri: &Uri, stop: &dyn Fn() -> bool) {
+        let Some(document) = self.documents.get(uri) else { return };
+        let now = Some(document.clock.now());
+        let is_asked_for = self.is_ready && document.wants_findings && document.in_force.settings.is_some();
+        let is_new = document.published.is_none() && document.looked_ahead != now && document.failed != now;
+        let id = document.id;
+        if !is_asked_for || !is_new || self.database.snapshot(id).is_none_or(|text| text.len() <= LARGE) {
+            return;
+        }
+        let waiting = Arc::clone(&self.waiting);
+        let found = self.database.first_findings(id, FIRST_LINES, &|| stop() || waiting.has_changes());
+        let Ok(found) = found else { return };
+        if let Some(document) = self.documents.get_mut(uri) {
+            document.looked_ahead = now;
+        }
+        // A client that asks for findings is answered once, with all of them.
+        if let Some(found) = found
+            && !self.abilities.pulls
+        {
+            let list = self.diagnostics_of(uri, Some(&found));
+            self.publish(uri, list);
+        }
+    }
+
+    fn publish(&self, uri: &Uri, list: Vec<Diagnostic>) {
+        let version = self.documents.get(uri).map(|document| document.version);
         self.outbox.notify::<PublishDiagnostics>(PublishDiagnosticsParams::new(uri.clone(), list, version));
     }
 

@@ -51,6 +51,7 @@ impl Owner {
             clock: Clock::default(),
             wants_findings: true,
             published: None,
+            looked_ahead: None,
             given_up: 0,
             failed: None,
             figures: None,

@@ -170,7 +170,10 @@ impl Owner {
         let mut workspace = Workspace::default();
         let mut addresses = BTreeMap::new();
         for (path, (id, uri, version)) in loaded {
-            let Some(snapshot) = self.database.snapshot(id) else { continue };
+            // Of an open document all is kept that survey and outline are made of; a file on disk may never be asked for them.
+            let snapshot =
+                if version.is_some() { self.database.outlined(id) } else { self.database.snapshot(id) };
+            let Some(snapshot) = snapshot else { continue };
             workspace.files.push(WorkspaceFile { id, name: file_name(&path), snapshot });
             addresses.insert(id, (uri, version));
         }
