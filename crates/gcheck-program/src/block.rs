@@ -56,6 +56,8 @@ bitflags::bitflags! {
         const UNREAD_WORD = 1 << 18;
         /// A lower-case letter outside comments.
         const LOWER_CASE = 1 << 19;
+        /// An axis stands with its own address and with that of its increments.
+        const AXIS_TWICE = 1 << 20;
     }
 }
 

@@ -47,6 +47,7 @@ pub(super) const KINDS: &[Kind] = &[
         &[
             "variable-read-before-set",
             "maybe-variable-unset",
+            "common-variable-never-set",
             "named-parameter-unset",
             "loop-condition-unchanged",
             "feed-missing",

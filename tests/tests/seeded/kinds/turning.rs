@@ -202,7 +202,7 @@ pub(super) const KINDS: &[Kind] = &[
         "diameter-and-increment",
         Fear::Alarm,
         "`X` and `U` stand in one block",
-        &["words-exclude-each-other", "word-given-twice", "word-not-read", "word-forbidden"],
+        &["axis-given-twice"],
         |p| {
             p.each(|block| {
                 let fits = p.is_lathe()

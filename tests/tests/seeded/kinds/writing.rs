@@ -220,7 +220,7 @@ pub(super) const KINDS: &[Kind] = &[
         "stray-word",
         Fear::Trap,
         "a word that nothing in the block reads is left from another block",
-        &["word-not-read"],
+        &["word-not-read", "word-passed-over"],
         |p| {
             p.each(|block| {
                 let fits = block.code(&[Effect::Linear]).is_some()
