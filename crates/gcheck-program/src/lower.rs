@@ -393,6 +393,11 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let literal = !rest.is_empty()
             && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
         let (value, shape) = if literal {
+            let is_digit = |b: &u8| !matches!(b, b' ' | b'\t' | b'-' | b'+');
+            let digits = rest.iter().position(is_digit).and_then(|first| rest.get(first..)).unwrap_or_default();
+            if digits.iter().any(|b| !is_digit(b)) {
+                self.block_flags |= BlockFlags::DIVIDED_NUMBER;
+            }
             let (value, shape) = number::parse(rest);
             (Value::Number(value), shape)
         } else if let Some(expr) = self.take_expr(open.ops, open.start + 1) {

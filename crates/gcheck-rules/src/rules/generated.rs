@@ -265,6 +265,7 @@ pub(crate) mod suppressions {
 pub(crate) mod syntax {
     pub(crate) mod address_without_value;
     pub(crate) mod assignment_without_equals;
+    pub(crate) mod blank_inside_number;
     pub(crate) mod block_delete_level;
     pub(crate) mod bracket_nesting_limit;
     pub(crate) mod condition_missing;
@@ -544,6 +545,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &suppressions::unused_suppression::RULE,
     &syntax::address_without_value::RULE,
     &syntax::assignment_without_equals::RULE,
+    &syntax::blank_inside_number::RULE,
     &syntax::block_delete_level::RULE,
     &syntax::bracket_nesting_limit::RULE,
     &syntax::condition_missing::RULE,

@@ -115,6 +115,8 @@ pub(super) const KINDS: &[Kind] = &[
             "arc-radius-too-small",
             "arc-end-off-circle",
             "turning-profile-turns-back",
+            // Names the diameter that lies beyond where the tool starts.
+            "turning-start-inside-profile",
         ],
         |p| {
             p.each(|block| {

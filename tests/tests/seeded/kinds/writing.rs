@@ -130,6 +130,7 @@ pub(super) const KINDS: &[Kind] = &[
         "the letter in front of a value is lost (`5.25` for `X5.25`)",
         &[
             "value-without-address",
+            "blank-inside-number",
             "malformed-number",
             "decimal-point-on-integer",
             "unexpected-text",

@@ -75,6 +75,7 @@ impl PathRule for CommonVariableNeverSet {
                 let Variable::Known(entry) = cx.scene.control().variable(variable) else { continue };
                 if cx.state().variables().is_written(variable)
                     || self.told.contains(&variable)
+                    || !SCRATCH.contains(&variable)
                     || !belongs_to_the_program(cx, entry)
                 {
                     continue;
@@ -98,6 +99,9 @@ impl PathRule for CommonVariableNeverSet {
         }
     }
 }
+
+/// What programs compute with, by the custom of all macro controls; variables behind are set up once.
+const SCRATCH: std::ops::RangeInclusive<u32> = 100..=199;
 
 /// Is the variable for the program to set? One that survives power off may be set up once; but not where the program
 /// sets its neighbours itself.
@@ -178,6 +182,7 @@ mod tests {
     #[test]
     fn what_survives_power_off_may_be_set_up_once() {
         check_rule(&RULE, "haas-mill", "O1\nG0 X#101\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "O1\n#502=3.\nG0 X#501 Y#502\nM30\n", &expect![[""]]);
         check_rule(&RULE, "haas-mill", "O1\n#102= 3.\nG0 X#101 Y#102\nM30\n", &expect![[r#"
             3 | G0 X#101 Y#102
               |    ^^^^^ info[common-variable-never-set] `#101` is used here and nothing before sets it

@@ -97,8 +97,9 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
     if !replaced {
         read = read.or(of_motion(cx)?);
     }
-    // What a mode took with its code, it may take again in later blocks: the vector of a compensation.
-    let lasting = |code: &Code<'_>| code.number().letter() == b'G' && code.group().modal && code.motion() == Motion::None;
+    // What a compensation took with its code, it may take again in later blocks: its vector.
+    let lasting =
+        |code: &Code<'_>| matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length));
     for code in cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number)).filter(lasting) {
         read = read.or(code.reads());
     }
@@ -158,6 +159,19 @@ mod tests {
             "fanuc-mill",
             "G90 G0 X0. Y0.\nG83 Z-1. R.1 Q.2 F10.\nG98 R.5\nG80\nG2 X1. R1.\nG90 X3. R2.\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_vector_of_the_tool_is_read_in_every_block() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 A0. Y0. Q3.\nG1 X1. Q2.\nG141 D1 X1. I1. J0. K0.\nG1 X2. I0. J1. K0.\nM30\n",
+            &expect![[r#"
+                2 | G1 X1. Q2.
+                  |        ^^^ info[word-passed-over] nothing reads `Q` in this block
+            "#]],
         );
     }
 
