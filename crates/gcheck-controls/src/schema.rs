@@ -487,6 +487,9 @@ pub struct WordEntry {
     /// For `need = "conditional"`: when, in words.
     #[serde(default)]
     pub when: Option<String>,
+    /// For `need = "conditional"`: words beside which it must stand in the block, with their values: `["L2", "L20"]`.
+    #[serde(default)]
+    pub required_with: Vec<String>,
     /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
     #[serde(default)]
     pub instead: Vec<String>,

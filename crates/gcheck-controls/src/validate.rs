@@ -117,11 +117,12 @@ impl Problems<'_> {
                 self.say(code, format!("refers to `{item}`, which is no code or group here"));
             }
         }
+        let is_word = |item: &str| {
+            let (letter, value) = item.split_at_checked(1).unwrap_or_default();
+            Letter::parse(letter).is_some() && !value.is_empty() && value.bytes().all(|b| b.is_ascii_digit())
+        };
         for item in &entry.cancelled_by {
-            let is_word = Letter::new(item.as_bytes().first().copied().unwrap_or(0)).is_some()
-                && item.len() > 1
-                && item.bytes().skip(1).all(|b| b.is_ascii_digit());
-            if !self.resolves(item) && !is_word {
+            if !self.resolves(item) && !is_word(item) {
                 self.say(code, format!("is cancelled by `{item}`, which is no code, group or word here"));
             }
         }
@@ -137,6 +138,11 @@ impl Problems<'_> {
             for letter in &word.instead {
                 if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
                     self.say(code, format!("`{letter}` instead of `{}` is no address here", word.letter));
+                }
+            }
+            for item in &word.required_with {
+                if !is_word(item) || word.need != crate::Need::Conditional {
+                    self.say(code, format!("word `{}` cannot be required with `{item}`", word.letter));
                 }
             }
             if word.need == crate::Need::Conditional && word.when.is_none() {

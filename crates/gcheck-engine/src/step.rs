@@ -797,7 +797,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if let Some(variable) = self.model.named_variable(&text) {
             return self.read_system(variable, 0, 0, state);
         }
-        if text.starts_with("_ini[") || text.starts_with("_hal[") {
+        // `#<_ini[section]name>`, `#<_hal[pin]>`: without its bracket a name like others.
+        let of_settings = text.strip_prefix("_ini[").is_some_and(|rest| rest.contains(']'));
+        if of_settings || text.strip_prefix("_hal[").is_some_and(|rest| rest.ends_with(']')) {
             return Ok(D::unknown());
         }
         if let Some(value) = self.machine.parameters.get(&*text) {

@@ -56,6 +56,10 @@ bitflags::bitflags! {
         const UNREAD_WORD = 1 << 18;
         /// A lower-case letter outside comments.
         const LOWER_CASE = 1 << 19;
+        /// An axis stands with its own address and with that of its increments.
+        const AXIS_TWICE = 1 << 20;
+        /// A word whose number has a blank between its digits: `X1. 5`.
+        const DIVIDED_NUMBER = 1 << 21;
     }
 }
 

@@ -36,6 +36,8 @@ pub struct Dialect<'c> {
     refers: Vec<bool>,
     /// By code index: words that must have been given by the time the code runs, each with those that do instead.
     lasting: Vec<Vec<(Letter, LetterSet)>>,
+    /// Addresses of increments, each with the address of its axis.
+    increments: Vec<(Letter, Letter)>,
 }
 
 /// What [`BlockFlags`] need to know about an address when no code says otherwise.
@@ -100,6 +102,12 @@ impl<'c> Dialect<'c> {
                 && !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
         };
         let quiet: LetterSet = (0..=u8::MAX).filter_map(Letter::new).filter(is_quiet).collect();
+        let increments = control.semantics().increments.iter();
+        let increments: Vec<_> = increments
+            .filter_map(|(increment, axis)| Some((Letter::parse(increment)?, Letter::parse(axis)?)))
+            .collect();
+        // Beside their axes they are to be looked at.
+        let quiet = quiet.without(increments.iter().map(|(increment, _)| *increment).collect());
         Self {
             control,
             profile: profile(control),
@@ -109,6 +117,7 @@ impl<'c> Dialect<'c> {
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
             lower_case: control.syntax().lower_case,
+            increments,
             lasting: control.codes().map(|code| lasting_words(code.entry())).collect(),
             refers: control
                 .codes()
@@ -384,6 +393,11 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         let literal = !rest.is_empty()
             && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
         let (value, shape) = if literal {
+            let is_digit = |b: &u8| !matches!(b, b' ' | b'\t' | b'-' | b'+');
+            let digits = rest.iter().position(is_digit).and_then(|first| rest.get(first..)).unwrap_or_default();
+            if digits.iter().any(|b| !is_digit(b)) {
+                self.block_flags |= BlockFlags::DIVIDED_NUMBER;
+            }
             let (value, shape) = number::parse(rest);
             (Value::Number(value), shape)
         } else if let Some(expr) = self.take_expr(open.ops, open.start + 1) {
@@ -593,6 +607,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         if flags.contains(BlockFlags::CODE) && !reads_anything && !bound.without(read).is_empty() {
             flags |= BlockFlags::UNREAD_WORD;
         }
+        let both = |(increment, axis): &(Letter, Letter)| letters.contains(*increment) && letters.contains(*axis);
+        flags.set(BlockFlags::AXIS_TWICE, self.dialect.increments.iter().any(both));
         (letters, flags)
     }
 

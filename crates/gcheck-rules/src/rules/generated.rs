@@ -109,6 +109,7 @@ pub(crate) mod machine {
 
 pub(crate) mod macros {
     pub(crate) mod assignment_to_read_only_variable;
+    pub(crate) mod common_variable_never_set;
     pub(crate) mod computed_variable_read_only;
     pub(crate) mod condition_always_same;
     pub(crate) mod crossed_loops;
@@ -264,6 +265,7 @@ pub(crate) mod suppressions {
 pub(crate) mod syntax {
     pub(crate) mod address_without_value;
     pub(crate) mod assignment_without_equals;
+    pub(crate) mod blank_inside_number;
     pub(crate) mod block_delete_level;
     pub(crate) mod bracket_nesting_limit;
     pub(crate) mod condition_missing;
@@ -307,6 +309,7 @@ pub(crate) mod tool {
 
 pub(crate) mod words {
     pub(crate) mod arc_without_centre;
+    pub(crate) mod axis_given_twice;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod dwell_time_in_other_word;
@@ -323,6 +326,7 @@ pub(crate) mod words {
     pub(crate) mod word_forbidden;
     pub(crate) mod word_given_twice;
     pub(crate) mod word_not_read;
+    pub(crate) mod word_passed_over;
     pub(crate) mod words_exclude_each_other;
 }
 
@@ -415,6 +419,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
     &macros::assignment_to_read_only_variable::RULE,
+    &macros::common_variable_never_set::RULE,
     &macros::computed_variable_read_only::RULE,
     &macros::condition_always_same::RULE,
     &macros::crossed_loops::RULE,
@@ -540,6 +545,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &suppressions::unused_suppression::RULE,
     &syntax::address_without_value::RULE,
     &syntax::assignment_without_equals::RULE,
+    &syntax::blank_inside_number::RULE,
     &syntax::block_delete_level::RULE,
     &syntax::bracket_nesting_limit::RULE,
     &syntax::condition_missing::RULE,
@@ -577,6 +583,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &tool::tool_cuts_dry::RULE,
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
+    &words::axis_given_twice::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::dwell_time_in_other_word::RULE,
@@ -593,5 +600,6 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &words::word_forbidden::RULE,
     &words::word_given_twice::RULE,
     &words::word_not_read::RULE,
+    &words::word_passed_over::RULE,
     &words::words_exclude_each_other::RULE,
 ];

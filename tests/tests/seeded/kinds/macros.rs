@@ -47,6 +47,7 @@ pub(super) const KINDS: &[Kind] = &[
         &[
             "variable-read-before-set",
             "maybe-variable-unset",
+            "common-variable-never-set",
             "named-parameter-unset",
             "loop-condition-unchanged",
             "feed-missing",
@@ -77,7 +78,7 @@ pub(super) const KINDS: &[Kind] = &[
             })
         },
     ),
-    Kind::new("bracket-not-closed", Fear::Alarm, "a bracket is not closed", &["unclosed-bracket"], |p| {
+    Kind::new("bracket-not-closed", Fear::Alarm, "a bracket is not closed", &["unclosed-bracket", "named-parameter-unset"], |p| {
         p.each(|block| {
             let end = block.end_of_words();
             let at = p.text[block.range.start..end].rfind(']')? + block.range.start;
@@ -107,6 +108,10 @@ pub(super) const KINDS: &[Kind] = &[
                 plain.then_some(())?;
                 let words = &p.text[block.range.start..block.end_of_words()];
                 let (open, close) = (words.find('[')?, words.rfind(']')?);
+                // The brackets of `#<_hal[pin]>` belong to a name.
+                if words[..open].rfind('<') > words[..open].rfind('>') {
+                    return None;
+                }
                 let one = words.matches('[').count() == 1 && words.matches(']').count() == 1 && open < close;
                 let at = |place: usize, text: &str| Edit {
                     range: block.range.start + place..block.range.start + place + 1,

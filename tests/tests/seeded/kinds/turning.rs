@@ -115,6 +115,8 @@ pub(super) const KINDS: &[Kind] = &[
             "arc-radius-too-small",
             "arc-end-off-circle",
             "turning-profile-turns-back",
+            // Names the diameter that lies beyond where the tool starts.
+            "turning-start-inside-profile",
         ],
         |p| {
             p.each(|block| {
@@ -202,7 +204,7 @@ pub(super) const KINDS: &[Kind] = &[
         "diameter-and-increment",
         Fear::Alarm,
         "`X` and `U` stand in one block",
-        &["words-exclude-each-other", "word-given-twice", "word-not-read", "word-forbidden"],
+        &["axis-given-twice"],
         |p| {
             p.each(|block| {
                 let fits = p.is_lathe()

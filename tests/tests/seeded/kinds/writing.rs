@@ -130,6 +130,7 @@ pub(super) const KINDS: &[Kind] = &[
         "the letter in front of a value is lost (`5.25` for `X5.25`)",
         &[
             "value-without-address",
+            "blank-inside-number",
             "malformed-number",
             "decimal-point-on-integer",
             "unexpected-text",
@@ -220,7 +221,7 @@ pub(super) const KINDS: &[Kind] = &[
         "stray-word",
         Fear::Trap,
         "a word that nothing in the block reads is left from another block",
-        &["word-not-read"],
+        &["word-not-read", "word-passed-over"],
         |p| {
             p.each(|block| {
                 let fits = block.code(&[Effect::Linear]).is_some()

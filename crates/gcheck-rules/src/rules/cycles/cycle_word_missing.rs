@@ -1,8 +1,9 @@
 //! A canned cycle without a word that nothing gave.
 
-use gcheck_controls::{Letter, Need};
+use gcheck_controls::{Code, Effect, Letter, LetterSet, Need};
 use gcheck_engine::{CycleFault, Event, Fault};
 
+use super::super::words::lasting_word_never_given;
 use super::cycle_words_lost::{Series, cycle_code, is_cycle, is_operation};
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
@@ -55,8 +56,15 @@ impl PathRule for CycleWordMissing {
         program.may(|effect| is_cycle(effect) || is_operation(effect))
     }
 
-    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        self.series.block(cx);
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let begins = self.series.block(cx);
+        let Some(code) = begins.and_then(|ix| cx.scene.control().code_at(ix)) else { return };
+        // Pecks that are not given are one stroke to the bottom where they are no fault.
+        let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
+        let is_fault = cx.model.semantics().cycles.rise_to_r;
+        if pecks && !is_fault && !cx.origin().letters.intersects(LetterSet::of("QIJK")) {
+            self.tell(cx, code, Letter::of('Q'), report);
+        }
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -65,15 +73,23 @@ impl PathRule for CycleWordMissing {
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Cycle(CycleFault::Missing(letter)) = *fault else { return };
-        let Some(code) = cycle_code(cx) else { return };
+        if let Some(code) = cycle_code(cx) {
+            self.tell(cx, code, letter, report);
+        }
+    }
+}
+
+impl CycleWordMissing {
+    fn tell(&self, cx: &PathCx<'_>, code: Code<'_>, letter: Letter, report: &mut Report<'_>) {
         // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
         let begins = cx.has_effect(|effect| effect == code.effect());
-        let told_by_text = cx
-            .survey
-            .never_given
-            .iter()
-            .any(|missing| missing.letter == letter && cx.model.effect(missing.code) == code.effect());
+        let told_by_text = lasting_word_never_given::speaks(cx.survey)
+            && cx
+                .survey
+                .never_given
+                .iter()
+                .any(|missing| missing.letter == letter && cx.model.effect(missing.code) == code.effect());
         // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
         let needed = word.is_some_and(|word| {
             word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text
@@ -121,6 +137,41 @@ mod tests {
             &expect![[r#"
                 5 | G81 Z-0.5 F5.
                   | ^^^ error[cycle-word-missing] canned cycle without `R` (`G81`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn pecks_that_no_cycle_was_given() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG12 I.5 K1. Q.25 D1 F9.\nG83 Z-0.5 R.1 F5.\nG80\nM30\n",
+            &expect![[r#"
+                5 | G83 Z-0.5 R.1 F5.
+                  | ^^^ error[cycle-word-missing] canned cycle without `Q` (`G83`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_of_a_subprogram_in_the_file_are_none_of_the_cycles() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG21 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z10.\nM98 P2\nG82 Z-5. P300 F50.\nG80\nM30\nO2\nG2 X5. R2.5 F50.\nG0 X0.\nM99\n",
+            &expect![[r#"
+                6 | G82 Z-5. P300 F50.
+                  | ^^^ error[cycle-word-missing] canned cycle without `R` (`G82`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 sub\nG4 P1\no1 endsub\nG21 G90 G0 X0 Y0 Z10\nG82 X10 Z-5 R2 F100\nM2\n",
+            &expect![[r#"
+                5 | G82 X10 Z-5 R2 F100
+                  | ^^^ error[cycle-word-missing] canned cycle without `P` (`G82`)
             "#]],
         );
     }

@@ -1,10 +1,10 @@
 //! A turning cycle whose profile turns back.
 
-use gcheck_controls::LetterSet;
+use gcheck_controls::{Effect, LetterSet};
 
 use crate::meta::declare_rule;
-use crate::turning::is_roughing;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::turning::{Point, is_roughing};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// The profile of a roughing cycle goes back: it must only rise or fall from its first block to its last.
@@ -61,12 +61,24 @@ impl PathRule for TurningProfileTurnsBack {
         // A first block that names both axes chooses the form of the cycle that takes pockets.
         let has_pockets = profile.first_axes.intersects(LetterSet::of("XU"))
             && profile.first_axes.intersects(LetterSet::of("ZW"));
-        if has_pockets {
-            return;
-        }
         // The way out, in rapid, is no part of the profile.
         let count = profile.points.iter().rposition(|point| !point.is_rapid).map_or(0, |last| last + 1);
         let points = profile.points.get(..count).unwrap_or_default();
+        if has_pockets {
+            let is_along_z = cx.has_effect(|effect| effect == Effect::RoughAlongZ);
+            let dropped = is_along_z.then(|| drop(&profile.start, points)).flatten();
+            if let Some(point) = dropped.and_then(|at| points.get(at)) {
+                report.add(
+                    cx.finding(&META, point.range.clone(), "the profile of the turning cycle drops straight in X")
+                        .label("a wall that the tool leaves behind it as it goes along Z")
+                        .also(cx.range(), "the cycle that follows the profile")
+                        .note("this form of the cycle takes pockets, but few tools cut a wall behind them that stands upright")
+                        .help("check the diameter, or give the wall the angle that the tool has room for")
+                        .at_most(Severity::Info),
+                );
+            }
+            return;
+        }
         for (axis, way) in [
             ('X', points.iter().map(|point| point.x).collect::<Vec<_>>()),
             ('Z', points.iter().map(|point| point.z).collect()),
@@ -102,6 +114,30 @@ fn turn(way: &[f64]) -> Option<usize> {
         .map(|before| before + 1)
 }
 
+/// The first of some points that a wall of a pocket leads down to, straight in X.
+fn drop(start: &Point, points: &[Point]) -> Option<usize> {
+    // A tool that stands outside turns, one that stands inside bores.
+    let up = if points.iter().all(|point| point.x <= start.x) {
+        1.0
+    } else if points.iter().all(|point| point.x >= start.x) {
+        -1.0
+    } else {
+        return None;
+    };
+    let mut rose = false;
+    points
+        .windows(2)
+        .position(|pair| {
+            let [from, to] = pair else { return false };
+            let step = (to.x - from.x) * up;
+            // The face, cut to the middle before the profile rises, is no pocket.
+            let drops = rose && step < -SLACK && (to.z - from.z).abs() <= SLACK;
+            rose |= step > SLACK;
+            drops
+        })
+        .map(|before| before + 1)
+}
+
 /// In units of the program: controls let a profile turn back by this much.
 const SLACK: f64 = 0.001;
 
@@ -133,6 +169,23 @@ mod tests {
             "G20 G54 T0101\nG97 S500 M3\nG0 X3. Z.1\nG71 P10 Q20 D.05 U.02 W.005 F.01\nN10 G0 X1. Z.1\nG1 Z-1. F.005\nX.5 Z-1.5\nN20 X2. Z-2.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_pocket_with_an_upright_wall_behind_the_tool() {
+        let turn = |profile: &str, found: &expect_test::Expect| {
+            let program = format!(
+                "G20 G54 T0101\nG97 S500 M3\nG0 X3. Z.1\nG71 P10 Q20 D.05 U.02 W.005 F.01\n{profile}\nG0 X4.\nM30\n"
+            );
+            check_rule(&RULE, "haas-lathe", &program, found);
+        };
+        turn("N10 G0 X0. Z.1\nG1 Z0. F.005\nX1.\nZ-.5\nX.5\nZ-1.25\nN20 X1.4", &expect![[r#"
+            9 | X.5
+              | ^^^ info[turning-profile-turns-back] the profile of the turning cycle drops straight in X
+        "#]]);
+        // A wall at an angle, and a face in front of the profile.
+        turn("N10 G0 X0. Z.1\nG1 X1. Z0. F.005\nZ-.5\nX.5 Z-1.\nZ-1.25\nN20 X1.4", &expect![[""]]);
+        turn("N10 G0 X2. Z.1\nG1 Z0. F.005\nX0.\nX1.\nZ-1.\nN20 X2.5", &expect![[""]]);
     }
 
     #[test]

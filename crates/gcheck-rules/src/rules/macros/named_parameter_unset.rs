@@ -74,6 +74,10 @@ impl PathRule for NamedParameterUnset {
                     .finding(&META, range, format!("named parameter `#<{name}>` is read before it is set"))
                     .label("nothing set it on the way here")
                     .help(format!("set `#<{name}>` before this block, or correct the name"));
+                if name.contains('[') && !name.contains(']') {
+                    report.add(finding.help("close the bracket `[` of the name"));
+                    return;
+                }
                 let is_local_elsewhere = !name.starts_with('_') && set.contains(name);
                 if is_local_elsewhere {
                     finding.note("a name without `_` in front belongs to one subroutine, or to the main part")

@@ -1,22 +1,30 @@
 //! A threading move that does not say its lead.
 
-use gcheck_controls::{Effect, Letter, Need};
+use gcheck_controls::{Code, Effect, Letter, LetterSet, Need, WordEntry};
 use gcheck_engine::{Fact, Fault, Role};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A move is tied to the spindle, and nothing says how far the tool goes in one turn.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or cuts the thread at a lead left from before.
+    /// The control stops with an alarm, or cuts the thread at a lead left from before: the feed of the last cut.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
     /// G97 S500 M3
     /// G0 X20. Z5.
     /// G32 Z-20.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-lathe
+    /// G97 S500 M3
+    /// G0 X1. Z0.2
+    /// G1 Z-1. F0.008
+    /// G0 Z0.2
+    /// G76 X0.9 Z-0.8 K0.05 D0.01
     /// M30
     /// ```
     /// ## Not reported
@@ -31,13 +39,39 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ThreadWithoutLead) },
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::BLOCKS), make: || Box::new(ThreadWithoutLead) },
     }
 }
 
 struct ThreadWithoutLead;
 
 impl PathRule for ThreadWithoutLead {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Some(code) = thread_from_feed(cx) else { return };
+        // A feed that a cut was given; a word alone, or one with a rapid move, may well be meant as the lead.
+        let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
+        let Some(place) = cx.place_of(given) else { return };
+        let words = place.table.words(place.block());
+        let is_cut = words.iter().any(|word| is_cut(cx.model.effect(word.code)));
+        if !is_cut || given == cx.origin().at {
+            return;
+        }
+        let name = code.number();
+        let mut finding = cx
+            .finding(
+                &META,
+                cx.word_range(|word| cx.scene.control().code_at(word.code).map(Code::number) == Some(name)),
+                format!("thread takes the feed of a cut for its lead (`{name}` without `F`)"),
+            )
+            .label("how far the tool goes in one turn is not said here")
+            .help("give the lead with `F`")
+            .at_most(Severity::Warning);
+        if let Some(range) = cx.find_word(given, |word| word.letter == Letter::of('F')) {
+            finding = finding.also(range, "the feed in effect was given here");
+        }
+        report.add(finding);
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::MissingWord(letter) = *fault else { return };
         let mode = cx.state().mode(Role::Motion).only();
@@ -56,6 +90,48 @@ impl PathRule for ThreadWithoutLead {
             .help(format!("give the lead with `{letter}`"));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), &format!("`{code}`")));
     }
+}
+
+/// The code of the block that begins a thread whose lead is `F`, where the block gives none.
+fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
+    let letters = cx.origin().letters;
+    if letters.intersects(LetterSet::of("FE")) || !letters.intersects(LetterSet::of("XZUW")) {
+        return None;
+    }
+    let codes = cx.codes();
+    let ix = codes.iter().copied().find(|ix| is_thread(cx.model.effect(*ix)))?;
+    // The passes behind the first one have its lead.
+    let goes_on = cx.state().mode(Role::Motion).only().is_none_or(|mode| is_thread(cx.model.effect(mode)));
+    let code = cx.scene.control().code_at(ix)?;
+    let is_lead = |word: &WordEntry| word.letter == "F" && matches!(word.need, Need::Modal | Need::Conditional);
+    (!goes_on && code.entry().words.iter().any(is_lead)).then_some(code)
+}
+
+fn is_thread(effect: Effect) -> bool {
+    matches!(effect, Effect::Thread | Effect::ThreadCycle | Effect::ThreadingPass)
+}
+
+/// Does the code feed, at what its `F` says?
+fn is_cut(effect: Effect) -> bool {
+    use Effect as E;
+    matches!(
+        effect,
+        E::Linear
+            | E::ArcClockwise
+            | E::ArcCounterClockwise
+            | E::TurningPass
+            | E::FacingPass
+            | E::RoughAlongZ
+            | E::RoughAlongX
+            | E::RepeatPattern
+            | E::GrooveFace
+            | E::GrooveDiameter
+            | E::CycleDrill
+            | E::CycleDrillDwell
+            | E::CyclePeck
+            | E::CycleChipBreak
+            | E::CycleBoreFeedOut
+    )
 }
 
 /// Does a code of the block need the word each time? Then a missing word has been reported already.
@@ -89,5 +165,28 @@ mod tests {
     #[test]
     fn the_feed_is_the_lead_on_lathes() {
         check_rule(&RULE, "haas-lathe", "G97 S500 M3\nF.05\nG0 X1. Z.1\nG32 Z-1.\nM30\n", &expect![""]);
+    }
+
+    #[test]
+    fn the_feed_of_a_cut_is_no_lead() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G97 S500 M3\nG0 X30. Z5.\nG1 X26. F0.08\nG0 X34.\nG76 P020060 Q100 R0.05\nG76 X28.16 Z-27. P920 Q300\nM30\n",
+            &expect![[r#"
+                6 | G76 X28.16 Z-27. P920 Q300
+                  | ^^^ warning[thread-without-lead] thread takes the feed of a cut for its lead (`G76` without `F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn later_passes_keep_the_lead_of_the_first() {
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G97 S500 M3\nG0 X1. Z.2\nG92 X.9 Z-1. F.05\nX.88\nG92 X.86\nG0 X1.\nG32 Z-1.\nM30\n",
+            &expect![[""]],
+        );
     }
 }

@@ -1,7 +1,7 @@
 //! A code that relies on an earlier value which nothing gave.
 
 use gcheck_controls::{Code, Ends, Letter};
-use gcheck_program::{NeverGiven, OKeyword};
+use gcheck_program::{NeverGiven, OKeyword, Survey};
 
 use crate::meta::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
@@ -45,10 +45,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let survey = cx.survey;
-    // What may be called takes its caller's words with it.
-    let may_be_called = survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
-        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
-    if may_be_called || survey.has_mistakes {
+    if !speaks(survey) {
         return;
     }
     for missing in &survey.never_given {
@@ -58,6 +55,13 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             report.add(finding(cx, missing, code));
         }
     }
+}
+
+/// Is the text enough to say so? What may be called takes its caller's words with it.
+pub(in crate::rules) fn speaks(survey: &Survey) -> bool {
+    let may_be_called = survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
+        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
+    !may_be_called && !survey.has_mistakes
 }
 
 /// Told where it is missed first; what comes later misses the same.

@@ -21,6 +21,9 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G154
     /// ```
+    /// ```nc,reported,linuxcnc
+    /// G10 L2 X0 Y0
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
     /// G4 P0.5
@@ -37,16 +40,31 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (word, code) in cx.codes() {
-        for needed in code.entry().words.iter().filter(|w| w.need == Need::Required) {
+        for needed in code.entry().words.iter().filter(|w| w.need == Need::Required || !w.required_with.is_empty()) {
+            let with = beside(cx, needed);
+            if needed.need != Need::Required && with.is_none() {
+                continue;
+            }
             let stands =
                 Letter::parse(&needed.letter).is_none_or(|letter| cx.block().letters.contains(letter));
             // A time in a word of another control is reported as that.
             let is_elsewhere = !stands && time_elsewhere(cx, code).is_some();
             if !stands && !is_elsewhere && is_certain(cx, word, code) {
-                report.add(finding(cx, word, code, needed));
+                report.add(finding(cx, word, code, needed, with));
             }
         }
     }
+}
+
+/// The word of the block beside which the code needs another one, as data writes it: `L2`.
+fn beside<'a>(cx: &BlockCx<'a>, needed: &'a WordEntry) -> Option<&'a str> {
+    let stands = |item: &&String| {
+        let (letter, value) = item.split_at_checked(1).unwrap_or_default();
+        let value: Option<f64> = value.parse().ok();
+        let is = |word: &Word| Some(word.letter) == Letter::parse(letter) && word.number() == value;
+        value.is_some() && cx.words().iter().any(is)
+    };
+    needed.required_with.iter().find(stands).map(String::as_str)
 }
 
 /// Nothing hides the word: no mistake in form, and the code is no argument of a macro.
@@ -58,13 +76,20 @@ fn is_certain(cx: &BlockCx<'_>, word: &Word, code: Code<'_>) -> bool {
         && cx.words().iter().find(|w| w.code == word.code).is_some_and(|w| w.range() == word.range())
 }
 
-fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, needed: &WordEntry) -> Finding {
+fn finding(
+    cx: &BlockCx<'_>,
+    word: &Word,
+    code: Code<'_>,
+    needed: &WordEntry,
+    with: Option<&str>,
+) -> Finding {
     let (text, letter, entry) = (cx.text(word), &needed.letter, code.entry());
+    let when = with.map_or_else(|| "every time".to_owned(), |with| format!("with `{with}`"));
     let confidence = needed.confidence.unwrap_or(Confidence::Manual).min(entry.confidence);
     Finding::new(&META, cx.range(word), format!("`{text}` without `{letter}`"))
         .label(format!("needs `{letter}`: {}", needed.is))
         .note(format!(
-            "`{}` ({}) needs `{letter}` in its block every time  [{}]",
+            "`{}` ({}) needs `{letter}` in its block {when}  [{}]",
             entry.code, entry.title, entry.source
         ))
         .help(format!("add `{letter}` to the block"))
@@ -105,6 +130,23 @@ mod tests {
                   | ^^^ error[required-word-missing] `G65` without `P`
             "#]],
         );
+    }
+
+    #[test]
+    fn a_word_that_another_one_asks_for() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G10 L2 X0 Y0\nG10 L2 P0 X0 Y0\nG10 L20 P#1 X0\nG10 L0\nG10 L[1+1] X0\n",
+            &expect![[r#"
+                1 | G10 L2 X0 Y0
+                  | ^^^ error[required-word-missing] `G10` without `P`
+            "#]],
+        );
+        let found =
+            findings(&Selection::only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
+        let text = words(&found[0]);
+        assert!(text.contains("needs `P` in its block with `L2`"), "{text}");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! A word that nothing reads.
 
-use gcheck_controls::{Code, GroupIx, Handling, LetterSet, Motion};
+use gcheck_controls::{Code, Control, GroupIx, Handling, LetterSet, Motion};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::meta::declare_rule;
@@ -11,6 +11,7 @@ declare_rule! {
     ///
     /// ## Why it matters
     /// Some controls refuse such a block. Others pass over the word: a dwell that does not dwell, an offset that is not taken.
+    /// Where it depends on the modes whether the word is read, `word-passed-over` knows more.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -56,12 +57,20 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 
 /// Addresses that codes of earlier blocks may read in this one.
 fn in_effect(cx: &BlockCx<'_>) -> LetterSet {
+    read_by_modes(cx.control(), || cx.codes().map(|(_, code)| code))
+}
+
+/// Addresses that some mode reads which may be on beside the codes of a block.
+pub(super) fn read_by_modes<'c, I: Iterator<Item = Code<'c>>>(
+    control: &Control,
+    codes: impl Fn() -> I,
+) -> LetterSet {
     let moves = |code: Code<'_>| code.motion() != Motion::None;
-    let here = |group: GroupIx| cx.codes().any(|(_, code)| code.group_ix() == group);
+    let here = |group: GroupIx| codes().any(|code| code.group_ix() == group);
     // A motion or a cycle of this block takes the place of the one in effect, and so does a code that takes the axes.
-    let replaced = cx.codes().any(|(_, code)| code.entry().takes_axes || code.group().modal && moves(code));
-    let refuses = cx.control().block_rules().unread_word == Handling::Refused;
-    let lasting = cx.control().codes().filter(|code| code.group().modal && !here(code.group_ix()));
+    let replaced = codes().any(|code| code.entry().takes_axes || code.group().modal && moves(code));
+    let refuses = control.block_rules().unread_word == Handling::Refused;
+    let lasting = control.codes().filter(|code| code.group().modal && !here(code.group_ix()));
     // Where unread words are refused, a word is for a code of its own block or for the motion in effect.
     let readers = lasting.filter(|code| if moves(*code) { !replaced } else { !refuses });
     readers.fold(LetterSet::EMPTY, |set, code| set.or(code.reads()))

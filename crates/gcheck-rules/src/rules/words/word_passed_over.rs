@@ -1,0 +1,182 @@
+//! A word that the control passes over, because nothing in effect reads it.
+
+use gcheck_controls::{Code, CodeIx, Effect, Handling, Letter, LetterSet, Motion};
+use gcheck_engine::Role;
+use gcheck_program::BlockFlags;
+
+use super::word_not_read::read_by_modes;
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+
+declare_rule! {
+    /// A word stands in a block where neither a code of the block nor the motion in effect reads it.
+    ///
+    /// ## Why it matters
+    /// The control passes over it without a word. Most often it is left from another block: a `Q` behind the end of a peck
+    /// cycle, a `P` without its dwell. What it was meant for does not happen.
+    ///
+    /// What no mode of the control would read is told by `word-not-read`, and so is what a control refuses.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G1 X1. Q0.1 F10.
+    /// ```
+    /// ```nc,reported,fanuc-mill
+    /// G90 G0 X0. Y0. R2.
+    /// ```
+    /// ## Not reported
+    /// The cycle in effect reads it:
+    /// ```nc,quiet,fanuc-mill
+    /// G99 G83 X0. Y0. Z-20. R2. Q3. F100.
+    /// G98 X10. Q2.
+    /// ```
+    /// A builder's code may read it:
+    /// ```nc,quiet,fanuc-mill
+    /// M45 Q2
+    /// ```
+    rule "word-passed-over" in "words" {
+        summary: "word that nothing in effect reads",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(WordPassedOver) },
+    }
+}
+
+struct WordPassedOver;
+
+impl PathRule for WordPassedOver {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        let control = program.scene.control();
+        let survey = program.survey;
+        // A macro that is called for every block takes any word.
+        let is_plain = |code: Option<Code<'_>>| code.is_some_and(|code| !code.is_user() && !takes_all(code));
+        control.block_rules().unread_word != Handling::Refused
+            && !survey.has_computed_codes
+            && survey.codes.iter().all(|(number, _)| is_plain(control.code(*number)))
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let flags = cx.origin().flags;
+        if !flags.contains(BlockFlags::UNREAD_WORD)
+            || flags.intersects(BlockFlags::ERROR | BlockFlags::STATEMENT | BlockFlags::UNKNOWN_CODE)
+        {
+            return;
+        }
+        let Some(unread) = unread(cx).filter(|unread| !unread.is_empty()) else { return };
+        let control = cx.scene.control();
+        for letter in unread.iter() {
+            let Some(entry) = control.letter(letter) else { continue };
+            let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { continue };
+            let rules = control.block_rules();
+            report.add(
+                cx.finding(&META, range, format!("nothing reads `{letter}` in this block"))
+                    .label(entry.is.as_str())
+                    .note(format!("this control passes over a word that no code reads  [{}]", rules.source))
+                    .help(format!("take `{letter}` away, or add the code that it belongs to"))
+                    .at_most(limit(rules.confidence)),
+            );
+        }
+    }
+}
+
+/// Addresses of the block that nothing reads; `None` where that is not known.
+fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
+    let control = cx.scene.control();
+    let mut read = LetterSet::EMPTY;
+    let mut replaced = false;
+    for ix in cx.codes().iter() {
+        let code = control.code_at(*ix)?;
+        // Words of M codes are the builder's.
+        if code.number().letter() == b'M' || code.entry().any_words {
+            return None;
+        }
+        replaced |= code.entry().takes_axes || code.motion() != Motion::None;
+        read = read.or(code.reads());
+    }
+    if !replaced {
+        read = read.or(of_motion(cx)?);
+    }
+    // What a compensation took with its code, it may take again in later blocks: its vector.
+    let lasting =
+        |code: &Code<'_>| matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length));
+    for code in cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number)).filter(lasting) {
+        read = read.or(code.reads());
+    }
+    let is_bound = |letter: &Letter| {
+        control.letter(*letter).is_some_and(|entry| !entry.free && !entry.axis)
+            && !matches!(letter.ascii(), b'N' | b'O')
+    };
+    let codes = cx.codes();
+    let by_modes = read_by_modes(control, || codes.iter().filter_map(|ix| control.code_at(*ix)));
+    Some(cx.origin().letters.and(by_modes).without(read).iter().filter(is_bound).collect())
+}
+
+/// Addresses that the motion or the cycle in effect reads; `None` where it may be any.
+fn of_motion(cx: &PathCx<'_>) -> Option<LetterSet> {
+    let control = cx.scene.control();
+    let cycle = cx.state().active_cycle(cx.model)?;
+    let motion = cx.state().mode(Role::Motion).only()?;
+    let reads = |ix: CodeIx| match control.code_at(ix) {
+        Some(code) if code.entry().any_words => None,
+        Some(code) => Some(code.reads()),
+        None => Some(LetterSet::EMPTY),
+    };
+    Some(reads(cycle)?.or(reads(motion)?))
+}
+
+/// Does the code, once it is on, take words of any block?
+fn takes_all(code: Code<'_>) -> bool {
+    code.effect() == Effect::MacroModal || code.group().modal && code.entry().any_words
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_word_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0. Y0. Z1.\nG83 Z-1. R.1 Q.2 F10.\nX1. Q.3\nG80\nG1 X2. Q.3\nG4 P1. R2.\nM30\n",
+            &expect![[r#"
+                5 | G1 X2. Q.3
+                  |        ^^^ info[word-passed-over] nothing reads `Q` in this block
+                6 | G4 P1. R2.
+                  |        ^^^ info[word-passed-over] nothing reads `R` in this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn words_of_a_cycle_and_of_the_motion_in_effect_are_read() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G0 X0. Y0.\nG83 Z-1. R.1 Q.2 F10.\nG98 R.5\nG80\nG2 X1. R1.\nG90 X3. R2.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_vector_of_the_tool_is_read_in_every_block() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 A0. Y0. Q3.\nG1 X1. Q2.\nG141 D1 X1. I1. J0. K0.\nG1 X2. I0. J1. K0.\nM30\n",
+            &expect![[r#"
+                2 | G1 X1. Q2.
+                  |        ^^^ info[word-passed-over] nothing reads `Q` in this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_macro_for_every_block_takes_any_word() {
+        check_rule(&RULE, "fanuc-mill", "G66.1 P9010 A1.\nG1 X1. Q2.\nG67\nG1 X2. Q1.\nM30\n", &expect![[""]]);
+    }
+}
