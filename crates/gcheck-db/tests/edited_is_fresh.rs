@@ -1,4 +1,5 @@
-//! Law 3 through the database: after any edits a document has the findings of a fresh check.
+//! Law 3 through the database: after any edits a document has the findings of a fresh check, and what was told ahead of them is
+//! among them.
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 
@@ -65,8 +66,14 @@ fn soak(name: &str, control: &str, text: &str, edits: usize) {
     let id = database.open(&text, settings.clone());
     let mut dice = Dice(text.len() as u64 | 1);
     let mut told = name.to_owned();
-    for _ in 0..=edits {
+    for round in 0..=edits {
+        let ahead = text.len() / (2 + round % 4);
+        let first = database.first_findings(id, ahead, &|| false).unwrap();
         assert_fresh(&mut database, id, &settings, &text, &told);
+        let known = database.analysis(id, &|| false).unwrap();
+        for finding in first.iter().flat_map(|first| &first.findings) {
+            assert!(known.findings.contains(finding), "taken back in {told}\n{finding:#?}");
+        }
         let mut at = dice.roll(text.len() + 1);
         while !text.is_char_boundary(at) {
             at -= 1;

@@ -172,7 +172,7 @@ fn the_first_lines_of_a_document_are_checked_ahead_of_the_rest() {
     assert_eq!(format!("{:?}", whole.findings), format!("{:?}", fresh.findings));
     assert!(database.first_findings(id, 20_000, &|| false).unwrap().is_none());
     // Edited, it is not known ahead of the analysis.
-    database.edit(id, 0..0, "(HERE)\n").unwrap();
+    database.edit(id, 2..2, "(HERE)\n").unwrap();
     let after = database.states(id, 21..31, &|| false).unwrap();
     let places = |states: &[gcheck_db::StateAt]| {
         states.iter().map(|state| format!("{:?}", state.before.position())).collect::<Vec<_>>()

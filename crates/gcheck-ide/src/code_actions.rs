@@ -93,19 +93,28 @@ pub fn code_actions(
 #[cfg(test)]
 mod tests {
     use std::fmt::Write as _;
+    use std::ops::Range;
 
     use expect_test::{Expect, expect};
 
-    use super::{ActionKind, code_actions};
+    use super::{ActionKind, CodeAction, code_actions};
     use crate::fixture::{Fixture, applied};
+
+    /// All actions at a range.
+    fn offered(fixture: &mut Fixture, at: Range<u32>) -> Vec<CodeAction> {
+        let analysis = fixture.analysis();
+        code_actions(&mut fixture.database, fixture.document, at, Some(&analysis), &|| false).unwrap()
+    }
+
+    /// All actions at the cursor.
+    fn offered_at_cursor(fixture: &mut Fixture) -> Vec<CodeAction> {
+        offered(fixture, fixture.offset..fixture.offset)
+    }
 
     /// The actions at the cursor of some kinds, and the text after each.
     fn check(control: &str, text: &str, kinds: &[ActionKind], expected: &Expect) {
         let mut fixture = Fixture::new(control, text);
-        let analysis = fixture.analysis();
-        let at = fixture.offset..fixture.offset;
-        let actions =
-            code_actions(&mut fixture.database, fixture.document, at, Some(&analysis), &|| false).unwrap();
+        let actions = offered_at_cursor(&mut fixture);
         let mut out = String::new();
         for action in actions.iter().filter(|action| kinds.contains(&action.kind)) {
             let preferred = if action.is_preferred { " (preferred)" } else { "" };
@@ -410,8 +419,7 @@ mod tests {
             ("fanuc-mill", "O1\nG21 G18 G90 G54 G0 X0. Z0.\nG2$0 X10. Z10. K10. I0. F10.\nM30\n"),
         ] {
             let mut fixture = Fixture::new(control, text);
-            let at = fixture.offset..fixture.offset;
-            let actions = code_actions(&mut fixture.database, fixture.document, at, None, &|| false).unwrap();
+            let actions = offered_at_cursor(&mut fixture);
             let before = fixture.snapshot().text();
             let action = actions.iter().find(|action| action.title.starts_with("write this"));
             let after = applied(&before, &action.unwrap_or_else(|| panic!("nothing offered: {text}")).edits);
@@ -443,10 +451,9 @@ mod tests {
     fn lines_with_and_without_block_skip() {
         let text = "O1\nN10 G0 X1.\n\n/N20 X2.\n(NOTE)\nM30\n";
         let mut fixture = Fixture::new("haas-mill", text);
-        let mut toggled = |range: std::ops::Range<u32>, text: &str| {
-            let actions =
-                code_actions(&mut fixture.database, fixture.document, range, None, &|| false).unwrap();
-            let action = actions.into_iter().find(|action| action.title.contains("block skip")).unwrap();
+        let mut toggled = |range: Range<u32>, text: &str| {
+            let mut actions = offered(&mut fixture, range).into_iter();
+            let action = actions.find(|action| action.title.contains("block skip")).unwrap();
             applied(text, &action.edits)
         };
         assert_eq!(toggled(4..25, text), "O1\n/N10 G0 X1.\n\n/N20 X2.\n(NOTE)\nM30\n");

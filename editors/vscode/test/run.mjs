@@ -126,13 +126,13 @@ async function clickPath() {
   }
   await frame.selectOption("#view", "top");
   await frame.click("#fit");
-  const line = () => page.textContent('[id="status.editor.selection"]').catch(() => "");
-  const before = await line();
-  const { width, height } = await canvas.boundingBox();
+  // VS Code says where the cursor is while the text has the focus, not while the toolpath has it.
+  const cursor = async () => (await page.locator('[id="status.editor.selection"]').allTextContents()).join("");
+  const { x: left, y: top, width, height } = await canvas.boundingBox();
   for (let x = 2; x < width / 2; x += 5) {
-    await canvas.click({ position: { x, y: height / 2 } });
+    await page.mouse.click(left + x, top + height / 2);
     await new Promise((resolve) => setTimeout(resolve, 100));
-    if ((await line()) !== before) return;
+    if (/^Ln (?!1,)/.test(await cursor())) return;
   }
 }
 
@@ -186,7 +186,7 @@ async function session(name, settings, prepare = () => {}) {
   await listening(port);
   page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   await page.exposeFunction("codeAutomationLog", (_type, args) =>
-    asked(args.map(String).join(" ")).catch((error) => (said += `${error.stack ?? error}\n`)),
+    asked(args.map(String).join(" ")).catch((error) => console.log(`FAILED: ${error.stack ?? error}`)),
   );
   const exited = new Promise((resolve) => page.exposeFunction("codeAutomationExit", (code) => resolve(code)));
   const remote = (file) => `vscode-remote://127.0.0.1:${port}${file}`;

@@ -109,7 +109,7 @@ fn no_more_than_a_thousand_are_shown_and_the_rest_counted() {
 #[test]
 fn of_a_large_program_the_first_lines_are_told_before_the_rest() {
     let head =
-        "(gcheck: control=haas-mill)\n%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\nG0 X2.\n";
+        "%\n(gcheck: control=haas-mill)\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\nG0 X2.\n";
     let text = format!("{head}{}G999\nM30\n%\n", "X1.5 Y2.25\nX2.5 Y3.25\n".repeat(120_000));
     let mut session = Session::new(&[]);
     session.open("a.nc", &text);
