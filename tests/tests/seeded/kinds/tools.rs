@@ -192,7 +192,13 @@ pub(super) const KINDS: &[Kind] = &[
                 Some(p.without(word))
             });
             let all: Vec<_> = offsets.collect();
-            if all.is_empty() { Vec::new() } else { vec![all.into()] }
+            // The tools of a turret carry the part's place in their own offsets; where each end of a program brings back the
+            // first work offset, a program that uses no other means that one, with or without a word of it.
+            let semantics = p.facts.semantics();
+            let comes_back = semantics.at_end.iter().any(|code| code == "G54") && semantics.tools.change_by_t;
+            let is_first = |word: &&Word| !matches!(word.effect, Some(Effect::WorkOffset(2..) | Effect::WorkOffsetByP(_)));
+            let is_only_first = p.blocks.iter().flat_map(|block| &block.words).all(|word| is_first(&word));
+            if all.is_empty() || comes_back && is_only_first { Vec::new() } else { vec![all.into()] }
         },
     )
     .anywhere(),
@@ -200,7 +206,7 @@ pub(super) const KINDS: &[Kind] = &[
         "offset-of-another-part",
         Fear::Crash,
         "one tool works in another work offset than the others",
-        &["work-offset-of-one-tool"],
+        &["work-offset-of-one-tool", "work-offset-not-listed"],
         |p| {
             let changes = p.blocks.iter().filter(|block| block.code(&[Effect::WorkOffset(1)]).is_some());
             if changes.count() < 2 {
