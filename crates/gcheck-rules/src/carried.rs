@@ -17,8 +17,8 @@ use crate::{Finding, PathCx, RuleMeta};
 pub(crate) struct Carried {
     /// Where the first tool comes.
     first_tool: Option<At>,
-    /// One cut speaks for all behind it.
-    is_told: bool,
+    /// One cut speaks for all behind it, and for the end of the program.
+    pub(crate) is_told: bool,
 }
 
 remembers!(Carried: first_tool);

@@ -21,7 +21,7 @@ remembers!(Pairs: pairs);
 struct Pair {
     tool: u32,
     offset: u32,
-    /// Where the tool came, if a second offset of a tool is to be told by where it is used.
+    /// Where the tool came.
     section: Option<At>,
     finding: Finding,
     /// The word that gives the offset by its number alone.
@@ -107,8 +107,9 @@ impl Pairs {
     }
 
     /// The pairs that break the scheme which the other tools fix, and take another tool's offset, or one of no tool where
-    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset.
-    pub(crate) fn take_odd(&mut self, letter: char) -> Vec<(Finding, Scheme)> {
+    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset. `seconds` looks
+    /// for second offsets of no tool as well: a tool works with one that works with its own elsewhere.
+    pub(crate) fn take_odd(&mut self, letter: char, seconds: bool) -> Vec<(Finding, Scheme)> {
         let Some((step, followers)) = self.step() else { return Vec::new() };
         let is_used = |tool: i64| self.pairs.iter().any(|p| i64::from(p.tool) == tool && p.step() == step);
         let has_own_here = |pair: &Pair| {
@@ -119,9 +120,11 @@ impl Pairs {
         for pair in self.pairs.iter().filter(|pair| pair.step() != step) {
             let owner = i64::from(pair.offset) - step;
             let is_unsure = is_used(i64::from(pair.tool));
-            // A second offset of a tool belongs to no other tool, and stands beside the first.
-            let is_alone = pair.section.is_some() && !has_own_here(pair) && followers > MANY;
-            let is_stray = if is_unsure { is_alone } else { followers >= MANY };
+            // A second offset of a tool stands beside the first: what is meant works with both.
+            if is_unsure && has_own_here(pair) {
+                continue;
+            }
+            let is_stray = if is_unsure { seconds && followers > MANY } else { followers >= MANY };
             let is_told = odd.iter().any(|(tool, offset, ..)| (*tool, *offset) == (pair.tool, pair.offset));
             if !is_told && (is_used(owner) || step == 0 && is_stray) {
                 let (expected, is_owned) = (i64::from(pair.tool) + step, is_used(owner));
@@ -131,11 +134,9 @@ impl Pairs {
         }
         let mut found = Vec::new();
         for pair in std::mem::take(&mut self.pairs) {
-            if let Some((.., scheme)) =
-                odd.iter().find(|(tool, offset, section, _)| {
-                    (*tool, *offset, *section) == (pair.tool, pair.offset, pair.section)
-                })
-            {
+            if let Some((.., scheme)) = odd.iter().find(|(tool, offset, section, _)| {
+                (*tool, *offset, *section) == (pair.tool, pair.offset, pair.section)
+            }) {
                 found.push((pair.mended(letter, scheme.expected), *scheme));
             } else {
                 self.pairs.push(pair);
@@ -148,9 +149,7 @@ impl Pairs {
     /// and no other pair is as far from its tool. With each the tool and the one whose number it is.
     pub(crate) fn take_named_after(&mut self, letter: char, tools: &[u32]) -> Vec<(Finding, u32, u32)> {
         let pairs = std::mem::take(&mut self.pairs);
-        let is_odd = |pair: &Pair| {
-            is_alone(pair, &pairs) && tools.contains(&pair.offset)
-        };
+        let is_odd = |pair: &Pair| is_alone(pair, &pairs) && tools.contains(&pair.offset);
         let odd: Vec<bool> = pairs.iter().map(is_odd).collect();
         let mut found = Vec::new();
         for (pair, is_odd) in pairs.into_iter().zip(odd) {
@@ -168,9 +167,8 @@ impl Pairs {
     /// numbered past the stations, or ten or twenty more than the tool.
     pub(crate) fn take_strangers(&mut self) -> Vec<(Finding, u32)> {
         let pairs = std::mem::take(&mut self.pairs);
-        let is_odd = |pair: &&Pair| {
-            is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && pair.step() % 10 != 0
-        };
+        let is_odd =
+            |pair: &&Pair| is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && pair.step() % 10 != 0;
         pairs.iter().filter(is_odd).map(|pair| (pair.finding.clone(), pair.tool)).collect()
     }
 

@@ -23,7 +23,9 @@ fn off(block: &Block) -> Option<&Word> {
 /// The block before which compensation was switched on stands in the profile of a roughing cycle that no finishing cycle
 /// follows: the profile tells the cycle a shape, and its blocks are never carried out.
 fn is_only_described(p: &Program, off: &Block) -> bool {
-    let Some(on) = p.blocks[..off.ix].iter().rposition(|block| block.code(&ON).is_some()) else { return false };
+    let Some(on) = p.blocks[..off.ix].iter().rposition(|block| block.code(&ON).is_some()) else {
+        return false;
+    };
     let label = |number| p.blocks.iter().position(|b| b.word(b'N').is_some_and(|n| n.number == number));
     let describes = |cycle: &&Block| {
         let [first, last] = [b'P', b'Q'].map(|letter| cycle.word(letter).and_then(|word| label(word.number)));

@@ -94,7 +94,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
             return;
         }
         let Some(offset) = Abstract::known(state.d()).and_then(whole) else { return };
-        self.pairs.add(tool, offset, None, || {
+        self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
             let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
             let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
             let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
@@ -108,7 +108,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (finding, scheme) in self.pairs.take_odd('D') {
+        for (finding, scheme) in self.pairs.take_odd('D', false) {
             let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
             report.add(
                 finding
@@ -165,10 +165,15 @@ mod tests {
         let program = |d: &str, h: &str| {
             format!("T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 {h} Z1.\nG41 {d} G1 X1.\nG40 X0.\nM30\n")
         };
-        check_rule(&RULE, "fanuc-mill", &program("D1", "H2"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("D1", "H2"),
+            &expect![[r#"
             6 | G41 D1 G1 X1.
               |     ^^ warning[diameter-offset-of-another-tool] tool 2 cuts with diameter offset 1 (`D1`, `T2`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", &program("D32", "H2"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("D1", "H22"), &expect![[""]]);
     }

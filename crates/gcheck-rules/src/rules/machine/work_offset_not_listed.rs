@@ -1,6 +1,6 @@
 //! A work offset that the configuration does not list.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Event, Fact, Role};
 
 use crate::memory::{Remembers, remembers};
@@ -75,11 +75,18 @@ impl PathRule for WorkOffsetNotListed {
         }
         // As it is at the start nobody chose it.
         let Some(chosen) = cx.trace().set_by(Fact::Mode(Role::WorkOffset)) else { return };
-        let name = work_offset_name(number, cx.model);
         let is_offset = |word: &gcheck_program::Word| {
             matches!(cx.model.effect(word.code), Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
         };
         let place = cx.find_word(chosen, is_offset).unwrap_or_else(|| cx.range());
+        // As the program writes it: some offsets have two names.
+        let code = cx.state().mode(Role::WorkOffset).only().unwrap_or(CodeIx::NONE);
+        let name = match cx.model.effect(code) {
+            Effect::WorkOffsetByP(first) if first <= number => {
+                format!("{} P{}", cx.name_of(code), number - first + 1)
+            }
+            _ => work_offset_name(number, cx.model),
+        };
         let finding = cx
             .finding(&META, place, format!("`{name}` is not among the work offsets of the configuration"))
             .label("the program cuts in it")
@@ -92,7 +99,8 @@ impl PathRule for WorkOffsetNotListed {
             return;
         }
         let offsets = cx.scene.machine.engine.offsets.keys();
-        let names: Vec<String> = offsets.take(6).map(|n| format!("`{}`", work_offset_name(*n, cx.model))).collect();
+        let names: Vec<String> =
+            offsets.take(6).map(|n| format!("`{}`", work_offset_name(*n, cx.model))).collect();
         for (_, finding) in self.found.drain(..) {
             report.add(finding.note(format!("listed are {}", names.join(", "))));
         }
@@ -115,7 +123,7 @@ mod tests {
             &World::of_examples(&META),
             &expect![[r#"
                 4 | G0 G154 P3 X2.
-                  |    ^^^^ info[work-offset-not-listed] `G112` is not among the work offsets of the configuration
+                  |    ^^^^ info[work-offset-not-listed] `G154 P3` is not among the work offsets of the configuration
             "#]],
         );
     }

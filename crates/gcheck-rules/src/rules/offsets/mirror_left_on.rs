@@ -60,7 +60,7 @@ impl PathRule for MirrorLeftOn {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.carried.block(cx);
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
             judge(cx, report);
         }
     }
@@ -73,7 +73,7 @@ impl PathRule for MirrorLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
             judge(cx, report);
         }
     }

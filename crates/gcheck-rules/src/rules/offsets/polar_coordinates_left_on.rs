@@ -60,7 +60,7 @@ impl PathRule for PolarCoordinatesLeftOn {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         self.carried.block(cx);
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
             judge(cx, report);
         }
     }
@@ -73,7 +73,7 @@ impl PathRule for PolarCoordinatesLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
             judge(cx, report);
         }
     }
@@ -102,10 +102,15 @@ mod tests {
 
     #[test]
     fn the_end_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "G17 G16\nG1 X50. Y30. F100.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G17 G16\nG1 X50. Y30. F100.\nM30\n",
+            &expect![[r#"
             3 | M30
               | ^^^ warning[polar-coordinates-left-on] the reading of polar coordinates is still on at the end of the program (`G16`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -117,8 +122,6 @@ mod tests {
             &expect![[r#"
                 6 | G1 X10. Y5. F100.
                   | ^^^^^^^^^^^^^^^^^ warning[polar-coordinates-left-on] the tool cuts with the polar coordinates of the tool before (`G16`)
-                7 | M30
-                  | ^^^ warning[polar-coordinates-left-on] the reading of polar coordinates is still on at the end of the program (`G16`)
             "#]],
         );
     }

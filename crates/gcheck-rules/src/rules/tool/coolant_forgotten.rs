@@ -132,10 +132,9 @@ impl PathRule for CoolantForgotten {
         let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
         let off = cx.cancel_of(Effect::CoolantOff).unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}` before its `{off}`)");
-        let mut finding = cx
-            .finding(&META, cx.range(), message)
-            .label("its first cut")
-            .help(format!("switch the coolant on with `{on}`, or take the `{off}` out where the tool cuts dry"));
+        let mut finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
+            "switch the coolant on with `{on}`, or take the `{off}` out where the tool cuts dry"
+        ));
         if let Some(range) = cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
             finding = finding.also(range, "the tool comes here");
         }
@@ -174,20 +173,30 @@ mod tests {
     #[test]
     fn the_first_cut_is_marked() {
         let text = program(&[("M8", "M9"), ("", "M9"), ("M8", "M9")]);
-        check_rule(&RULE, "fanuc-mill", &text, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &text,
+            &expect![[r#"
             9 | G1 X1. F100.
               | ^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn everything_is_off_at_the_end() {
         check_rule(&RULE, "fanuc-mill", &program(&[("M8", "M9"), ("", "M9")]), &expect![[""]]);
         let text = program(&[("M8", "M9"), ("M8", "M9"), ("", "M9")]);
-        check_rule(&RULE, "fanuc-mill", &text, &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &text,
+            &expect![[r#"
             14 | G1 X2. F100.
                | ^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
