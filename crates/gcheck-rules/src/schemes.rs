@@ -124,9 +124,9 @@ impl Pairs {
             if is_unsure && has_own_here(pair) {
                 continue;
             }
-            let is_stray = if is_unsure { seconds && followers > MANY } else { followers >= MANY };
+            let is_stray = step == 0 && followers >= MANY && (seconds || !is_unsure);
             let is_told = odd.iter().any(|(tool, offset, ..)| (*tool, *offset) == (pair.tool, pair.offset));
-            if !is_told && (is_used(owner) || step == 0 && is_stray) {
+            if !is_told && (is_used(owner) || is_stray) {
                 let (expected, is_owned) = (i64::from(pair.tool) + step, is_used(owner));
                 let scheme = Scheme { step, expected, owner, followers, is_owned, is_unsure };
                 odd.push((pair.tool, pair.offset, pair.section, scheme));

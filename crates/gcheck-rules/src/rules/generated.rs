@@ -193,6 +193,7 @@ pub(crate) mod offsets {
     pub(crate) mod scaling_left_on;
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
+    pub(crate) mod work_offset_never_chosen;
     pub(crate) mod work_offset_not_chosen;
     pub(crate) mod work_offset_of_one_tool;
 }
@@ -490,6 +491,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &offsets::scaling_left_on::RULE,
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
+    &offsets::work_offset_never_chosen::RULE,
     &offsets::work_offset_not_chosen::RULE,
     &offsets::work_offset_of_one_tool::RULE,
     &probing::first_touch_missing::RULE,

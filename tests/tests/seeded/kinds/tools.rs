@@ -185,7 +185,7 @@ pub(super) const KINDS: &[Kind] = &[
         "offset-never-chosen",
         Fear::Crash,
         "no work offset is chosen before the first move",
-        &["work-offset-not-chosen"],
+        &["work-offset-never-chosen", "work-offset-not-chosen"],
         |p| {
             let offsets = p.blocks.iter().filter_map(|block| {
                 let word = block.words.iter().find(|w| matches!(w.effect, Some(Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))))?;
@@ -212,7 +212,15 @@ pub(super) const KINDS: &[Kind] = &[
             if changes.count() < 2 {
                 return Vec::new();
             }
-            p.each(|block| block.code(&[Effect::WorkOffset(1)]).map(|word| p.instead(word, "G56")))
+            let chooses = |block: &&Block| {
+                block.words.iter().any(|w| matches!(w.effect, Some(Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))))
+            };
+            p.each(|block| {
+                // Chosen anew before the tool moves, it is right again.
+                let next = p.behind(block).iter().find(|next| chooses(next) || next.moves(&[Effect::Rapid, Effect::Linear]));
+                let is_mended = !block.has(b"XYZ") && next.is_some_and(|next| chooses(&next));
+                block.code(&[Effect::WorkOffset(1)]).filter(|_| !is_mended).map(|word| p.instead(word, "G56"))
+            })
         },
     )
     .anywhere(),
