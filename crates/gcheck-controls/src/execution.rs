@@ -530,6 +530,9 @@ pub struct CompensationRules {
     /// Planes, units, tools and offsets must not change while it is on.
     #[serde(default)]
     pub freezes_modes: bool,
+    /// The plane must not change while it is on.
+    #[serde(default)]
+    pub freezes_plane: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
 }

@@ -493,6 +493,9 @@ pub struct WordEntry {
     /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
     #[serde(default)]
     pub instead: Vec<String>,
+    /// As `instead`, but only in a block of the code: elsewhere they mean something else (`H` of `G43` and of `G41`).
+    #[serde(default)]
+    pub instead_here: Vec<String>,
     /// Smallest value.
     #[serde(default)]
     pub min: Option<f64>,

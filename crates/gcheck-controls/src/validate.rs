@@ -135,7 +135,7 @@ impl Problems<'_> {
                 }
                 Some(_) => {}
             }
-            for letter in &word.instead {
+            for letter in word.instead.iter().chain(&word.instead_here) {
                 if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
                     self.say(code, format!("`{letter}` instead of `{}` is no address here", word.letter));
                 }

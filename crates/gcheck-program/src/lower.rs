@@ -35,7 +35,7 @@ pub struct Dialect<'c> {
     /// By code index: does the code name a label or program?
     refers: Vec<bool>,
     /// By code index: words that must have been given by the time the code runs, each with those that do instead.
-    lasting: Vec<Vec<(Letter, LetterSet)>>,
+    lasting: Vec<Vec<Lasting>>,
     /// Addresses of increments, each with the address of its axis.
     increments: Vec<(Letter, Letter)>,
 }
@@ -139,7 +139,7 @@ impl<'c> Dialect<'c> {
     }
 
     /// Words that must have been given by the time the code runs, each with those that do instead.
-    pub(crate) fn lasting(&self, code: CodeIx) -> &[(Letter, LetterSet)] {
+    pub(crate) fn lasting(&self, code: CodeIx) -> &[Lasting] {
         self.lasting.get(code.index()).map_or(&[], Vec::as_slice)
     }
 
@@ -165,15 +165,26 @@ impl<'c> Dialect<'c> {
     }
 }
 
+/// A word of a code whose earlier value stays in effect.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lasting {
+    pub(crate) letter: Letter,
+    /// Words that do instead, wherever they stood.
+    pub(crate) instead: LetterSet,
+    /// Words that do instead in a block of the code.
+    pub(crate) here: LetterSet,
+}
+
 /// Words of a code whose earlier value stays in effect. Feed and speed are left out: they are set by themselves, and whether
 /// they are is a question of the whole path.
-fn lasting_words(entry: &CodeEntry) -> Vec<(Letter, LetterSet)> {
+fn lasting_words(entry: &CodeEntry) -> Vec<Lasting> {
     let lasts = |word: &&WordEntry| {
         word.need == Need::Modal && !matches!(word.kind, WordKind::Feed | WordKind::Speed)
     };
     let letters = |word: &WordEntry| {
-        let instead = word.instead.iter().filter_map(|letter| Letter::parse(letter)).collect();
-        Some((Letter::parse(&word.letter)?, instead))
+        let set = |letters: &[String]| letters.iter().filter_map(|letter| Letter::parse(letter)).collect();
+        let (instead, here) = (set(&word.instead), set(&word.instead_here));
+        Some(Lasting { letter: Letter::parse(&word.letter)?, instead, here })
     };
     entry.words.iter().filter(lasts).filter_map(letters).collect()
 }

@@ -199,6 +199,8 @@ pub struct Survey {
     pub codes: Vec<(CodeNumber, Range<u32>)>,
     /// Addresses used anywhere.
     pub letters: gcheck_controls::LetterSet,
+    /// Lasting words in whose place another one was given.
+    pub(crate) given_otherwise: gcheck_controls::LetterSet,
     /// Numbered variables that are assigned to, with the place of the first assignment.
     pub assigned: Vec<(u32, Range<u32>)>,
     /// The first block that is more than a comment or tape mark.
@@ -307,8 +309,9 @@ impl Survey {
         let given = self.letters;
         let is_missing = |missing: &&NeverGiven| {
             let mut lasting = dialect.lasting(missing.code).iter();
-            lasting.any(|(letter, instead)| {
-                *letter == missing.letter && !given.contains(*letter) && !given.intersects(*instead)
+            lasting.any(|word| {
+                let is_given = given.contains(word.letter) || given.intersects(word.instead);
+                word.letter == missing.letter && !is_given && !self.given_otherwise.contains(word.letter)
             })
         };
         let missing = chunk.never_given.iter().filter(is_missing);
@@ -323,6 +326,7 @@ impl Survey {
             self.lower_case = chunk.lower_case.as_ref().map(moved);
         }
         self.letters = self.letters.or(chunk.letters);
+        self.given_otherwise = self.given_otherwise.or(chunk.given_otherwise);
         self.pointed += chunk.pointed;
         self.has_mistakes |= chunk.has_mistakes;
         self.has_computed_codes |= chunk.has_computed_codes;
@@ -429,10 +433,15 @@ impl Survey {
             let Some(code) = dialect.control().code_at(word.code) else { continue };
             let entry = code.entry();
             let given = self.letters.or(block.letters);
-            for (letter, instead) in dialect.lasting(word.code) {
-                if !given.contains(*letter) && !given.intersects(*instead) {
+            for lasting in dialect.lasting(word.code) {
+                let letter = lasting.letter;
+                if block.letters.intersects(lasting.here) {
+                    self.given_otherwise.insert(letter);
+                }
+                let is_given = given.contains(letter) || given.intersects(lasting.instead);
+                if !is_given && !self.given_otherwise.contains(letter) {
                     let range = shift(&word.range(), base);
-                    self.never_given.push(NeverGiven { code: word.code, letter: *letter, range });
+                    self.never_given.push(NeverGiven { code: word.code, letter, range });
                 }
             }
             if let Some(ends) = entry.ends {

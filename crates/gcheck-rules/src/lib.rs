@@ -7,6 +7,7 @@
 mod assumptions;
 mod bar_feeder;
 mod boundary;
+mod carried;
 mod check;
 mod context;
 mod contract;

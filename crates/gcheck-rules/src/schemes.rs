@@ -4,6 +4,8 @@
 
 use std::ops::Range;
 
+use gcheck_engine::At;
+
 use crate::memory::remembers;
 use crate::{Finding, Fix};
 
@@ -19,12 +21,14 @@ remembers!(Pairs: pairs);
 struct Pair {
     tool: u32,
     offset: u32,
+    /// Where the tool came.
+    section: Option<At>,
     finding: Finding,
     /// The word that gives the offset by its number alone.
     word: Option<Range<u32>>,
 }
 
-remembers!(Pair: finding, word);
+remembers!(Pair: section, finding, word);
 
 /// What the other tools of the program do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,6 +43,8 @@ pub(crate) struct Scheme {
     followers: usize,
     /// The program has that tool.
     is_owned: bool,
+    /// Elsewhere the tool has the offset that it would have: this one may be meant.
+    pub(crate) is_unsure: bool,
 }
 
 impl Scheme {
@@ -72,6 +78,9 @@ impl Scheme {
 /// So many tools with the offset of their own number make another number odd, whoever it belongs to.
 const MANY: usize = 2;
 
+/// Turrets have no more stations than this.
+const MOST_STATIONS: u32 = 24;
+
 /// More pairs than this say nothing clear.
 const MOST_PAIRS: usize = 1000;
 
@@ -86,60 +95,92 @@ impl Pairs {
         &mut self,
         tool: u32,
         offset: u32,
+        section: Option<At>,
         finding: impl FnOnce() -> (Finding, Option<Range<u32>>),
     ) {
-        let is_known = self.pairs.iter().any(|pair| (pair.tool, pair.offset) == (tool, offset));
+        let is_known = |pair: &Pair| (pair.tool, pair.offset, pair.section) == (tool, offset, section);
+        let is_known = self.pairs.iter().any(is_known);
         if tool > 0 && offset > 0 && !is_known && self.pairs.len() < MOST_PAIRS {
             let (finding, word) = finding();
-            self.pairs.push(Pair { tool, offset, finding, word });
+            self.pairs.push(Pair { tool, offset, section, finding, word });
         }
     }
 
     /// The pairs that break the scheme which the other tools fix, and take another tool's offset, or one of no tool where
-    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset.
-    pub(crate) fn take_odd(&mut self, letter: char) -> Vec<(Finding, Scheme)> {
+    /// many tools have their own. Their findings can be mended where a word of this letter gives the offset. `seconds` looks
+    /// for second offsets of no tool as well: a tool works with one that works with its own elsewhere.
+    pub(crate) fn take_odd(&mut self, letter: char, seconds: bool) -> Vec<(Finding, Scheme)> {
         let Some((step, followers)) = self.step() else { return Vec::new() };
-        let follows = |tool: u32| self.pairs.iter().any(|p| p.tool == tool && p.step() == step);
         let is_used = |tool: i64| self.pairs.iter().any(|p| i64::from(p.tool) == tool && p.step() == step);
-        let odd: Vec<(u32, u32, Scheme)> = self
-            .pairs
-            .iter()
-            .filter(|pair| pair.step() != step && !follows(pair.tool))
-            .map(|pair| {
-                let owner = i64::from(pair.offset) - step;
-                (
-                    pair.tool,
-                    pair.offset,
-                    Scheme {
-                        step,
-                        expected: i64::from(pair.tool) + step,
-                        owner,
-                        followers,
-                        is_owned: is_used(owner),
-                    },
-                )
-            })
-            .filter(|(_, _, scheme)| is_used(scheme.owner) || (step == 0 && followers >= MANY))
-            .collect();
+        let has_own_here = |pair: &Pair| {
+            let is_own = |p: &Pair| p.tool == pair.tool && p.section == pair.section && p.step() == step;
+            self.pairs.iter().any(is_own)
+        };
+        let mut odd: Vec<(u32, u32, Option<At>, Scheme)> = Vec::new();
+        for pair in self.pairs.iter().filter(|pair| pair.step() != step) {
+            let owner = i64::from(pair.offset) - step;
+            let is_unsure = is_used(i64::from(pair.tool));
+            // A second offset of a tool stands beside the first: what is meant works with both.
+            if is_unsure && has_own_here(pair) {
+                continue;
+            }
+            let is_stray = step == 0 && followers >= MANY && (seconds || !is_unsure);
+            let is_told = odd.iter().any(|(tool, offset, ..)| (*tool, *offset) == (pair.tool, pair.offset));
+            if !is_told && (is_used(owner) || is_stray) {
+                let (expected, is_owned) = (i64::from(pair.tool) + step, is_used(owner));
+                let scheme = Scheme { step, expected, owner, followers, is_owned, is_unsure };
+                odd.push((pair.tool, pair.offset, pair.section, scheme));
+            }
+        }
         let mut found = Vec::new();
         for pair in std::mem::take(&mut self.pairs) {
-            if let Some((.., scheme)) =
-                odd.iter().find(|(tool, offset, _)| (*tool, *offset) == (pair.tool, pair.offset))
-            {
-                let written = format!("{letter}{}", scheme.expected);
-                let fix = pair.word.filter(|_| scheme.expected > 0);
-                let fix = fix.map(|word| Fix::risky(format!("write `{written}`"), word, written));
-                found.push((pair.finding.fix_if(fix), *scheme));
+            if let Some((.., scheme)) = odd.iter().find(|(tool, offset, section, _)| {
+                (*tool, *offset, *section) == (pair.tool, pair.offset, pair.section)
+            }) {
+                found.push((pair.mended(letter, scheme.expected), *scheme));
+            } else {
+                self.pairs.push(pair);
             }
         }
         found
+    }
+
+    /// The pairs with the number of another one of these tools, which no scheme explains: the tool never has its own number,
+    /// and no other pair is as far from its tool. With each the tool and the one whose number it is.
+    pub(crate) fn take_named_after(&mut self, letter: char, tools: &[u32]) -> Vec<(Finding, u32, u32)> {
+        let pairs = std::mem::take(&mut self.pairs);
+        let is_odd = |pair: &Pair| is_alone(pair, &pairs) && tools.contains(&pair.offset);
+        let odd: Vec<bool> = pairs.iter().map(is_odd).collect();
+        let mut found = Vec::new();
+        for (pair, is_odd) in pairs.into_iter().zip(odd) {
+            if is_odd {
+                let (tool, owner) = (pair.tool, pair.offset);
+                found.push((pair.mended(letter, i64::from(tool)), tool, owner));
+            } else {
+                self.pairs.push(pair);
+            }
+        }
+        found
+    }
+
+    /// The pairs with the number of another station of a turret, which no scheme explains. Second offsets of a tool are
+    /// numbered past the stations, or ten or twenty more than the tool.
+    pub(crate) fn take_strangers(&mut self) -> Vec<(Finding, u32)> {
+        let pairs = std::mem::take(&mut self.pairs);
+        let is_odd =
+            |pair: &&Pair| is_alone(pair, &pairs) && pair.offset <= MOST_STATIONS && pair.step() % 10 != 0;
+        pairs.iter().filter(is_odd).map(|pair| (pair.finding.clone(), pair.tool)).collect()
     }
 
     /// The step that most tools follow, with their number: the plain one needs one tool, any other two, and more tools must
     /// follow it than any other step.
     fn step(&self) -> Option<(i64, usize)> {
         let mut steps: Vec<(i64, usize)> = Vec::new();
-        for pair in &self.pairs {
+        for (ix, pair) in self.pairs.iter().enumerate() {
+            let before = self.pairs.get(..ix).unwrap_or_default();
+            if before.iter().any(|p| (p.tool, p.offset) == (pair.tool, pair.offset)) {
+                continue;
+            }
             match steps.iter_mut().find(|(step, _)| *step == pair.step()) {
                 Some((_, count)) => *count += 1,
                 None => steps.push((pair.step(), 1)),
@@ -154,7 +195,22 @@ impl Pairs {
     }
 }
 
+/// Has the tool another number than its own, and never its own, and is no other pair as far from its tool?
+fn is_alone(pair: &Pair, pairs: &[Pair]) -> bool {
+    let is_same = |p: &&Pair| (p.tool, p.offset) == (pair.tool, pair.offset);
+    let has_fellow = pairs.iter().any(|p| p.step() == pair.step() && !is_same(&p));
+    let has_own = pairs.iter().any(|p| p.tool == pair.tool && p.step() == 0);
+    pair.step() != 0 && !has_fellow && !has_own
+}
+
 impl Pair {
+    /// The finding, with the fix that gives the tool the offset that it would have.
+    fn mended(self, letter: char, expected: i64) -> Finding {
+        let written = format!("{letter}{expected}");
+        let fix = self.word.filter(|_| expected > 0);
+        self.finding.fix_if(fix.map(|word| Fix::risky(format!("write `{written}`"), word, written)))
+    }
+
     fn step(&self) -> i64 {
         i64::from(self.offset) - i64::from(self.tool)
     }

@@ -139,7 +139,7 @@ fn words_of_a_pocket() {
         G41 99999.: error[unknown-code]
         G41 ABC: error[unexpected-text]
         G41 #100: 
-        D1 missing: 
+        D1 missing: warning[lasting-word-never-given]
         D1 twice: warning[word-given-twice]
         D1 -1.: error[decimal-point-on-integer] warning[sign-not-accepted]
         D1 0.: error[decimal-point-on-integer]
@@ -174,7 +174,7 @@ fn words_of_a_pocket() {
         Q.25 99999.: 
         Q.25 ABC: error[unexpected-text]
         Q.25 #100: 
-        R.1 missing: 
+        R.1 missing: warning[lasting-word-never-given]
         R.1 twice: warning[word-given-twice]
         R.1 -1.: warning[cycle-r-below-bottom]
         R.1 0.: 

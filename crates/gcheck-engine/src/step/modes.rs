@@ -52,7 +52,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Planes, units, offsets and tools must not change under cutter compensation on some controls.
     fn guard_frozen(&self, role: Role, ix: CodeIx, state: &State<D>) -> Step {
-        if !self.model.semantics().compensation.freezes_modes || !self.compensates(state) {
+        let rules = &self.model.semantics().compensation;
+        let freezes = rules.freezes_modes || rules.freezes_plane && role == Role::Plane;
+        if !freezes || !self.compensates(state) {
             return Ok(());
         }
         match role {

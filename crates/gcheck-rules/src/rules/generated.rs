@@ -105,6 +105,7 @@ pub(crate) mod machine {
     pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
+    pub(crate) mod work_offset_not_listed;
 }
 
 pub(crate) mod macros {
@@ -188,10 +189,12 @@ pub(crate) mod motion {
 pub(crate) mod offsets {
     pub(crate) mod mirror_left_on;
     pub(crate) mod plane_changed_under_rotation;
+    pub(crate) mod polar_coordinates_left_on;
     pub(crate) mod rotation_left_on;
     pub(crate) mod scaling_left_on;
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
+    pub(crate) mod work_offset_never_chosen;
     pub(crate) mod work_offset_not_chosen;
     pub(crate) mod work_offset_of_one_tool;
 }
@@ -296,6 +299,7 @@ pub(crate) mod syntax {
 }
 
 pub(crate) mod tool {
+    pub(crate) mod coolant_forgotten;
     pub(crate) mod length_cancelled_before_cut;
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
@@ -418,6 +422,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
+    &machine::work_offset_not_listed::RULE,
     &macros::assignment_to_read_only_variable::RULE,
     &macros::common_variable_never_set::RULE,
     &macros::computed_variable_read_only::RULE,
@@ -486,10 +491,12 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::thread_without_lead::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::plane_changed_under_rotation::RULE,
+    &offsets::polar_coordinates_left_on::RULE,
     &offsets::rotation_left_on::RULE,
     &offsets::scaling_left_on::RULE,
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
+    &offsets::work_offset_never_chosen::RULE,
     &offsets::work_offset_not_chosen::RULE,
     &offsets::work_offset_of_one_tool::RULE,
     &probing::first_touch_missing::RULE,
@@ -573,6 +580,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::value_without_address::RULE,
     &syntax::while_without_do::RULE,
     &syntax::zero_for_letter_o::RULE,
+    &tool::coolant_forgotten::RULE,
     &tool::length_cancelled_before_cut::RULE,
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,

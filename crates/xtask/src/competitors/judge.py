@@ -113,15 +113,17 @@ class TimeIsUp(BaseException):
 
 
 def within_limit(messages, path, control):
-    """For a checker that runs in this process."""
+    """For a checker that runs in this process, and may write on its way."""
 
     def stop(*_):
         raise TimeIsUp
 
     signal.signal(signal.SIGALRM, stop)
     signal.alarm(SECONDS)
+    silence = io.StringIO()
     try:
-        return messages(path, control)
+        with contextlib.redirect_stdout(silence), contextlib.redirect_stderr(silence):
+            return messages(path, control)
     except TimeIsUp:
         return [ENDLESS]
     finally:
@@ -129,9 +131,7 @@ def within_limit(messages, path, control):
 
 
 def told(messages, path, control):
-    with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
-        said = messages(path, control)
-    return collections.Counter(re.sub(r"[-+]?\d[\d.]*", "0", message) for message in said)
+    return collections.Counter(re.sub(r"[-+]?\d[\d.]*", "0", message) for message in messages(path, control))
 
 
 def version(package):

@@ -20,6 +20,22 @@ fn off(block: &Block) -> Option<&Word> {
     block.code(&[Effect::CompensationOff]).filter(|_| block.before.is_compensating)
 }
 
+/// The block before which compensation was switched on stands in the profile of a roughing cycle that no finishing cycle
+/// follows: the profile tells the cycle a shape, and its blocks are never carried out.
+fn is_only_described(p: &Program, off: &Block) -> bool {
+    let Some(on) = p.blocks[..off.ix].iter().rposition(|block| block.code(&ON).is_some()) else {
+        return false;
+    };
+    let label = |number| p.blocks.iter().position(|b| b.word(b'N').is_some_and(|n| n.number == number));
+    let describes = |cycle: &&Block| {
+        let [first, last] = [b'P', b'Q'].map(|letter| cycle.word(letter).and_then(|word| label(word.number)));
+        cycle.code(&[Effect::RoughAlongZ, Effect::RoughAlongX]).is_some()
+            && first.zip(last).is_some_and(|(first, last)| (first..=last).contains(&on))
+    };
+    p.blocks.iter().any(|block| describes(&block))
+        && p.blocks.iter().all(|block| block.code(&[Effect::FinishProfile]).is_none())
+}
+
 /// A straight cut on a compensated contour.
 fn on_the_contour(p: &Program, block: &Block) -> bool {
     let above = p.previous(block);
@@ -45,7 +61,7 @@ pub(super) const KINDS: &[Kind] = &[
         ],
         |p| {
             p.each(|block| {
-                off(block)?;
+                off(block).filter(|_| !is_only_described(p, block))?;
                 // A tool change or the next tool's first line would mend it: every G40 behind is forgotten.
                 let all =
                     p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
@@ -106,7 +122,11 @@ pub(super) const KINDS: &[Kind] = &[
         &["refused-under-compensation"],
         |p| {
             p.each(|block| {
-                (on_the_contour(p, block) && !p.is_lathe() && p.is_for(&["linuxcnc", "fanuc"]))
+                let planes = [Effect::PlaneXy, Effect::PlaneZx, Effect::PlaneYz];
+                let plane = p.blocks[..block.ix].iter().rev().find_map(|before| before.code(&planes)?.effect);
+                // In the plane that is active anyway the code changes nothing.
+                let changes = plane != Some(Effect::PlaneZx) && !p.is_lathe();
+                (on_the_contour(p, block) && changes && p.is_for(&["linuxcnc", "fanuc"]))
                     .then(|| p.line_above(block, "G18"))
             })
         },

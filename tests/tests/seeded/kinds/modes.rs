@@ -279,7 +279,7 @@ pub(super) const KINDS: &[Kind] = &[
         "polar-left-on",
         Fear::Scrap,
         "polar coordinates are never cancelled",
-        &["tool-tilt-left-on"],
+        &["polar-coordinates-left-on"],
         |p| if p.is_for(&["fanuc-mill"]) { before_a_cut_of_several(p, "G16") } else { Vec::new() },
     )
     .anywhere(),
@@ -331,6 +331,8 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let above = p.previous(block).filter(|above| above.code(&[Effect::CycleCancel]).is_some())?;
+                // `G80 G00` in one block leaves the rapid on.
+                above.after.motion.is_none().then_some(())?;
                 let word = block.code(&[Effect::Rapid]).filter(|_| p.is_for(&["linuxcnc"]))?;
                 (above.is_plain() && block.moves(&MOVES)).then(|| p.without(word))
             })

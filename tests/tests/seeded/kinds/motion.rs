@@ -272,7 +272,7 @@ pub(super) const KINDS: &[Kind] = &[
         "coolant-forgotten",
         Fear::Trap,
         "coolant is not switched on for a tool",
-        &["tool-cuts-dry"],
+        &["coolant-forgotten", "tool-cuts-dry"],
         |p| p.each(|block| block.code(&[Effect::FloodOn]).map(|word| p.without(word))),
     )
     .anywhere(),

@@ -40,7 +40,10 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let word = block.word(b'Z').filter(|_| block.code(&PROBES).is_some())?;
-                let above = p.blocks[..block.ix].iter().rev().find_map(|before| before.word(b'Z'))?;
+                let away = [Effect::ReturnReference(1), Effect::ReturnReference(2), Effect::Incremental];
+                // Where the probe stands must be known: it did not go to a reference point since.
+                let since = p.blocks[..block.ix].iter().rev().take_while(|b| b.code(&away).is_none());
+                let above = since.into_iter().find_map(|before| before.word(b'Z'))?;
                 above.number?;
                 Some(p.value(word, &p.words_of(above)[1..]))
             })

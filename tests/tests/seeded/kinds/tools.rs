@@ -185,14 +185,20 @@ pub(super) const KINDS: &[Kind] = &[
         "offset-never-chosen",
         Fear::Crash,
         "no work offset is chosen before the first move",
-        &["work-offset-not-chosen"],
+        &["work-offset-never-chosen", "work-offset-not-chosen"],
         |p| {
             let offsets = p.blocks.iter().filter_map(|block| {
                 let word = block.words.iter().find(|w| matches!(w.effect, Some(Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))))?;
                 Some(p.without(word))
             });
             let all: Vec<_> = offsets.collect();
-            if all.is_empty() { Vec::new() } else { vec![all.into()] }
+            // The tools of a turret carry the part's place in their own offsets; where each end of a program brings back the
+            // first work offset, a program that uses no other means that one, with or without a word of it.
+            let semantics = p.facts.semantics();
+            let comes_back = semantics.at_end.iter().any(|code| code == "G54") && semantics.tools.change_by_t;
+            let is_first = |word: &&Word| !matches!(word.effect, Some(Effect::WorkOffset(2..) | Effect::WorkOffsetByP(_)));
+            let is_only_first = p.blocks.iter().flat_map(|block| &block.words).all(|word| is_first(&word));
+            if all.is_empty() || comes_back && is_only_first { Vec::new() } else { vec![all.into()] }
         },
     )
     .anywhere(),
@@ -200,13 +206,21 @@ pub(super) const KINDS: &[Kind] = &[
         "offset-of-another-part",
         Fear::Crash,
         "one tool works in another work offset than the others",
-        &["work-offset-of-one-tool"],
+        &["work-offset-of-one-tool", "work-offset-not-listed"],
         |p| {
             let changes = p.blocks.iter().filter(|block| block.code(&[Effect::WorkOffset(1)]).is_some());
             if changes.count() < 2 {
                 return Vec::new();
             }
-            p.each(|block| block.code(&[Effect::WorkOffset(1)]).map(|word| p.instead(word, "G56")))
+            let chooses = |block: &&Block| {
+                block.words.iter().any(|w| matches!(w.effect, Some(Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))))
+            };
+            p.each(|block| {
+                // Chosen anew before the tool moves, it is right again.
+                let next = p.behind(block).iter().find(|next| chooses(next) || next.moves(&[Effect::Rapid, Effect::Linear]));
+                let is_mended = !block.has(b"XYZ") && next.is_some_and(|next| chooses(&next));
+                block.code(&[Effect::WorkOffset(1)]).filter(|_| !is_mended).map(|word| p.instead(word, "G56"))
+            })
         },
     )
     .anywhere(),

@@ -310,17 +310,19 @@ pub(super) const KINDS: &[Kind] = &[
         },
     )
     .anywhere(),
+    // A spindle that still turns is none: the bar feed stops it before the chuck opens (96-8913A, p. 21).
     Kind::new(
-        "bar-with-spindle-on",
-        Fear::Crash,
-        "the spindle turns while the bar is fed",
-        &["mode-on-at-bar-feed"],
+        "bar-with-compensation-on",
+        Fear::Scrap,
+        "nose compensation is still on when the bar is fed",
+        &["mode-on-at-bar-feed", "compensation-left-on"],
         |p| {
             p.each(|block| {
-                let stop = block
-                    .code(&[Effect::SpindleStop])
-                    .filter(|_| p.next(block).is_some_and(|next| next.code(&[Effect::BarFeed]).is_some()))?;
-                (block.words.len() == 1).then(|| p.without_line(block)).filter(|_| stop.number.is_some())
+                let cuts = block.code(&[Effect::Linear]).is_some() && block.has(b"Z") && p.is_lathe();
+                let rest = p.behind(block);
+                let fed = rest.iter().position(|next| next.code(&[Effect::BarFeed]).is_some())?;
+                let ends = rest[..fed].iter().any(|next| next.code(&[Effect::CompensationOff]).is_some());
+                (cuts && !block.before.is_compensating && !ends).then(|| p.behind_words(block, "G42"))
             })
         },
     )

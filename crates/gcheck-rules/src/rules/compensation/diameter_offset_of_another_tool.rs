@@ -1,16 +1,18 @@
 //! A cutter compensation offset that does not follow the scheme of the program's other tools.
 
+use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use super::compensation_left_on::is_on;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// A tool cuts with the cutter compensation offset that, by the scheme of the program's other tools, belongs to another tool:
-    /// the others take `D` equal to `T`, or `T` and a fixed number more, and this one does not.
+    /// the others take `D` equal to `T`, or `T` and a fixed number more, and this one does not. Or all tools have the length
+    /// offset of their own number, and the `D` of this one is the number of another of them.
     ///
     /// ## Why it matters
     /// The contour comes out too large or too small by the difference of the two tools.
@@ -21,6 +23,16 @@ declare_rule! {
     /// G41 D1 G1 X1. F5.
     /// G40 X0.
     /// T2 M6
+    /// G41 D1 G1 X1.
+    /// G40 X0.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G43 H2 Z1.
     /// G41 D1 G1 X1.
     /// G40 X0.
     /// M30
@@ -43,7 +55,7 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::FINISH),
-            make: || Box::new(DiameterOffsetOfAnotherTool { pairs: Pairs::new() }),
+            make: || Box::new(DiameterOffsetOfAnotherTool { pairs: Pairs::new(), lengths: Vec::new() }),
         },
     }
 }
@@ -51,7 +63,12 @@ declare_rule! {
 #[derive(Clone, PartialEq)]
 struct DiameterOffsetOfAnotherTool {
     pairs: Pairs,
+    /// Tools with the length offsets that they cut with.
+    lengths: Vec<(u32, u32)>,
 }
+
+/// More lengths than this say nothing clear.
+const MOST_LENGTHS: usize = 1000;
 
 remembers!(DiameterOffsetOfAnotherTool: pairs);
 
@@ -66,12 +83,18 @@ impl PathRule for DiameterOffsetOfAnotherTool {
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let state = cx.state();
+        let Some(tool) = Abstract::known(state.tool()).and_then(whole) else { return };
+        if let Some(length) = length_of(cx)
+            && !self.lengths.contains(&(tool, length))
+            && self.lengths.len() < MOST_LENGTHS
+        {
+            self.lengths.push((tool, length));
+        }
         if !state.effect(Role::Compensation, cx.model).is_some_and(is_on) {
             return;
         }
-        let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.d()));
-        let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
-        self.pairs.add(tool, offset, || {
+        let Some(offset) = Abstract::known(state.d()).and_then(whole) else { return };
+        self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
             let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
             let range = set_by.and_then(|at| cx.find_word(at, |word| word.letter.ascii() == b'D'));
             let message = format!("tool {tool} cuts with diameter offset {offset} (`D{offset}`, `T{tool}`)");
@@ -85,7 +108,8 @@ impl PathRule for DiameterOffsetOfAnotherTool {
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (finding, scheme) in self.pairs.take_odd('D') {
+        for (finding, scheme) in self.pairs.take_odd('D', false) {
+            let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
             report.add(
                 finding
                     .label(scheme.label("diameter offset"))
@@ -93,7 +117,27 @@ impl PathRule for DiameterOffsetOfAnotherTool {
                     .help(format!("use `D{}`, or tell why not in a suppression", scheme.expected)),
             );
         }
+        // Where lengths go by the tools' numbers, sizes are taken to do so too.
+        if self.lengths.len() < 2 || self.lengths.iter().any(|(tool, length)| tool != length) {
+            return;
+        }
+        let tools: Vec<u32> = self.lengths.iter().map(|(tool, _)| *tool).collect();
+        for (finding, tool, owner) in self.pairs.take_named_after('D', &tools) {
+            report.add(
+                finding
+                    .label(format!("the number of tool {owner}"))
+                    .note("the tools of the program have the length offset of their own number (H = T)")
+                    .help(format!("use `D{tool}`, or tell why not in a suppression")),
+            );
+        }
     }
+}
+
+/// The number of the length offset that the tool cuts with.
+fn length_of(cx: &PathCx<'_>) -> Option<u32> {
+    let is_on = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
+    cx.state().effect(Role::Length, cx.model).filter(|effect| is_on(*effect))?;
+    Abstract::known(cx.state().h()).and_then(whole).filter(|length| *length > 0)
 }
 
 #[cfg(test)]
@@ -114,6 +158,24 @@ mod tests {
                   |     ^^ warning[diameter-offset-of-another-tool] tool 3 cuts with diameter offset 2 (`D2`, `T3`)
             "#]],
         );
+    }
+
+    #[test]
+    fn sizes_that_no_length_explains_may_be_numbered_otherwise() {
+        let program = |d: &str, h: &str| {
+            format!("T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 {h} Z1.\nG41 {d} G1 X1.\nG40 X0.\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("D1", "H2"),
+            &expect![[r#"
+            6 | G41 D1 G1 X1.
+              |     ^^ warning[diameter-offset-of-another-tool] tool 2 cuts with diameter offset 1 (`D1`, `T2`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("D32", "H2"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("D1", "H22"), &expect![[""]]);
     }
 
     #[test]

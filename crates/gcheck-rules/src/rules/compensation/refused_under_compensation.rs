@@ -3,7 +3,7 @@
 use gcheck_engine::{CompensationFault, Fact, Fault, Role};
 
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// A block asks for something that the control does not do while cutter compensation is on, switches compensation on
@@ -49,7 +49,14 @@ struct RefusedUnderCompensation;
 impl PathRule for RefusedUnderCompensation {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Compensation(fault) = fault else { return };
+        let semantics = cx.model.semantics();
+        let is_of_plane = semantics.compensation.freezes_plane && cx.code_of_role(Role::Plane).is_some();
         let (message, label, help) = match fault {
+            CompensationFault::NotWhileOn if is_of_plane => (
+                "the plane changes while cutter compensation is on",
+                "the contour is offset in the plane that was active before",
+                "switch compensation off (`G40`) with a move away from the part before the plane changes",
+            ),
             CompensationFault::NotWhileOn => (
                 "the control does not do this while cutter compensation is on",
                 "refused with compensation on",
@@ -74,6 +81,7 @@ impl PathRule for RefusedUnderCompensation {
         let finding = cx.finding(&META, cx.range(), message).label(label).help(help);
         let code =
             cx.code_name(Role::Compensation).map_or_else(|| "compensation".to_owned(), |c| format!("`{c}`"));
+        let finding = if is_of_plane { finding.at_most(limit(semantics.confidence)) } else { finding };
         report.add(match fault {
             CompensationFault::Plane => finding,
             _ => cx.resting_on(finding, Fact::Mode(Role::Compensation), &code),
@@ -98,6 +106,19 @@ mod tests {
             4 | G28
               | ^^^ error[refused-under-compensation] the control does not do this while cutter compensation is on
         "#]],
+        );
+    }
+
+    #[test]
+    fn the_plane_stays_as_it_is() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G17\nG41 D6 G1 X10. F100.\nG17 Y10.\nG18 Y20.\nG40 X20.\nG18\nM30\n",
+            &expect![[r#"
+                4 | G18 Y20.
+                  | ^^^^^^^^ warning[refused-under-compensation] the plane changes while cutter compensation is on
+            "#]],
         );
     }
 

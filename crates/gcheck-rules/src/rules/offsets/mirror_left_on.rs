@@ -1,17 +1,20 @@
 //! A mirror that the program leaves on.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Ending, Role};
+use gcheck_engine::{Ending, Event, Role};
 
 use crate::boundary::Boundary;
+use crate::carried::Carried;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A mirror image is still on where the program ends.
+    /// A mirror image is still on where the program ends, or the next tool cuts with it and nothing in the program switches it
+    /// off.
     ///
     /// ## Why it matters
-    /// The next program, or the next part, is cut left for right, and conventional milling becomes climb milling.
+    /// The next program, the next part or the next tool is cut left for right, and conventional milling becomes climb milling.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -32,21 +35,45 @@ declare_rule! {
         tier: Path,
         mends: OnRequest,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(MirrorLeftOn) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
+            make: || Box::new(MirrorLeftOn::default()),
+        },
     }
 }
 
-struct MirrorLeftOn;
+#[derive(Clone, Default, PartialEq)]
+struct MirrorLeftOn {
+    carried: Carried,
+}
+
+remembers!(MirrorLeftOn: carried);
 
 impl PathRule for MirrorLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::MirrorOn)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        self.carried.block(cx);
+        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
             judge(cx, report);
         }
     }
 
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let mode = (Role::Mirror, Effect::MirrorOn, Effect::MirrorOff);
+        if let Some(finding) = self.carried.cut(cx, &META, mode, "the mirror image") {
+            report.add(finding);
+        }
+    }
+
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
             judge(cx, report);
         }
     }

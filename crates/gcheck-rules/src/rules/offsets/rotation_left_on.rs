@@ -1,22 +1,33 @@
 //! A rotation that the program leaves on.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Ending, Role};
+use gcheck_engine::{Ending, Event, Role};
 
 use crate::boundary::Boundary;
+use crate::carried::Carried;
+use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// The rotation of coordinates is still on where the program ends.
+    /// The rotation of coordinates is still on where the program ends, or the next tool cuts with it and nothing in the
+    /// program switches it off.
     ///
     /// ## Why it matters
-    /// The next program, or the next part, is cut turned.
+    /// The next program, the next part or the next tool is cut turned.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
     /// G68 X0. Y0. R30.
     /// G1 X10. F100.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G68 X0. Y0. R30.
+    /// G1 X1. F10.
+    /// T2 M6
+    /// G1 X1. F5.
     /// M30
     /// ```
     /// ## Not reported
@@ -32,27 +43,60 @@ declare_rule! {
     /// G1 X1. F10.
     /// M30
     /// ```
+    /// A rotation from the head of the program is meant for all tools.
+    /// ```nc,quiet,haas-mill
+    /// G68 X0. Y0. R30.
+    /// T1 M6
+    /// G1 X1. F10.
+    /// T2 M6
+    /// G1 X1. F5.
+    /// M30
+    /// ```
     rule "rotation-left-on" in "offsets" {
         summary: "rotation left on",
         severity: Warning,
         tier: Path,
         mends: OnRequest,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(RotationLeftOn) },
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
+            make: || Box::new(RotationLeftOn::default()),
+        },
     }
 }
 
-struct RotationLeftOn;
+#[derive(Clone, Default, PartialEq)]
+struct RotationLeftOn {
+    carried: Carried,
+}
+
+remembers!(RotationLeftOn: carried);
 
 impl PathRule for RotationLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::RotationOn)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        self.carried.block(cx);
+        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
             judge(cx, report);
         }
     }
 
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let mode = (Role::Rotation, Effect::RotationOn, Effect::RotationOff);
+        if let Some(finding) = self.carried.cut(cx, &META, mode, "the rotation") {
+            report.add(finding);
+        }
+    }
+
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
             judge(cx, report);
         }
     }
@@ -97,6 +141,35 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G68 X0. Y0. R30.\nIF [#1 EQ 1] GOTO 5\nG69\nN5 M30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn the_first_cut_of_the_next_tool_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG68 X0. Y0. R30.\nG1 X1. F10.\nT2 M6\nG0 X2.\nG1 X1. F5.\nT3 M6\nG1 X1. F5.\nM30\n",
+            &expect![[r#"
+                6 | G1 X1. F5.
+                  | ^^^^^^^^^^ warning[rotation-left-on] the tool cuts with the rotation of the tool before (`G68`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_rotation_that_ends_somewhere_may_be_meant_to_last_until_there() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG68 X0. Y0. R30.\nG1 X1. F10.\nT2 M6\nG1 X1. F5.\nG69\nM30\n",
+            &expect![[""]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG68 X0. Y0. R30.\nG1 X1. F10.\nT2 M6\nG68 X0. Y0. R60.\nG1 X1. F5.\nM30\n",
             &expect![[""]],
         );
     }

@@ -1,7 +1,7 @@
 //! A cut in whatever work coordinate system is active.
 
-use gcheck_controls::Effect;
-use gcheck_engine::{Event, Fact, Role};
+use gcheck_controls::{Confidence, Effect};
+use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
@@ -9,6 +9,8 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A program cuts without having chosen a work coordinate system (`G54` and its kin).
+    ///
+    /// A tool with a length offset in a program that never chooses one is left to `work-offset-never-chosen`.
     ///
     /// ## Why it matters
     /// The part lies where the system says that the last program, or the operator, left active. Most controls begin with `G54`,
@@ -60,22 +62,11 @@ impl PathRule for WorkOffsetNotChosen {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;
         }
-        let chooses = |effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_));
-        let Some(first) = cx.scene.control().codes().find(|code| code.effect() == Effect::WorkOffset(1))
-        else {
-            return;
-        };
-        let is_chosen = cx.trace().set_by(Fact::Mode(Role::WorkOffset)).is_some()
-            || cx.trace().set_by(Fact::Shift).is_some()
-            || cx.is_behind_unknown_program();
-        let is_in_machine_coordinates = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
-        if is_chosen || is_in_machine_coordinates || cx.model.semantics().tools.change_by_t {
-            return;
-        }
-        let (name, last) = (first.number(), "the last program or the operator");
+        let Some(name) = unchosen(cx).filter(|_| !is_set_up(cx)) else { return };
+        let last = "the last program or the operator";
         // Some controls take no other offset under cutter compensation.
         let is_compensated = cx.state().effect(Role::Compensation, cx.model) != Some(Effect::CompensationOff);
-        let fix = if is_compensated { None } else { cx.block_before(Some(&name.to_string())) };
+        let fix = if is_compensated { None } else { cx.block_before(Some(&name)) };
         let later = if cx.file_uses(chooses) { "; the program chooses one only later" } else { "" };
         report.add(
             cx.finding(&META, cx.range(), format!("cut before a work offset is chosen (`{name}`)"))
@@ -84,6 +75,31 @@ impl PathRule for WorkOffsetNotChosen {
                 .fix_if(fix),
         );
     }
+}
+
+/// The first work offset, where this cut is in one that nothing chose.
+pub(super) fn unchosen(cx: &PathCx<'_>) -> Option<String> {
+    let first = cx.scene.control().codes().find(|code| code.effect() == Effect::WorkOffset(1))?;
+    let is_chosen = cx.trace().set_by(Fact::Mode(Role::WorkOffset)).is_some()
+        || cx.trace().set_by(Fact::Shift).is_some()
+        || cx.is_behind_unknown_program();
+    let is_in_machine_coordinates = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
+    let is_free = is_chosen || is_in_machine_coordinates || cx.model.semantics().tools.change_by_t;
+    (!is_free).then(|| first.number().to_string())
+}
+
+/// The tool was changed in and has a length offset: the program is one for tables of offsets, and it chooses no work offset
+/// at all. Not so where each end of a program is known to bring the first one back.
+pub(super) fn is_set_up(cx: &PathCx<'_>) -> bool {
+    let semantics = cx.model.semantics();
+    let comes_back = semantics.confidence == Confidence::Manual && cx.end_resets(Role::WorkOffset);
+    let has_length = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus)
+        && Abstract::known(cx.state().h()).is_some_and(|offset| offset > 0.0);
+    has_length && cx.trace().set_by(Fact::Tool).is_some() && !comes_back && !cx.file_uses(chooses)
+}
+
+fn chooses(effect: Effect) -> bool {
+    matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! One tool in another work offset than all others.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
@@ -9,7 +9,7 @@ use crate::schemes::whole;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch, work_offset_name};
 
 declare_rule! {
-    /// All tools but one work in the same work offset.
+    /// All tools but one work in the same work offset, or all work but that of one time a tool comes.
     ///
     /// ## Why it matters
     /// An offset that was changed in every section but one sends the tool to the wrong place. Where a tool has a place of its
@@ -59,14 +59,29 @@ declare_rule! {
 
 #[derive(Clone, Default, PartialEq)]
 struct WorkOffsetOfOneTool {
-    /// Tools with the offsets that they cut in, each with the finding to make of it if it is odd.
-    pairs: Vec<(u32, u16, Finding)>,
+    /// Where tools come, with the offsets that they then cut in.
+    works: Vec<Work>,
 }
 
-remembers!(WorkOffsetOfOneTool: pairs);
+remembers!(WorkOffsetOfOneTool: works);
 
-/// More pairs than this say nothing clear.
-const MOST_PAIRS: usize = 500;
+#[derive(Clone, PartialEq)]
+struct Work {
+    /// Where the tool came.
+    section: At,
+    tool: u32,
+    offset: u16,
+    /// What is to be made of it if it is odd.
+    finding: Finding,
+}
+
+remembers!(Work: section, finding);
+
+/// More say nothing clear.
+const MOST_WORKS: usize = 500;
+
+/// So many tools must work in the usual offset.
+const FOLLOWERS: usize = 2;
 
 impl PathRule for WorkOffsetOfOneTool {
     fn memory(&mut self) -> Remembers<'_> {
@@ -80,8 +95,9 @@ impl PathRule for WorkOffsetOfOneTool {
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let tool = Abstract::known(cx.state().tool()).and_then(whole);
         let (Some(tool), Some(offset)) = (tool.filter(|tool| *tool > 0), cx.state().work()) else { return };
-        let is_known = self.pairs.iter().any(|(t, o, _)| (*t, *o) == (tool, offset));
-        if is_known || self.pairs.len() >= MOST_PAIRS || cx.is_called_only() {
+        let Some(section) = cx.trace().set_by(Fact::Tool) else { return };
+        let is_known = self.works.iter().any(|work| (work.section, work.offset) == (section, offset));
+        if is_known || self.works.len() >= MOST_WORKS || cx.is_called_only() {
             return;
         }
         let name = work_offset_name(offset, cx.model);
@@ -95,25 +111,25 @@ impl PathRule for WorkOffsetOfOneTool {
         {
             finding = finding.also(range, format!("`{name}` chosen here"));
         }
-        self.pairs.push((tool, offset, finding));
+        self.works.push(Work { section, tool, offset, finding });
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
-        let Some((_, first, _)) = self.pairs.first() else { return };
-        let usual = self.pairs.iter().map(|(_, offset, _)| *offset).max_by_key(|offset| {
-            (self.pairs.iter().filter(|(_, other, _)| other == offset).count(), *offset == *first)
-        });
+        let Some(first) = self.works.first().map(|work| work.offset) else { return };
+        let in_offset = |offset: u16| self.works.iter().filter(move |work| work.offset == offset);
+        let usual = self.works.iter().map(|work| work.offset);
+        let usual = usual.max_by_key(|offset| (in_offset(*offset).count(), *offset == first));
         let Some(usual) = usual else { return };
-        let followers = self.pairs.iter().filter(|(_, offset, _)| *offset == usual).count();
-        let mut others = self.pairs.iter().filter(|(_, offset, _)| *offset != usual);
-        let (Some((tool, _, finding)), None) = (others.next(), others.next()) else { return };
-        let works_in_both = self.pairs.iter().any(|(t, offset, _)| t == tool && *offset == usual);
-        if followers < 3 || works_in_both {
+        let followers = in_offset(usual).count();
+        let mut others = self.works.iter().filter(|work| work.offset != usual);
+        let (Some(odd), None) = (others.next(), others.next()) else { return };
+        let works_in_both = in_offset(usual).any(|work| work.section == odd.section);
+        if followers < FOLLOWERS || works_in_both {
             return;
         }
         let usual = work_offset_name(usual, cx.model);
-        let note = format!("the {followers} other tools of the program work in `{usual}`");
-        report.add(finding.clone().note(note));
+        let note = format!("all other cuts, in {followers} tool sections, are in `{usual}`");
+        report.add(odd.finding.clone().note(note));
     }
 }
 
@@ -123,6 +139,20 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn the_work_counts_not_the_number_of_the_tool() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G90 G54 F100.\nT1 M6\nG1 X1.\nT2 M6\nG1 X1.\nT1 M6\nG56 G1 X1.\nT2 M6\nG54 G1 X2.\nM30\n",
+            &expect![[r#"
+                7 | G56 G1 X1.
+                  | ^^^^^^^^^^ info[work-offset-of-one-tool] tool 1 alone works in `G56`
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "G54 F100.\nT1 M6\nG1 X1.\nT2 M6\nG56 G1 X1.\nM30\n", &expect![[""]]);
+    }
 
     #[test]
     fn two_tools_of_another_place_are_meant() {

@@ -9,7 +9,7 @@ use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A work offset is measured (`G36`, `G136`) with the probe in a spindle that turns, or a tool's size (`G35`) with the
-    /// spindle turning as for a cut.
+    /// spindle turning as for a cut, or a mill probes (`G31`, `G38.2`) with the spindle turning so.
     ///
     /// ## Why it matters
     /// A spindle probe that turns is destroyed at the first touch. A right-hand cutter that turns forward cuts into the tool
@@ -22,6 +22,11 @@ declare_rule! {
     /// G91 G36 Y-1. F10.
     /// G90
     /// M30
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 S500 M3
+    /// G38.2 Z-5 F60
+    /// M2
     /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
@@ -47,9 +52,16 @@ impl PathRule for SpindleTurnsWhileProbing {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let is_measuring =
             |effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre | Effect::ProbeDiameter);
-        if !is_probing(event) || !cx.has_effect(is_measuring) || is_compensated(cx) {
+        // What such a code touches with, nobody tells; the spindle of a lathe turns the part.
+        let is_touching = |effect| {
+            matches!(effect, Effect::Skip | Effect::ProbeToward | Effect::ProbeTowardOptional)
+                && !cx.model.semantics().tools.change_by_t
+        };
+        let is_either = |effect| is_measuring(effect) || is_touching(effect);
+        if !is_probing(event) || !cx.has_effect(is_either) || is_compensated(cx) {
             return;
         }
+        let is_unsure = !cx.has_effect(is_measuring);
         let of_tool = cx.has_effect(|effect| effect == Effect::ProbeDiameter);
         let (message, label, help) = match cx.state().spindle() {
             Some(Spindle::Clockwise) if of_tool => (
@@ -57,14 +69,19 @@ impl PathRule for SpindleTurnsWhileProbing {
                 "a right-hand cutter cuts into the tool probe",
                 "turn the tool backward (`M4`) while it touches",
             ),
-            Some(Spindle::Clockwise | Spindle::CounterClockwise) if !of_tool => (
+            Some(Spindle::Clockwise) if is_unsure => (
+                "the spindle turns forward while it probes (`M3`)",
+                "a probe in the spindle breaks, and a cutter cuts into a tool probe",
+                "stop the spindle (`M5`) first; a cutter that touches a tool probe turns backward (`M4`)",
+            ),
+            Some(Spindle::Clockwise | Spindle::CounterClockwise) if !of_tool && !is_unsure => (
                 "the spindle turns while its probe touches",
                 "the probe turns with the spindle",
                 "stop the spindle (`M5`) before the probe goes in",
             ),
             _ => return,
         };
-        let finding = cx.finding(&META, cx.effect_range(is_measuring), message).label(label).help(help);
+        let finding = cx.finding(&META, cx.effect_range(is_either), message).label(label).help(help);
         report.add(cx.resting_on(finding, Fact::Spindle, "spindle"));
     }
 }
@@ -87,6 +104,20 @@ mod tests {
                   | ^^^ warning[spindle-turns-while-probing] the tool turns forward while it is measured (`M3`)
             "#]],
         );
+    }
+
+    #[test]
+    fn a_probing_move_with_the_spindle_on() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 S500 M3\nG38.3 Z-5 F60\nM5\nG38.2 Z-6\nM4\nG38.2 Z-7\nM2\n",
+            &expect![[r#"
+                2 | G38.3 Z-5 F60
+                  | ^^^^^ warning[spindle-turns-while-probing] the spindle turns forward while it probes (`M3`)
+            "#]],
+        );
+        check_rule(&RULE, "haas-lathe", "G97 S500 M3\nG31 X1. F10.\nM30\n", &expect![[""]]);
     }
 
     #[test]

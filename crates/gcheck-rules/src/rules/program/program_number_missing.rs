@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Ends;
+use gcheck_program::EndMark;
 
 use crate::meta::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
@@ -42,9 +43,11 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let is_whole = cx.survey.tape_marks.len() == 2 && cx.survey.ends.iter().any(|e| e.ends == Ends::Program);
-    if cx.survey.programs.is_empty()
-        && is_whole
+    // Subprograms with numbers may stand behind a main program without.
+    let numbered = cx.survey.programs.first().map_or(u32::MAX, |number| number.range.start);
+    let ends = |end: &EndMark| end.ends == Ends::Program && end.range.end <= numbered;
+    let is_whole = cx.survey.tape_marks.len() == 2 && cx.survey.ends.iter().any(ends);
+    if is_whole
         && cx.keeps_programs_by_number()
         && let Some(first) = &cx.survey.first_block
     {
@@ -77,6 +80,20 @@ mod tests {
               | ^^^^^^^ info[program-number-missing] program has no number
         "#]],
         );
+    }
+
+    #[test]
+    fn numbered_subprograms_do_not_name_the_main_program() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "%\n(PART)\nM98 P10\nM30\nO10\nG0 X1.\nM99\n%\n",
+            &expect![[r#"
+                3 | M98 P10
+                  | ^^^^^^^ info[program-number-missing] program has no number
+            "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "%\nG0 X1.\nO10\nM30\n%\n", &expect![[""]]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::boundary::is_before;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Watch};
+use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A tool works with the length offset that, by the scheme of the program's other tools, belongs to another tool: the others
@@ -84,7 +84,7 @@ impl PathRule for LengthOffsetOfAnotherTool {
         let (tool, offset) = (Abstract::known(state.tool()), Abstract::known(state.h()));
         let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
         let letter = if by_t { 'T' } else { 'H' };
-        self.pairs.add(tool, offset, || {
+        self.pairs.add(tool, offset, cx.trace().set_by(Fact::Tool), || {
             let (given, changed) = (cx.trace().set_by(Fact::Length), cx.trace().set_by(Fact::Tool));
             let given = given
                 .and_then(|at| Some((at, cx.find_word(at, |word| word.letter.ascii() == letter as u8)?)));
@@ -114,13 +114,24 @@ impl PathRule for LengthOffsetOfAnotherTool {
         });
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (finding, scheme) in self.pairs.take_odd('H') {
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
+        let by_t = cx.model.semantics().tools.offset_in_t;
+        for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
+            let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
             report.add(
                 finding
                     .label(scheme.label("length offset"))
                     .note(scheme.note("length offset", 'H'))
                     .help(format!("use offset {}, or tell why not in a suppression", scheme.expected)),
+            );
+        }
+        let strangers = if by_t { self.pairs.take_strangers() } else { Vec::new() };
+        for (finding, tool) in strangers {
+            report.add(
+                finding
+                    .label("the number of another station")
+                    .help(format!("use offset {tool}, or tell why not in a suppression"))
+                    .at_most(Severity::Info),
             );
         }
     }
@@ -191,6 +202,72 @@ mod tests {
                   | ^^^^^ warning[length-offset-of-another-tool] tool 3 works with length offset 1
             "#]],
         );
+    }
+
+    #[test]
+    fn a_second_offset_of_a_turning_tool_is_numbered_past_the_stations() {
+        let program = |t: &str| format!("T0101\nG1 X1. F.1\n{t}\nG1 X2.\nM30\n");
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            &program("T0405"),
+            &expect![[r#"
+            3 | T0405
+              | ^^^^^ info[length-offset-of-another-tool] tool 4 works with length offset 5
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-lathe", &program("T0414"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &program("T0432"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-lathe", &program("T0102"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T1213\nG1 X1. F.1\nM30\n",
+            &expect![[r#"
+            1 | T1213
+              | ^^^^^ info[length-offset-of-another-tool] tool 12 works with length offset 13
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_offset_of_another_tool_is_no_second_offset() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H2 Z1.\nG1 Z0.\nT1 M6\nG43 H2 Z1.\nG1 Z-1.\nM30\n",
+            &expect![[r#"
+                8 | G43 H2 Z1.
+                  |     ^^ info[length-offset-of-another-tool] tool 1 works with length offset 2 (`H2`, `T1`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_approach_before_the_length_comes_is_made_with_the_one_before() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG1 X1.\nG43 H2 Z1.\nG1 Z0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_second_offset_stands_beside_the_first() {
+        let tools = "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H2 Z1.\nG1 Z0.\nT3 M6\nG43 H3 Z1.\nG1 Z0.\n";
+        let alone = format!("{tools}T1 M6\nG43 H41 Z1.\nG1 Z-1.\nM30\n");
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &alone,
+            &expect![[r#"
+            11 | G43 H41 Z1.
+               |     ^^^ info[length-offset-of-another-tool] tool 1 works with length offset 41 (`H41`, `T1`)
+        "#]],
+        );
+        let beside = format!("{tools}T1 M6\nG43 H1 Z1.\nG1 Z-1.\nG43 H41\nG1 Z-2.\nM30\n");
+        check_rule(&RULE, "haas-mill", &beside, &expect![[""]]);
     }
 
     #[test]

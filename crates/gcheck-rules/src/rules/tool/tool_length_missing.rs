@@ -119,11 +119,20 @@ impl ToolLengthMissing {
         if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
             return;
         }
-        // A tool that is about to touch off finds its own zero.
-        if cx.is_near(|effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional)) {
+        let is_ever_used = cx.file_uses(compensates);
+        // A tool that is about to touch off finds its own zero. Where no offset is written, what it finds is measured with
+        // the spindle's nose, and the other tools go there with their tips.
+        let touches = |effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
+        let keeps = |effect| {
+            matches!(
+                effect,
+                Effect::WriteOffsets | Effect::SetPosition | Effect::LocalShift | Effect::LengthFromBlock
+            )
+        };
+        let is_touching = cx.is_near(touches);
+        if is_touching && (!is_ever_used || cx.file_uses(keeps)) {
             return;
         }
-        let is_ever_used = cx.file_uses(compensates);
         let what = if matches!(event, Event::Travel(t) if t.kind == gcheck_engine::TravelKind::Rapid) {
             "moves"
         } else {
@@ -144,7 +153,7 @@ impl ToolLengthMissing {
         }
         let finding = finding.help(format!("give the length with the first move along Z: `{on} H1 Z…`"));
         if is_ever_used {
-            report.add(finding);
+            report.add(if is_touching { finding.at_most(Severity::Info) } else { finding });
         } else {
             self.is_done = true;
             report.add(
@@ -320,6 +329,19 @@ mod tests {
             "linuxcnc",
             "G21 T1 M6\nG0 X0 Y0\nG0 Z10\nG38.2 Z-20 F100\nG10 L20 P1 Z0\nT2 M6\nG43 Z10\nM2\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_surface_that_is_touched_for_other_tools_is_touched_with_the_tip() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 T10 M6\nG0 X0 Y0\nG0 Z10\nG38.2 Z-20 F100\nT4 M6\nG43 H4\nG0 Z[#5063+5]\nM2\n",
+            &expect![[r#"
+                3 | G0 Z10
+                  |    ^^^ info[tool-length-missing] the tool moves without its length (no `G43` since the tool change)
+            "#]],
         );
     }
 

@@ -1,7 +1,7 @@
 //! A code that relies on an earlier value which nothing gave.
 
 use gcheck_controls::{Code, Ends, Letter};
-use gcheck_program::{NeverGiven, OKeyword, Survey};
+use gcheck_program::{EndMark, NeverGiven, OKeyword, Survey};
 
 use crate::meta::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
@@ -57,9 +57,15 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Is the text enough to say so? What may be called takes its caller's words with it.
+/// Is the text enough to say so? What may be called takes its caller's words with it; behind the main program of the file,
+/// that is its caller.
 pub(in crate::rules) fn speaks(survey: &Survey) -> bool {
-    let may_be_called = survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
+    let second = survey.programs.get(1).map_or(0, |second| second.range.start);
+    let is_of_main =
+        |end: &EndMark| end.range.start < second && end.ends == Ends::Program && !end.conditional;
+    let returns = |end: &EndMark| end.ends == Ends::Subprogram && (second == 0 || end.range.start < second);
+    let may_be_called = survey.ends.iter().any(returns)
+        || second > 0 && !survey.ends.iter().any(is_of_main)
         || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
     !may_be_called && !survey.has_mistakes
 }
@@ -111,6 +117,32 @@ mod tests {
     fn other_words_may_do_instead() {
         check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 I.2 J.05 K.1 F5.\nM30\n", &expect![[""]]);
         check_rule(&RULE, "haas-mill", "G83 Z-1. R.1 Q#5 F5.\nG80\nG83 Z-1. R.1\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn the_offset_of_a_length_is_no_size() {
+        check_rule(&RULE, "fanuc-mill", "T1 M6\nG43 H1 Z1.\nG41 G1 X1. F10.\nG40 X0.\nM30\n", &expect![[r#"
+            3 | G41 G1 X1. F10.
+              | ^^^ warning[lasting-word-never-given] `G41` without `D`, which no earlier block gives
+        "#]]);
+        // Older controls have one table for both.
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 H1 Z1.\nG41 H31 G1 X1. F10.\nG40 X0.\nG41 X1.\nG40 X0.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_main_program_gives_its_subprograms_what_it_gives() {
+        let program =
+            |d: &str| format!("O1\n{d}G43 H1 Z1.\nM98 P2\nM30\nO2\nG41 G1 X1. F10.\nG40 X0.\nM99\n");
+        check_rule(&RULE, "fanuc-mill", &program(""), &expect![[r#"
+            6 | G41 G1 X1. F10.
+              | ^^^ warning[lasting-word-never-given] `G41` without `D`, which no earlier block gives
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", &program("D1\n"), &expect![[""]]);
     }
 
     #[test]

@@ -1,0 +1,138 @@
+//! Polar coordinates that the program leaves on.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Ending, Event, Role};
+
+use crate::boundary::Boundary;
+use crate::carried::Carried;
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// Polar coordinates (`G16`) are still on where the program ends, or the next tool cuts with them and nothing in the program
+    /// switches them off.
+    ///
+    /// ## Why it matters
+    /// `X` is read as a radius and `Y` as an angle: the next program or the next tool goes to points that nobody wrote.
+    ///
+    /// ## Reported
+    /// ```nc,reported,fanuc-mill
+    /// G17 G16
+    /// G1 X50. Y30. F100.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,fanuc-mill
+    /// G17 G16
+    /// G1 X50. Y30. F100.
+    /// G15
+    /// M30
+    /// ```
+    rule "polar-coordinates-left-on" in "offsets" {
+        summary: "polar coordinates left on",
+        severity: Warning,
+        tier: Path,
+        mends: OnRequest,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
+            make: || Box::new(PolarCoordinatesLeftOn::default()),
+        },
+    }
+}
+
+#[derive(Clone, Default, PartialEq)]
+struct PolarCoordinatesLeftOn {
+    carried: Carried,
+}
+
+remembers!(PolarCoordinatesLeftOn: carried);
+
+impl PathRule for PolarCoordinatesLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::PolarOn)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        self.carried.block(cx);
+        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
+            judge(cx, report);
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        let mode = (Role::Polar, Effect::PolarOn, Effect::PolarOff);
+        if let Some(finding) = self.carried.cut(cx, &META, mode, "the polar coordinates") {
+            report.add(finding);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
+            judge(cx, report);
+        }
+    }
+}
+
+fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let is_on = |effect| effect == Effect::PolarOn;
+    let Some(finding) = cx.left_at_end(&META, Role::Polar, is_on, "the reading of polar coordinates") else {
+        return;
+    };
+    let cancel = cx.cancel_of(Effect::PolarOff).unwrap_or_default();
+    report.add(
+        finding
+            .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
+            .help(format!("switch polar coordinates off with `{cancel}` before the program ends"))
+            .fix_if(cx.block_before(Some(&cancel))),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_end_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G17 G16\nG1 X50. Y30. F100.\nM30\n",
+            &expect![[r#"
+            3 | M30
+              | ^^^ warning[polar-coordinates-left-on] the reading of polar coordinates is still on at the end of the program (`G16`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn the_first_cut_of_the_next_tool_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG17 G16\nG81 X50. Y30. Z-5. R2. F100.\nG80\nT2 M6\nG1 X10. Y5. F100.\nM30\n",
+            &expect![[r#"
+                6 | G1 X10. Y5. F100.
+                  | ^^^^^^^^^^^^^^^^^ warning[polar-coordinates-left-on] the tool cuts with the polar coordinates of the tool before (`G16`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_circle_of_holes_that_ends_is_quiet() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG17 G16\nG81 X50. Y30. Z-5. R2. F100.\nY60.\nG15 G80\nT2 M6\nG1 X10. Y5. F100.\nM30\n",
+            &expect![[""]],
+        );
+    }
+}

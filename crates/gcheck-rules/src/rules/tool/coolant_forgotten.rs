@@ -1,0 +1,215 @@
+//! Coolant that is switched off for a tool that never had it on.
+
+use gcheck_controls::Effect;
+use gcheck_engine::{Coolant, Event, Fact};
+
+use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+
+declare_rule! {
+    /// One tool cuts with the coolant off, and its work ends by switching it off (`M9`), while all other tools of the program
+    /// cut with coolant.
+    ///
+    /// A tool that cuts dry and says nothing of coolant is left to `tool-cuts-dry`.
+    ///
+    /// ## Why it matters
+    /// Who wrote the `M9` meant the tool to have coolant. A forgotten `M8` burns the tool, or leaves chips in the hole.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// S1000 M3
+    /// G1 X1. F10.
+    /// M9
+    /// T2 M6
+    /// S1000 M3
+    /// M8
+    /// G1 X2. F10.
+    /// M9
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// S1000 M3
+    /// G1 X1. F10.
+    /// T2 M6
+    /// S1000 M3
+    /// M8
+    /// G1 X2. F10.
+    /// M9
+    /// M30
+    /// ```
+    rule "coolant-forgotten" in "tool" {
+        summary: "coolant switched off for a tool that never had it on",
+        severity: Info,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::CHANGES.union(Watch::CUTS).union(Watch::FINISH),
+            make: || Box::new(CoolantForgotten::default()),
+        },
+    }
+}
+
+#[derive(Clone, Default, PartialEq)]
+struct CoolantForgotten {
+    /// Mist, flood, through the tool.
+    on: [bool; 3],
+    /// The tool has not cut yet.
+    is_new: bool,
+    /// The first cut of the tool at work, if it was dry and coolant was not spoken of since.
+    dry: Option<Finding>,
+    /// Tools that cut with coolant.
+    wet: usize,
+    /// Tools that cut dry and say nothing of coolant.
+    silent: usize,
+    /// What is to be said of the first tool that switches off what was not on.
+    odd: Option<Finding>,
+    /// How many there are.
+    odd_ones: usize,
+    /// It is the tool at work.
+    is_last: bool,
+}
+
+remembers!(CoolantForgotten: dry, odd);
+
+impl PathRule for CoolantForgotten {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::CoolantOff)
+            && program
+                .may(|effect| matches!(effect, Effect::MistOn | Effect::FloodOn | Effect::ThroughCoolantOn))
+    }
+
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        match event {
+            Event::Coolant { kind, on } => {
+                let was_on = self.on.contains(&true);
+                let [mist, flood, through] = &mut self.on;
+                *match kind {
+                    Coolant::Mist => mist,
+                    Coolant::Flood => flood,
+                    Coolant::Through => through,
+                } = *on;
+                let is_off = |effect| effect == Effect::CoolantOff;
+                if *on {
+                    self.dry = None;
+                } else if !was_on
+                    && cx.has_effect(is_off)
+                    && let Some(finding) = self.dry.take()
+                {
+                    self.odd_ones += 1;
+                    self.is_last = true;
+                    self.odd = self.odd.take().or(Some(
+                        finding.also(cx.effect_range(is_off), "what is switched off here was not on"),
+                    ));
+                }
+            }
+            Event::ToolChange(_) => {
+                self.is_new = true;
+                self.is_last = false;
+                self.silent += usize::from(self.dry.take().is_some());
+            }
+            _ => {}
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if !self.is_new || !is_cut(cx, event) {
+            return;
+        }
+        self.is_new = false;
+        if self.on.contains(&true) {
+            self.wet += 1;
+            return;
+        }
+        let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
+        let off = cx.cancel_of(Effect::CoolantOff).unwrap_or_default();
+        let message = format!("the tool cuts with the coolant off (no `{on}` before its `{off}`)");
+        let mut finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
+            "switch the coolant on with `{on}`, or take the `{off}` out where the tool cuts dry"
+        ));
+        if let Some(range) = cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
+            finding = finding.also(range, "the tool comes here");
+        }
+        self.dry = Some(finding);
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        // Many programs switch everything off at their end, whatever was on: there one other tool is no evidence.
+        let enough = if self.is_last { 2 } else { 1 };
+        let is_alone = self.odd_ones == 1 && self.silent == 0 && self.dry.is_none();
+        if let Some(finding) = self.odd.take().filter(|_| is_alone && self.wet >= enough) {
+            let others = match self.wet {
+                1 => "the program's other tool cuts with coolant".to_owned(),
+                wet => format!("the {wet} other tools of the program cut with coolant"),
+            };
+            report.add(finding.note(others));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    /// A program of tools, each with what stands before and behind its cut.
+    fn program(tools: &[(&str, &str)]) -> String {
+        let tool = |(number, (before, behind)): (usize, &(&str, &str))| {
+            format!("T{} M6\nS1000 M3\n{before}\nG1 X{number}. F100.\n{behind}\n", number + 1)
+        };
+        tools.iter().enumerate().map(tool).collect::<String>() + "M30\n"
+    }
+
+    #[test]
+    fn the_first_cut_is_marked() {
+        let text = program(&[("M8", "M9"), ("", "M9"), ("M8", "M9")]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &text,
+            &expect![[r#"
+            9 | G1 X1. F100.
+              | ^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn everything_is_off_at_the_end() {
+        check_rule(&RULE, "fanuc-mill", &program(&[("M8", "M9"), ("", "M9")]), &expect![[""]]);
+        let text = program(&[("M8", "M9"), ("M8", "M9"), ("", "M9")]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &text,
+            &expect![[r#"
+            14 | G1 X2. F100.
+               | ^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn several_dry_tools_are_meant() {
+        let text = program(&[("", "M9"), ("", "M9"), ("M8", "M9"), ("M8", "M9")]);
+        check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
+        let text = program(&[("", "M9"), ("", ""), ("M8", "M9"), ("M8", "M9")]);
+        check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
+    }
+
+    #[test]
+    fn coolant_that_comes_late_has_come() {
+        let text = program(&[("", "M8\nG1 Y1.\nM9"), ("M8", "M9"), ("M8", "M9")]);
+        check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
+    }
+}
