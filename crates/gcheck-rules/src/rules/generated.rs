@@ -175,6 +175,7 @@ pub(crate) mod motion {
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
+    pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
     pub(crate) mod rapid_between_cuts;
@@ -474,6 +475,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
+    &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
     &motion::rapid_between_cuts::RULE,

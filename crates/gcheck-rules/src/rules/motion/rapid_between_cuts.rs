@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{ArcMove, Event, Role, Travel, TravelKind};
+use gcheck_engine::{ArcMove, At, Event, Fact, Role, Spindle, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use super::rapid_in_material::{Cuts, cutter_radius, point};
@@ -15,6 +15,9 @@ declare_rule! {
     /// Below the zero of the part a cut ends, a rapid move goes sideways at the same depth, where nothing was cut so deep
     /// before, and behind it the tool goes on as if it were in one contour: it cuts on at that depth, at an angle to the cut
     /// before, along an arc or with cutter compensation on. Or it is fed down at the place where the rapid move ends.
+    ///
+    /// The same is said of rapid moves that lead down into the part and along, straight on into an arc or up again without
+    /// a cut: nobody drives there for nothing.
     ///
     /// A program that does so more than twice has its reasons: it steps over beside the part. From one straight cut to one
     /// beside it nothing is said, for the same reason.
@@ -46,6 +49,15 @@ declare_rule! {
     /// Z2.
     /// G1 Z-2.
     /// Y90.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// Nothing is cut: the plunge was meant to be fed.
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X0. Y0.
+    /// G43 H1 Z5.
+    /// Z-2.
+    /// X20.
     /// G0 Z5.
     /// M30
     /// ```
@@ -97,12 +109,16 @@ struct Cut {
 /// Rapid moves that follow each other at one depth.
 #[derive(Clone, PartialEq)]
 struct Way {
-    behind: Cut,
+    z: f64,
+    /// The cut that they come from; `None` where a rapid move came down.
+    behind: Option<Cut>,
     /// The first block.
     bytes: Range<u32>,
-    /// Where the first one goes, and where the last.
-    heads: [[f64; 2]; 2],
-    to: [f64; 2],
+    /// The first block, and the one under way.
+    blocks: [At; 2],
+    /// Where the first one goes, and where the last; none yet for a move straight down.
+    heads: Option<[[f64; 2]; 2]>,
+    /// Moves sideways.
     pieces: usize,
     /// They go through what was not cut so deep before.
     is_new: bool,
@@ -111,7 +127,7 @@ struct Way {
     is_lifted: bool,
 }
 
-remembers!(Way: bytes);
+remembers!(Way: bytes, blocks);
 
 /// A way through what was not cut before.
 #[derive(Clone, PartialEq)]
@@ -173,43 +189,64 @@ impl PathRule for RapidBetweenCuts {
 impl RapidBetweenCuts {
     /// The way that this move begins or goes on with.
     fn rapid(
-        &self,
+        &mut self,
         cx: &PathCx<'_>,
         travel: &Travel,
         last: Option<Cut>,
         way: Option<Way>,
     ) -> Option<Way> {
         let ([x0, y0, z0], [x1, y1, z1]) = (point(&travel.from)?, point(&travel.to)?);
-        let is_level = (z1 - z0).abs() < LEVEL;
-        if !is_level {
-            let is_up = z1 > z0 && (x1 - x0).hypot(y1 - y0) < LEVEL;
-            return way.filter(|_| is_up).map(|way| Way { is_lifted: true, ..way });
+        let heads = direction([x0, y0], [x1, y1]);
+        let at = cx.origin().at;
+        let begin = |behind: Option<Cut>, is_new: bool| Way {
+            z: z1,
+            behind,
+            bytes: cx.range(),
+            blocks: [at, at],
+            heads: heads.map(|heads| [heads, heads]),
+            pieces: usize::from(heads.is_some()),
+            is_new,
+            is_compensated: is_compensated(cx),
+            is_lifted: false,
+        };
+        if (z1 - z0).abs() < LEVEL {
+            let heads = heads?;
+            let is_new = self.is_new(cx, [x0, y0], [x1, y1], z0);
+            return match (way, last) {
+                (Some(way), _) => (!way.is_lifted).then(|| Way {
+                    blocks: [way.blocks[0], at],
+                    heads: Some([way.heads.map_or(heads, |[first, _]| first), heads]),
+                    pieces: way.pieces + 1,
+                    is_new: way.is_new || is_new,
+                    is_compensated: way.is_compensated || is_compensated(cx),
+                    ..way
+                }),
+                (None, Some(behind)) if (behind.z - z0).abs() < LEVEL => Some(begin(Some(behind), is_new)),
+                _ => None,
+            };
         }
-        let heads = direction([x0, y0], [x1, y1])?;
-        let is_new = [0.25, 0.5, 0.75].into_iter().any(|part| {
-            let at = [x0 + part * (x1 - x0), y0 + part * (y1 - y0)];
-            !self.cuts.reach(self.cuts.len(), at, z0, clears(cx))
-        }) && (x1 - x0).hypot(y1 - y0) >= SHORT;
-        match (way, last) {
-            (Some(way), _) => (!way.is_lifted).then(|| Way {
-                heads: [way.heads[0], heads],
-                to: [x1, y1],
-                pieces: way.pieces + 1,
-                is_new: way.is_new || is_new,
-                ..way
-            }),
-            (None, Some(behind)) if (behind.z - z0).abs() < LEVEL => Some(Way {
-                behind,
-                bytes: cx.range(),
-                heads: [heads, heads],
-                to: [x1, y1],
-                pieces: 1,
-                is_new,
-                is_compensated: is_compensated(cx),
-                is_lifted: false,
-            }),
-            _ => None,
+        if heads.is_none() && z0 >= 0.0 && z1 < SURFACE {
+            return Some(begin(None, !self.cuts.reach(self.cuts.len(), [x1, y1], z1, clears(cx))));
         }
+        if heads.is_none() && z1 > z0 {
+            let way = way?;
+            if way.behind.is_none() && z1 > 0.0 {
+                self.judge_dip(cx, &way);
+                return None;
+            }
+            return Some(Way { is_lifted: true, ..way });
+        }
+        None
+    }
+
+    /// Does a move at this depth go where nothing was cut so deep?
+    fn is_new(&self, cx: &PathCx<'_>, from: [f64; 2], to: [f64; 2], z: f64) -> bool {
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let is_cut = |part: f64| {
+            let at = [from[0] + part * x, from[1] + part * y];
+            self.cuts.reach(self.cuts.len(), at, z, clears(cx))
+        };
+        self.found.len() <= MOST && x.hypot(y) >= SHORT && ![0.25, 0.5, 0.75].into_iter().all(is_cut)
     }
 
     fn feed(&mut self, cx: &PathCx<'_>, travel: &Travel, way: Option<Way>) -> Option<Cut> {
@@ -222,7 +259,9 @@ impl RapidBetweenCuts {
                     self.judge(cx, &way, Cut { z: z1, heads: Some(heads), is_arc: false });
                 }
                 // Down at the place where the rapid move ended, or to where the tool stands already.
-                None if way.is_lifted && z1 < SURFACE || is_level && !way.is_lifted => {
+                None if way.behind.is_some()
+                    && (way.is_lifted && z1 < SURFACE || is_level && !way.is_lifted) =>
+                {
                     self.judge_plunge(cx, &way);
                 }
                 _ => {}
@@ -240,8 +279,8 @@ impl RapidBetweenCuts {
         let is_flat = arc.plane == gcheck_geometry::Plane::Xy && (z1 - z0).abs() < LEVEL;
         let centre = [arc.centre.0.0, arc.centre.1.0];
         let heads = |at: [f64; 2]| {
-            let way = direction(centre, at)?;
-            Some(if arc.sweep > 0.0 { [-way[1], way[0]] } else { [way[1], -way[0]] })
+            let [x, y] = direction(centre, at)?;
+            Some(if arc.sweep > 0.0 { [-y, x] } else { [y, -x] })
         };
         if let Some(way) = way.filter(|way| is_flat && !way.is_lifted) {
             self.judge(cx, &way, Cut { z: z1, heads: heads([x0, y0]), is_arc: true });
@@ -249,25 +288,31 @@ impl RapidBetweenCuts {
         (z1 < SURFACE && is_flat).then_some(Cut { z: z1, heads: heads([x1, y1]), is_arc: true })
     }
 
-    /// Rapid moves between two cuts at one depth.
+    /// Rapid moves that a cut at their depth follows.
     fn judge(&mut self, cx: &PathCx<'_>, way: &Way, next: Cut) {
-        if !way.is_new {
-            return;
-        }
-        let [first, last] = way.heads;
+        let Some([first, last]) = way.heads.filter(|_| way.is_new) else { return };
         let goes_on = |cut: &Cut, heads: [f64; 2]| {
             cut.is_arc && cut.heads.is_some_and(|own| is_along(own, heads) && dot(own, heads) > 0.0)
         };
-        let is_tangent = goes_on(&way.behind, first) || goes_on(&next, last);
-        let is_angled = matches!(
-            (way.behind.heads, next.heads),
-            (Some(behind), Some(next)) if !is_along(behind, next)
-        );
-        let is_sure = is_tangent || way.is_compensated && is_compensated(cx);
-        let finding = (is_sure || is_angled && way.pieces == 1).then(|| {
-            let why = if is_tangent { "the arc beside it goes on straight here" } else { "the cut goes on behind it" };
-            tell(cx, way, "rapid move at depth between two cuts", why)
-                .at_most(if is_sure { Severity::Warning } else { Severity::Info })
+        let is_tangent = way.behind.is_some_and(|cut| goes_on(&cut, first)) || goes_on(&next, last);
+        let is_within = way.is_compensated && is_compensated(cx) && (way.behind.is_some() || way.pieces > 1);
+        let is_angled = way.pieces == 1
+            && matches!(
+                (way.behind.and_then(|cut| cut.heads), next.heads),
+                (Some(behind), Some(next)) if !is_along(behind, next)
+            );
+        // Down beside the part and on to the cut is how many begin.
+        if way.behind.is_none() && !is_tangent && !is_within {
+            return;
+        }
+        let finding = (is_tangent || is_within || is_angled).then(|| {
+            let why = if is_tangent { "and an arc goes on straight" } else { "this cuts on at the same depth" };
+            let message = match way.behind {
+                Some(_) => "rapid move at depth between two cuts",
+                None => "rapid moves at depth lead straight into a cut",
+            };
+            tell(cx, way, message, why)
+                .at_most(if is_tangent || is_within { Severity::Warning } else { Severity::Info })
                 .help("write `G1` if this belongs to the contour; else lift the tool before it")
         });
         self.keep(way, finding);
@@ -276,13 +321,25 @@ impl RapidBetweenCuts {
     /// Rapid moves from a cut to where the tool is fed down.
     fn judge_plunge(&mut self, cx: &PathCx<'_>, way: &Way) {
         if way.is_new {
-            let finding = tell(
-                cx,
-                way,
-                "rapid move at depth to where the tool goes down next",
-                "the tool is fed down here",
-            );
+            let message = "rapid move at depth to where the tool goes down next";
+            let finding = tell(cx, way, message, "the tool is fed down here");
             self.keep(way, Some(finding.help("lift the tool out of the part before the rapid move")));
+        }
+    }
+
+    /// Rapid moves down and up again.
+    fn judge_dip(&mut self, cx: &PathCx<'_>, way: &Way) {
+        let [first, last] = way.blocks;
+        let at = cx.origin().at;
+        // Whoever does something else down there has come for that.
+        let goes_on = first.file == at.file
+            && at.block == last.block + 1
+            && (last.block - first.block) as usize == way.pieces;
+        let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.trace().set_by(Fact::Spindle).is_some();
+        if way.is_new && goes_on && !stands {
+            let message = "rapid move down into the part and up again, and nothing is cut";
+            let finding = tell(cx, way, message, "the tool goes up again");
+            self.keep(way, Some(finding.help("write `G1` if the tool is to cut here")));
         }
     }
 
@@ -296,7 +353,7 @@ impl RapidBetweenCuts {
 }
 
 fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
-    let depth = cx.shown(Mm(-way.behind.z));
+    let depth = cx.shown(Mm(-way.z));
     cx.finding(&META, way.bytes.clone(), message)
         .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
         .also(cx.range(), why)

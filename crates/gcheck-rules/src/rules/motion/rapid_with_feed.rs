@@ -3,6 +3,7 @@
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{Axis, Event, Role, TravelKind};
 use gcheck_geometry::Mm;
+use gcheck_program::Word;
 
 use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -63,7 +64,7 @@ impl PathRule for RapidWithFeed {
         let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
         // A height that nobody knows is NaN, and below nothing. Up and out of the part is no cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
-        if !is_mill || !is_plain || !is_below || cx.has_effect(is_elsewhere) {
+        if !is_mill || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
             return;
         }
         let depth = cx.shown(Mm(-to));
@@ -78,6 +79,12 @@ impl PathRule for RapidWithFeed {
 /// Codes whose way is not one of the part's coordinates.
 fn is_elsewhere(effect: Effect) -> bool {
     matches!(effect, Effect::ReturnReference(_) | Effect::MachineCoordinates)
+}
+
+/// A code that the control does not have may be a move of its own on the control that the program is for.
+fn has_unknown_code(cx: &PathCx<'_>) -> bool {
+    let is_unknown = |word: &Word| matches!(word.letter.ascii(), b'G' | b'M') && !word.code.is_some();
+    cx.find_word(cx.origin().at, is_unknown).is_some()
 }
 
 #[cfg(test)]
@@ -120,6 +127,11 @@ mod tests {
             "G21 G90 G54 G0 X0. Y0. Z5.\nG53 Z-20. F90.\nG91 G28 Z-1. F90.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_code_of_another_control_may_be_the_move() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G54 G0 X0 Y0 Z5\nG31 Z-20 F90\nM2\n", &expect![[""]]);
     }
 
     #[test]
