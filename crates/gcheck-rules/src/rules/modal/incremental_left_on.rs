@@ -16,8 +16,9 @@ declare_rule! {
     /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference return whose
     /// block switched them on, goes by increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
     ///
-    /// So is `G91` where a tool begins: in the block of its first rapid move in X and Y, which also chooses a work offset, or
-    /// where another tool of the program begins in positions. From where the tool was changed nobody goes by increments.
+    /// So is `G91` where a tool begins: in the block of its first rapid move in X and Y, which also chooses a work offset or
+    /// names zeros alone, or where another tool of the program begins in positions. From where the tool was changed nobody
+    /// goes by increments.
     ///
     /// ## Why it matters
     /// The tool goes by the coordinates of its target instead of to them: through the part, or against the end of travel.
@@ -153,14 +154,17 @@ impl IncrementalLeftOn {
             && cx.trace().set_by(Fact::Mode(Role::Distance)) == Some(cx.origin().at);
         let is_meant = cx.depth() > 1 || cx.origin().flags.contains(BlockFlags::EXPRESSION);
         let chooses_offset = cx.code_of_role(Role::WorkOffset).is_some();
-        if states && !is_meant && (chooses_offset || has_others) {
+        let moves_nothing = moves_nothing(cx);
+        if states && !is_meant && (chooses_offset || moves_nothing || has_others) {
             let range = cx.effect_range(|effect| effect == Effect::Incremental);
             let incremental = cx.code_name(Role::Distance).unwrap_or_default();
             let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
             let message = format!("the first move of the tool goes by increments (`{incremental}`)");
             let fix = Fix::risky(format!("write `{absolute}`"), range.clone(), absolute.clone());
             let finding = cx.finding(&META, range, message).help(format!("write `{absolute}` here")).fix_if(Some(fix));
-            let why = if chooses_offset {
+            let why = if moves_nothing {
+                "an increment of zero moves nothing"
+            } else if chooses_offset {
                 "the work offset of this block counts for positions"
             } else {
                 "the other tools of the program begin in positions"
@@ -225,6 +229,14 @@ impl IncrementalLeftOn {
     }
 }
 
+/// Are the coordinates of the block zero?
+fn moves_nothing(cx: &PathCx<'_>) -> bool {
+    let Some(place) = cx.place() else { return false };
+    let words = place.table.words(place.block());
+    let mut coordinates = words.iter().filter(|word| matches!(word.letter.ascii(), b'X' | b'Y' | b'Z'));
+    coordinates.all(|word| word.number().is_some_and(|number| number.abs() < 1e-9))
+}
+
 fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
     let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
@@ -272,6 +284,8 @@ mod tests {
         check_rule(&RULE, "fanuc-mill", &program("G90", "G91"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("G91", "G91"), &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", &program("G91 G54", "G90"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G91", "G90"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "G91 G0 X5. Y5.\nG1 X5. F90.\nM30\n", &expect![[""]]);
     }
 
     #[test]

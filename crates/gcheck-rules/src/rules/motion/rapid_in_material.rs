@@ -315,6 +315,11 @@ impl Cuts {
         cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
     }
 
+    /// Has it given up to know what was cut?
+    pub(crate) fn is_blind(&self) -> bool {
+        self.blind
+    }
+
     /// How many cuts are kept.
     pub(crate) fn len(&self) -> usize {
         self.list.len()
