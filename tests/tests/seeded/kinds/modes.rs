@@ -122,8 +122,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let word = block.code(&[Effect::Absolute]).filter(|_| block.moves(&[Effect::Rapid]))?;
                 // Behind other moves of the tool it is another slip: some programs go by both all the time.
                 let mut before = p.blocks[..block.ix].iter();
-                let is_first =
-                    !before.any(|b| b.before.section == block.before.section && b.moves(&MOVES));
+                let is_first = !before.any(|b| b.before.section == block.before.section && b.moves(&MOVES));
                 is_first.then(|| p.instead(word, "G91"))
             })
         },
@@ -237,7 +236,9 @@ pub(super) const KINDS: &[Kind] = &[
             let place = |seed: &Seed| seed.edits[0].range.start;
             let is_felt = |seed: &Seed| {
                 let block = p.blocks.iter().find(|block| block.range.start >= place(seed));
-                block.is_some_and(|block| under_mode(p, block).any(|next| next.moves(&CUTS) && !next.has(b"F")))
+                block.is_some_and(|block| {
+                    under_mode(p, block).any(|next| next.moves(&CUTS) && !next.has(b"F"))
+                })
             };
             before_a_cut(p, "G93").into_iter().filter(is_felt).collect()
         },

@@ -161,7 +161,8 @@ impl IncrementalLeftOn {
             let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
             let message = format!("the first move of the tool goes by increments (`{incremental}`)");
             let fix = Fix::risky(format!("write `{absolute}`"), range.clone(), absolute.clone());
-            let finding = cx.finding(&META, range, message).help(format!("write `{absolute}` here")).fix_if(Some(fix));
+            let finding =
+                cx.finding(&META, range, message).help(format!("write `{absolute}` here")).fix_if(Some(fix));
             let why = if moves_nothing {
                 "an increment of zero moves nothing"
             } else if chooses_offset {
@@ -169,7 +170,8 @@ impl IncrementalLeftOn {
             } else {
                 "the other tools of the program begin in positions"
             };
-            report.add(finding.label("by this much from wherever the axes stand, not to this point").note(why));
+            report
+                .add(finding.label("by this much from wherever the axes stand, not to this point").note(why));
         }
     }
 
@@ -281,10 +283,22 @@ mod tests {
         let program = |first: &str, second: &str| {
             format!("G21\nT1 M6\n{first} G0 X0. Y0.\nG90 G0 Z5.\nT2 M6\n{second} G0 X3. Y3.\nG90\nM30\n")
         };
-        check_rule(&RULE, "fanuc-mill", &program("G90", "G91"), &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91", "G91"), &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91 G54", "G90"), &expect![[""]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91", "G90"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G90", "G91"), &expect![[r#"
+            6 | G91 G0 X3. Y3.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", &program("G91", "G91"), &expect![[r#"
+            3 | G91 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", &program("G91 G54", "G90"), &expect![[r#"
+            3 | G91 G54 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", &program("G91", "G90"), &expect![[r#"
+            3 | G91 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]]);
         check_rule(&RULE, "fanuc-mill", "G91 G0 X5. Y5.\nG1 X5. F90.\nM30\n", &expect![[""]]);
     }
 
@@ -303,7 +317,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G91 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | G20 G91 G0 X0.
+                  |     ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+            "#]],
         );
     }
 

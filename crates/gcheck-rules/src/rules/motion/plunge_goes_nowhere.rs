@@ -154,7 +154,8 @@ fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<
         Some(before) if is_level && before.way != Way::Up => Some(before),
         // From where nobody knows, a tool comes from above.
         _ => {
-            let is_down = cx.origin().letters.contains(Letter::of('Z')) && from.is_none_or(|from| from >= 0.0);
+            let is_down =
+                cx.origin().letters.contains(Letter::of('Z')) && from.is_none_or(|from| from >= 0.0);
             is_down.then(|| Before { way: Way::Down, z: to, bytes: cx.range() })
         }
     }
@@ -181,8 +182,14 @@ impl PlungeGoesNowhere {
         }
         let depth = cx.shown(Mm(if before.way == Way::Up { -z } else { -before.z }));
         let (label, next) = match before.way {
-            Way::Down => (format!("goes down at rapid to {depth} below the zero of the part"), "has no way left to feed"),
-            _ => (format!("goes sideways {depth} below the zero of the part"), "feeds down where the tool already is as deep"),
+            Way::Down => (
+                format!("goes down at rapid to {depth} below the zero of the part"),
+                "has no way left to feed",
+            ),
+            _ => (
+                format!("goes sideways {depth} below the zero of the part"),
+                "feeds down where the tool already is as deep",
+            ),
         };
         let help = match before.way {
             Way::Down => "check the sign and the height at which the rapid move ends",
@@ -210,7 +217,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G21 G90 G54 G0 X0. Y0. Z50.\nZ-2.\nG1 Z-1. F90.\nX9.\nG0 Z50.\nX20.\nZ-2.\nG1 Z-5.\nG0 Z50.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | Z-2.
+                  | ^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+            "#]],
         );
     }
 
@@ -220,7 +230,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nY5\nG1 Z-1\nX30\nG0 X40\nG1 Z5\nZ-2\nG0 Z5\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G0 X20
+                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                8 | G0 X40
+                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+            "#]],
         );
     }
 

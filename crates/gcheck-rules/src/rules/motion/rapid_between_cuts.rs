@@ -361,7 +361,9 @@ impl RapidBetweenCuts {
 
     /// Rapid moves behind an arc, straight on to where the contour began.
     fn judge_closing(&mut self, cx: &PathCx<'_>, way: &Way) {
-        let (Some(behind), Some([first, _]), Some(start)) = (way.behind, way.heads, self.start) else { return };
+        let (Some(behind), Some([first, _]), Some(start)) = (way.behind, way.heads, self.start) else {
+            return;
+        };
         if goes_on(&behind, first) && direction(way.to, start).is_none() {
             let message = "rapid move at depth closes the contour";
             let finding = tell(cx, way, message, "the tool is lifted where it was fed down");
@@ -386,8 +388,8 @@ impl RapidBetweenCuts {
         let goes_on = first.file == at.file
             && at.block == last.block + 1
             && (last.block - first.block) as usize == way.pieces;
-        let stands = cx.state().spindle() == Some(Spindle::Stopped)
-            && cx.trace().set_by(Fact::Spindle).is_some();
+        let stands =
+            cx.state().spindle() == Some(Spindle::Stopped) && cx.trace().set_by(Fact::Spindle).is_some();
         if way.is_new == Some(true) && goes_on && !stands {
             let message = "rapid move down into the part and up again, and nothing is cut";
             let finding = tell(cx, way, message, "the tool goes up again");
@@ -397,13 +399,10 @@ impl RapidBetweenCuts {
 
     /// Notes a way once, however often a loop comes by. More than say something are not kept.
     fn keep(&mut self, way: &Way, finding: Option<Finding>) {
-        match self.found.iter_mut().find(|found| found.bytes == way.bytes) {
-            Some(found) if found.finding.is_none() => found.finding = finding,
-            Some(_) => {}
-            None if self.found.len() <= MOST => {
-                self.found.push(Found { bytes: way.bytes.clone(), finding });
-            }
-            None => {}
+        if let Some(known) = self.found.iter_mut().find(|found| found.bytes == way.bytes) {
+            known.finding = known.finding.take().or(finding);
+        } else if self.found.len() <= MOST {
+            self.found.push(Found { bytes: way.bytes.clone(), finding });
         }
     }
 }
@@ -464,28 +463,51 @@ mod tests {
     #[test]
     fn a_side_of_the_contour() {
         check_rule(&RULE, "haas-mill", ROUND, &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &ROUND.replace("G1 X40.", "G0 X40."), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &ROUND.replace("R10.\nG1 Y0.\nX", "R10.\nG0 Y0.\nG1 X"), &expect![[""]]);
+        check_rule(&RULE, "haas-mill", &ROUND.replace("G1 X40.", "G0 X40."), &expect![[r#"
+            5 | G0 X40.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+        "#]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &ROUND.replace("R10.\nG1 Y0.\nX", "R10.\nG0 Y0.\nG1 X"),
+            &expect![[r#"
+                7 | G0 Y0.
+                  | ^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+            "#]],
+        );
     }
 
     #[test]
     fn who_steps_over_beside_the_part_at_rapid() {
         let pass = |y: u8| format!("G0 Y{y}.\nG1 X100.\nG0 Y{}.\nG1 X0.\n", y + 30);
-        let program = format!("G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX100.\n{}{}G0 Z5.\nM30\n", pass(30), pass(90));
+        let program = format!(
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX100.\n{}{}G0 Z5.\nM30\n",
+            pass(30),
+            pass(90)
+        );
         check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
     }
 
     #[test]
     fn a_corner_of_straight_cuts_is_a_suspicion() {
-        let program = "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX50.\nY50.\nG0 X0.\nG1 X-30. Y20.\nG0 Z5.\nM30\n";
-        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+        let program =
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX50.\nY50.\nG0 X0.\nG1 X-30. Y20.\nG0 Z5.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[r#"
+            5 | G0 X0.
+              | ^^^^^^ info[rapid-between-cuts] rapid move at depth between two cuts
+        "#]]);
     }
 
     #[test]
     fn a_cutter_of_unknown_size_with_compensation_on() {
         let program = "G21 G90 G54 T1 M6\nG0 X-50. Y-50. Z5.\nG1 Z-2. F100.\nG41 D1 X0. Y-20.\nY90.\nG0 X90.\nG1 Y0.\nX-20.\nG40 X-50. Y-50.\nG0 Z5.\nM30\n";
-        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
-        let away = program.replace("G0 X90.\nG1", "G1 X90.\n").replace("X-20.\nG40 X", "X-20.\nG0 Y-50.\nG40 X");
+        check_rule(&RULE, "haas-mill", program, &expect![[r#"
+            6 | G0 X90.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+        "#]]);
+        let away =
+            program.replace("G0 X90.\nG1", "G1 X90.\n").replace("X-20.\nG40 X", "X-20.\nG0 Y-50.\nG40 X");
         check_rule(&RULE, "haas-mill", &away, &expect![[""]]);
     }
 
@@ -509,7 +531,12 @@ mod tests {
 
     #[test]
     fn the_contour_is_closed_at_rapid() {
-        let program = ROUND.replace("G1 Y0.\nX-50.", "G1 Y0.\nX-40.\nG2 X-50. Y10. R10.\nG0 Y90.").replace("Z5.\nG1 Z-2. F100.\nY90.", "Y90.\nZ5.\nG1 Z-2. F100.");
-        check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+        let program = ROUND
+            .replace("G1 Y0.\nX-50.", "G1 Y0.\nX-40.\nG2 X-50. Y10. R10.\nG0 Y90.")
+            .replace("Z5.\nG1 Z-2. F100.\nY90.", "Y90.\nZ5.\nG1 Z-2. F100.");
+        check_rule(&RULE, "haas-mill", &program, &expect![[r#"
+            10 | G0 Y90.
+               | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth closes the contour
+        "#]]);
     }
 }

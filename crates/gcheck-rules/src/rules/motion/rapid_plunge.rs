@@ -116,7 +116,8 @@ impl PathRule for RapidPlunge {
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
         if let Some((finding, 1)) = self.odd.take().filter(|_| self.fed >= MANY) {
-            report.add(finding.note("everywhere else the program feeds the tool down").at_most(Severity::Info));
+            report
+                .add(finding.note("everywhere else the program feeds the tool down").at_most(Severity::Info));
         }
     }
 }
@@ -131,7 +132,8 @@ impl RapidPlunge {
             Some((finding, _)) if finding.range == plunge.bytes => {}
             Some((_, count)) => *count = 2,
             None => {
-                let finding = tell(cx, plunge, "the one rapid move down to a cut", "the tool cuts on from there");
+                let finding =
+                    tell(cx, plunge, "the one rapid move down to a cut", "the tool cuts on from there");
                 self.odd = Some((finding, 1));
             }
         }
@@ -224,7 +226,10 @@ mod tests {
             let rest = [plunge(40, "G0"), plunge(60, "G1"), plunge(80, "G1")].concat();
             format!("G21 G90 G54 G0 X0. Y0. Z5. F90.\n{}{rest}M30\n", plunge(20, first))
         };
-        check_rule(&RULE, "fanuc-mill", &program("G1"), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &program("G1"), &expect![[r#"
+            7 | G0 Z-2.
+              | ^^^^^^^ info[rapid-plunge] the one rapid move down to a cut
+        "#]]);
         check_rule(&RULE, "fanuc-mill", &program("G0"), &expect![[""]]);
     }
 
