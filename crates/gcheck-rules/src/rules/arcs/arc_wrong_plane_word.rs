@@ -10,7 +10,8 @@ use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// An arc has a centre word of the axis that stands on its plane: `K` in the XY plane (`G17`). Or the block of an arc in
-    /// the ZX or YZ plane (`G18`, `G19`) says where to go in X and Y, and nothing of Z: it is an arc of the XY plane.
+    /// the ZX or YZ plane (`G18`, `G19`) has words for X and Y, where to go or where the centre is, and none for Z: it is an
+    /// arc of the XY plane.
     ///
     /// ## Why it matters
     /// The plane or the word is not the one that was meant. Some controls stop with an alarm; others do not read the word and
@@ -102,12 +103,13 @@ fn is_nonzero(cx: &PathCx<'_>, letter: char) -> bool {
     word.is_some_and(|word| matches!(word.value, Value::Number(value) if value.abs() > 0.0))
 }
 
-/// Does the block go in X and Y and name neither Z nor `K`, in a plane of which Z is one axis?
+/// Has the block words for X and Y and neither Z nor `K`, in a plane of which Z is one axis?
 fn is_meant_for_xy(cx: &PathCx<'_>, plane: Plane) -> bool {
     let letters = cx.origin().letters;
+    let has = |letter: char| letters.contains(Letter::of(letter));
     plane != Plane::Xy
         && cx.state().plane(cx.model) == Some(plane)
-        && ['X', 'Y'].into_iter().all(|axis| letters.contains(Letter::of(axis)))
+        && (has('X') && has('Y') || has('I') && has('J'))
         && !letters.intersects(LetterSet::of("ZKUVW"))
 }
 
@@ -116,7 +118,11 @@ fn arc_of_another_plane(cx: &PathCx<'_>, plane: Plane) -> Finding {
     let code = cx.code_name(Role::Plane).unwrap_or_default();
     let xy = cx.cancel_of(Effect::PlaneXy).unwrap_or_default();
     let finding = cx
-        .finding(&META, cx.range(), format!("arc in X and Y, but the {name} plane is active (`{code}`)"))
+        .finding(
+            &META,
+            cx.range(),
+            format!("arc with words for X and Y, but the {name} plane is active (`{code}`)"),
+        )
         .label(format!("without Z: looks meant for the XY plane (`{xy}`)"))
         .help(format!("choose the plane of the arc (`{xy}`)"))
         .at_most(Severity::Warning);
@@ -151,6 +157,16 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn arcs_of_the_xy_plane_in_another_one() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G18 G21 G90 G0 X0 Y0 Z0\nG2 X10. Y5. R20. F100.\nG3 X0. I-5. J0.\nG3 X10. Z0. I5. J0.\nG2 X0. R5.\nM30\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn the_word_is_marked() {

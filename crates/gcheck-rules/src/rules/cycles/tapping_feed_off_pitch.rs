@@ -390,15 +390,25 @@ mod tests {
             )
         };
         check_rule(&RULE, "haas-mill", &program("300."), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &program("307."), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("307."),
+            &expect![[r#"
             7 | G84 Z-9. R3. F307.
               |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.023 mm a turn, the pitch is 1 mm
-        "#]]);
+        "#]],
+        );
         let list = "; T1 drill, T2 M6 tap, T3 M8 tap\nT2 M6\nG21 G90 G54 G0 X0 Y0\nS300 M3\nG84 Z-9 R3 F400\nG80\nM2\n";
-        check_rule(&RULE, "linuxcnc", list, &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            list,
+            &expect![[r#"
             5 | G84 Z-9 R3 F400
               |            ^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.333 mm a turn, the pitch is 1 mm
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -409,10 +419,15 @@ mod tests {
         for feed in ["26.667", "26.67", "26.7", "27."] {
             check_rule(&RULE, "haas-mill", &program(feed), &expect![[""]]);
         }
-        check_rule(&RULE, "haas-mill", &program("27.5"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("27.5"),
+            &expect![[r#"
             4 | G84 Z-.9 R.2 F27.5
               |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0573 in a turn, the pitch is 0.0556 in
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

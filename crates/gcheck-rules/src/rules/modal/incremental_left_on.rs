@@ -283,22 +283,42 @@ mod tests {
         let program = |first: &str, second: &str| {
             format!("G21\nT1 M6\n{first} G0 X0. Y0.\nG90 G0 Z5.\nT2 M6\n{second} G0 X3. Y3.\nG90\nM30\n")
         };
-        check_rule(&RULE, "fanuc-mill", &program("G90", "G91"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G90", "G91"),
+            &expect![[r#"
             6 | G91 G0 X3. Y3.
               | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91", "G91"), &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91", "G91"),
+            &expect![[r#"
             3 | G91 G0 X0. Y0.
               | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91 G54", "G90"), &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91 G54", "G90"),
+            &expect![[r#"
             3 | G91 G54 G0 X0. Y0.
               | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]]);
-        check_rule(&RULE, "fanuc-mill", &program("G91", "G90"), &expect![[r#"
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91", "G90"),
+            &expect![[r#"
             3 | G91 G0 X0. Y0.
               | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", "G91 G0 X5. Y5.\nG1 X5. F90.\nM30\n", &expect![[""]]);
     }
 

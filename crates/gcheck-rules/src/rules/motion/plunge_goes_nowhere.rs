@@ -8,11 +8,13 @@ use gcheck_geometry::Mm;
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A rapid move ends below the zero of the part, and the feed move in Z behind it has no way left to go down: the tool is
     /// as deep already, or deeper.
+    ///
+    /// A program in which that is found more than twice does it on purpose, and nothing is said of it.
     ///
     /// ## Why it matters
     /// The way into the part was meant to be fed, and the tool has gone it at rapid: the clearance height in front of it has a
@@ -66,7 +68,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(PlungeGoesNowhere::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
+            make: || Box::new(PlungeGoesNowhere::default()),
+        },
     }
 }
 
@@ -74,9 +79,11 @@ declare_rule! {
 struct PlungeGoesNowhere {
     /// What the move before was.
     before: Option<Before>,
+    /// What was found, in text order.
+    found: Vec<Finding>,
 }
 
-remembers!(PlungeGoesNowhere: before);
+remembers!(PlungeGoesNowhere: before, found);
 
 #[derive(Clone, PartialEq)]
 struct Before {
@@ -101,6 +108,8 @@ enum Way {
     Up,
 }
 
+/// Programs in which it is found more often have their reasons: a cutter that is fed up step by step.
+const MOST: usize = 2;
 /// Levels that differ by less are one: millimetres.
 const LEVEL: f64 = 1e-4;
 /// Depths above this are the surface of the part: millimetres.
@@ -113,7 +122,18 @@ impl PathRule for PlungeGoesNowhere {
         Remembers::All(self)
     }
 
-    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Where the change leaves the tool is the machine's business.
+        if matches!(event, Event::ToolChange(_)) {
+            self.before = None;
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+            cx.enough();
+            return;
+        }
         let before = self.before.take();
         let z_of = |position: &Position| position.get(Axis::Z);
         match event {
@@ -128,13 +148,20 @@ impl PathRule for PlungeGoesNowhere {
                 let is_straight =
                     letters.contains(Letter::of('Z')) && !letters.intersects(LetterSet::of("XYUVABC"));
                 if let (Some(before), Some(z)) = (before.filter(|_| is_straight), z) {
-                    self.plunge(cx, before, z, report);
+                    self.plunge(cx, before, z);
                 }
             }
             Event::Arc(arc) if !arc.expanded => {
                 self.before = z_of(&arc.programmed).filter(|z| *z < SURFACE).map(|z| cut(cx, z));
             }
             _ => {}
+        }
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        let found = std::mem::take(&mut self.found);
+        if found.len() <= MOST {
+            found.into_iter().for_each(|finding| report.add(finding));
         }
     }
 }
@@ -163,7 +190,7 @@ fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<
 
 impl PlungeGoesNowhere {
     /// A feed move in Z alone.
-    fn plunge(&mut self, cx: &PathCx<'_>, before: Before, z: f64, report: &mut Report<'_>) {
+    fn plunge(&mut self, cx: &PathCx<'_>, before: Before, z: f64) {
         let is_same = (z - before.z).abs() < LEVEL;
         let is_up = z > before.z && !is_same;
         let is_odd = match before.way {
@@ -177,7 +204,9 @@ impl PlungeGoesNowhere {
             Way::Along => is_same || is_up,
             Way::Up => z < SURFACE,
         };
-        if !is_odd {
+        // A loop comes by again.
+        let is_known = self.found.iter().any(|finding| finding.range == before.bytes);
+        if !is_odd || is_known || self.found.len() > MOST {
             return;
         }
         let depth = cx.shown(Mm(if before.way == Way::Up { -z } else { -before.z }));
@@ -195,7 +224,7 @@ impl PlungeGoesNowhere {
             Way::Down => "check the sign and the height at which the rapid move ends",
             _ => "lift the tool out of the part before the rapid move",
         };
-        report.add(
+        self.found.push(
             cx.finding(&META, before.bytes, "rapid move goes as deep as the feed move behind it")
                 .label(label)
                 .also(cx.range(), next)
@@ -236,6 +265,27 @@ mod tests {
                 8 | G0 X40
                   | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
             "#]],
+        );
+    }
+
+    #[test]
+    fn steps_from_below_are_cut_on_purpose() {
+        let steps = |count: usize| {
+            let step = |n: usize| format!("G0 X60.\nG1 Z-{}.\nX45.\n", 50 - n);
+            let steps: String = (1..=count).map(step).collect();
+            format!("G21 G90 G54 G0 X60. Y0. Z5.\nZ-50.\nG1 X45. F90.\n{steps}G0 X60.\nZ5.\nM30\n")
+        };
+        check_rule(&RULE, "fanuc-mill", &steps(1), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &steps(3), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tool_change_lifts_the_tool() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F90.\nX9.\nT2 M6\nG0 X20.\nG1 Z-2.\nG0 Z5.\nM30\n",
+            &expect![[""]],
         );
     }
 

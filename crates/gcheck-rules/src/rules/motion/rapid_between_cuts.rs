@@ -79,7 +79,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::MOVES.union(Watch::FINISH),
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
             make: || Box::new(RapidBetweenCuts::default()),
         },
     }
@@ -157,13 +157,26 @@ const SURFACE: f64 = -0.01;
 const CLEARS: f64 = 6.35;
 /// Sine of an angle below which two ways go in one direction.
 const STRAIGHT: f64 = 0.035;
+/// The same, of contours whose numbers are rounded coarsely.
+const NEARLY_STRAIGHT: f64 = 0.12;
 
 impl PathRule for RapidBetweenCuts {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Where the change leaves the tool is the machine's business.
+        if matches!(event, Event::ToolChange(_)) {
+            (self.at, self.start, self.last, self.way) = (None, None, None, None);
+        }
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+            cx.enough();
+            return;
+        }
         let (programmed, is_expanded) = match event {
             Event::Travel(travel) => (point(&travel.programmed), travel.expanded),
             Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
@@ -364,7 +377,11 @@ impl RapidBetweenCuts {
         let (Some(behind), Some([first, _]), Some(start)) = (way.behind, way.heads, self.start) else {
             return;
         };
-        if goes_on(&behind, first) && direction(way.to, start).is_none() {
+        let is_onward = behind.is_arc
+            && behind
+                .heads
+                .is_some_and(|own| dot(own, first) > 0.0 && across(own, first).abs() < NEARLY_STRAIGHT);
+        if is_onward && direction(way.to, start).is_none() {
             let message = "rapid move at depth closes the contour";
             let finding = tell(cx, way, message, "the tool is lifted where it was fed down");
             self.keep(way, Some(finding.help("write `G1` if this belongs to the contour")));
@@ -443,7 +460,12 @@ fn direction(from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
 
 /// Do two directions lie on one line?
 fn is_along(a: [f64; 2], b: [f64; 2]) -> bool {
-    (a[0] * b[1] - a[1] * b[0]).abs() < STRAIGHT
+    across(a, b).abs() < STRAIGHT
+}
+
+/// The sine of the angle between two directions.
+fn across(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
 }
 
 fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -463,10 +485,15 @@ mod tests {
     #[test]
     fn a_side_of_the_contour() {
         check_rule(&RULE, "haas-mill", ROUND, &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &ROUND.replace("G1 X40.", "G0 X40."), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &ROUND.replace("G1 X40.", "G0 X40."),
+            &expect![[r#"
             5 | G0 X40.
               | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
-        "#]]);
+        "#]],
+        );
         check_rule(
             &RULE,
             "haas-mill",
@@ -493,19 +520,29 @@ mod tests {
     fn a_corner_of_straight_cuts_is_a_suspicion() {
         let program =
             "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX50.\nY50.\nG0 X0.\nG1 X-30. Y20.\nG0 Z5.\nM30\n";
-        check_rule(&RULE, "haas-mill", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            program,
+            &expect![[r#"
             5 | G0 X0.
               | ^^^^^^ info[rapid-between-cuts] rapid move at depth between two cuts
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn a_cutter_of_unknown_size_with_compensation_on() {
         let program = "G21 G90 G54 T1 M6\nG0 X-50. Y-50. Z5.\nG1 Z-2. F100.\nG41 D1 X0. Y-20.\nY90.\nG0 X90.\nG1 Y0.\nX-20.\nG40 X-50. Y-50.\nG0 Z5.\nM30\n";
-        check_rule(&RULE, "haas-mill", program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            program,
+            &expect![[r#"
             6 | G0 X90.
               | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
-        "#]]);
+        "#]],
+        );
         let away =
             program.replace("G0 X90.\nG1", "G1 X90.\n").replace("X-20.\nG40 X", "X-20.\nG0 Y-50.\nG40 X");
         check_rule(&RULE, "haas-mill", &away, &expect![[""]]);
@@ -534,9 +571,14 @@ mod tests {
         let program = ROUND
             .replace("G1 Y0.\nX-50.", "G1 Y0.\nX-40.\nG2 X-50. Y10. R10.\nG0 Y90.")
             .replace("Z5.\nG1 Z-2. F100.\nY90.", "Y90.\nZ5.\nG1 Z-2. F100.");
-        check_rule(&RULE, "haas-mill", &program, &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program,
+            &expect![[r#"
             10 | G0 Y90.
                | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth closes the contour
-        "#]]);
+        "#]],
+        );
     }
 }

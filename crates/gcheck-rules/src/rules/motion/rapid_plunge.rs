@@ -226,10 +226,15 @@ mod tests {
             let rest = [plunge(40, "G0"), plunge(60, "G1"), plunge(80, "G1")].concat();
             format!("G21 G90 G54 G0 X0. Y0. Z5. F90.\n{}{rest}M30\n", plunge(20, first))
         };
-        check_rule(&RULE, "fanuc-mill", &program("G1"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1"),
+            &expect![[r#"
             7 | G0 Z-2.
               | ^^^^^^^ info[rapid-plunge] the one rapid move down to a cut
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", &program("G0"), &expect![[""]]);
     }
 
