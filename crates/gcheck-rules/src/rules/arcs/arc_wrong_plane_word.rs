@@ -164,7 +164,12 @@ mod tests {
             &RULE,
             "haas-mill",
             "G18 G21 G90 G0 X0 Y0 Z0\nG2 X10. Y5. R20. F100.\nG3 X0. I-5. J0.\nG3 X10. Z0. I5. J0.\nG2 X0. R5.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | G2 X10. Y5. R20. F100.
+                  | ^^^^^^^^^^^^^^^^^^^^^^ warning[arc-wrong-plane-word] arc with words for X and Y, but the ZX plane is active (`G18`)
+                3 | G3 X0. I-5. J0.
+                  | ^^^^^^^^^^^^^^^ warning[arc-wrong-plane-word] arc with words for X and Y, but the ZX plane is active (`G18`)
+            "#]],
         );
     }
 

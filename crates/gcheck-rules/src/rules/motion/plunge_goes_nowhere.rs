@@ -8,7 +8,7 @@ use gcheck_geometry::Mm;
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A rapid move ends below the zero of the part, and the feed move in Z behind it has no way left to go down: the tool is
@@ -209,6 +209,8 @@ impl PlungeGoesNowhere {
         if !is_odd || is_known || self.found.len() > MOST {
             return;
         }
+        // A tool that works its way up may be meant.
+        let is_step = before.way == Way::Along && is_up;
         let depth = cx.shown(Mm(if before.way == Way::Up { -z } else { -before.z }));
         let (label, next) = match before.way {
             Way::Down => (
@@ -228,7 +230,8 @@ impl PlungeGoesNowhere {
             cx.finding(&META, before.bytes, "rapid move goes as deep as the feed move behind it")
                 .label(label)
                 .also(cx.range(), next)
-                .help(help),
+                .help(help)
+                .at_most(if is_step { Severity::Info } else { Severity::Warning }),
         );
     }
 }
@@ -275,7 +278,10 @@ mod tests {
             let steps: String = (1..=count).map(step).collect();
             format!("G21 G90 G54 G0 X60. Y0. Z5.\nZ-50.\nG1 X45. F90.\n{steps}G0 X60.\nZ5.\nM30\n")
         };
-        check_rule(&RULE, "fanuc-mill", &steps(1), &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", &steps(1), &expect![[r#"
+            4 | G0 X60.
+              | ^^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+        "#]]);
         check_rule(&RULE, "fanuc-mill", &steps(3), &expect![[""]]);
     }
 
