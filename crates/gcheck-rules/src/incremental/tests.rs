@@ -316,6 +316,7 @@ fn cost(change: impl Fn(&mut String)) -> Work {
     // These remember every cut.
     selection.disable("rapid-in-material").unwrap();
     selection.disable("rapid-plunge").unwrap();
+    selection.disable("rapid-between-cuts").unwrap();
     let mut bench = Bench {
         scene,
         selection: &selection,

@@ -177,11 +177,14 @@ pub(crate) mod motion {
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
+    pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
+    pub(crate) mod rapid_between_cuts;
     pub(crate) mod rapid_in_material;
     pub(crate) mod rapid_plunge;
     pub(crate) mod rapid_sideways_and_down;
+    pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
 }
@@ -482,11 +485,14 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
+    &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
+    &motion::rapid_between_cuts::RULE,
     &motion::rapid_in_material::RULE,
     &motion::rapid_plunge::RULE,
     &motion::rapid_sideways_and_down::RULE,
+    &motion::rapid_with_feed::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &offsets::mirror_left_on::RULE,

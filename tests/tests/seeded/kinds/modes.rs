@@ -8,6 +8,7 @@ use crate::kind::{Edit, Fear, Kind, Seed};
 use crate::program::{Block, Program};
 
 const MOVES: [Effect; 2] = [Effect::Rapid, Effect::Linear];
+const CUTS: [Effect; 3] = [Effect::Linear, Effect::ArcClockwise, Effect::ArcCounterClockwise];
 
 /// A line in front of the first cut of a tool, and what must be there for it to matter.
 fn before_a_cut(p: &Program, line: &str) -> Vec<Seed> {
@@ -20,6 +21,12 @@ fn before_a_cut(p: &Program, line: &str) -> Vec<Seed> {
             && !block.before.is_incremental;
         fits.then(|| p.line_above(block, line))
     })
+}
+
+/// The blocks behind this one, up to the next that chooses what a feed means.
+fn under_mode<'p>(p: &'p Program, block: &Block) -> impl Iterator<Item = &'p Block> {
+    let modes = [Effect::FeedPerMinute, Effect::FeedPerRevolution, Effect::FeedInverseTime];
+    p.behind(block).iter().take_while(move |next| next.code(&modes).is_none())
 }
 
 /// As [`before_a_cut`], where another tool comes behind.
@@ -113,7 +120,10 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::Absolute]).filter(|_| block.moves(&[Effect::Rapid]))?;
-                Some(p.instead(word, "G91"))
+                // Behind other moves of the tool it is another slip: some programs go by both all the time.
+                let mut before = p.blocks[..block.ix].iter();
+                let is_first = !before.any(|b| b.before.section == block.before.section && b.moves(&MOVES));
+                is_first.then(|| p.instead(word, "G91"))
             })
         },
     )
@@ -179,11 +189,18 @@ pub(super) const KINDS: &[Kind] = &[
             "compensation-gouge",
         ],
         |p| {
-            let arcs = p
-                .blocks
-                .iter()
-                .any(|b| b.moves(&[Effect::ArcClockwise, Effect::ArcCounterClockwise]) && !p.is_lathe());
-            p.each(|block| block.code(&[Effect::PlaneXy]).filter(|_| arcs).map(|word| p.instead(word, "G18")))
+            // A plane that is stated anew before the next arc harms nobody, nor does one of an arc that is none of XY.
+            let planes = [Effect::PlaneXy, Effect::PlaneZx, Effect::PlaneYz];
+            let arcs = [Effect::ArcClockwise, Effect::ArcCounterClockwise];
+            let first_arc = |block: &Block| {
+                let mut behind = p.behind(block).iter().take_while(|next| next.code(&planes).is_none());
+                behind.find(|next| next.moves(&arcs) || next.has(b"IJ") && next.code(&arcs).is_some())
+            };
+            p.each(|block| {
+                let word = block.code(&[Effect::PlaneXy]).filter(|_| !p.is_lathe())?;
+                let arc = first_arc(block)?;
+                arc.has(b"YJ").then(|| p.instead(word, "G18"))
+            })
         },
     )
     .anywhere(),
@@ -200,10 +217,8 @@ pub(super) const KINDS: &[Kind] = &[
         ],
         |p| {
             p.each(|block| {
-                block
-                    .code(&[Effect::FeedPerMinute])
-                    .filter(|_| !p.is_lathe())
-                    .map(|word| p.instead(word, "G95"))
+                let word = block.code(&[Effect::FeedPerMinute]).filter(|_| !p.is_lathe())?;
+                under_mode(p, block).any(|next| next.moves(&CUTS)).then(|| p.instead(word, "G95"))
             })
         },
     )
@@ -213,7 +228,20 @@ pub(super) const KINDS: &[Kind] = &[
         Fear::Alarm,
         "inverse time (`G93`) is on and blocks have no `F` of their own",
         &["inverse-time-feed-missing", "feed-of-another-mode"],
-        |p| if p.is_lathe() || p.text.contains("G93") { Vec::new() } else { before_a_cut(p, "G93") },
+        |p| {
+            if p.is_lathe() || p.text.contains("G93") {
+                return Vec::new();
+            }
+            // With a feed in every block behind it the control has what it asks for.
+            let place = |seed: &Seed| seed.edits[0].range.start;
+            let is_felt = |seed: &Seed| {
+                let block = p.blocks.iter().find(|block| block.range.start >= place(seed));
+                block.is_some_and(|block| {
+                    under_mode(p, block).any(|next| next.moves(&CUTS) && !next.has(b"F"))
+                })
+            };
+            before_a_cut(p, "G93").into_iter().filter(is_felt).collect()
+        },
     )
     .anywhere(),
     Kind::new(

@@ -31,7 +31,7 @@ pub(super) const KINDS: &[Kind] = &[
         "rapid-plunge",
         Fear::Crash,
         "the plunge into the part is a rapid move (`G00` for `G01`)",
-        &["rapid-plunge", "rapid-in-material"],
+        &["rapid-plunge", "rapid-in-material", "rapid-with-feed", "rapid-between-cuts"],
         |p| {
             p.each(|block| {
                 block.code(&[Effect::Linear]).filter(|_| plunge(p, block)).map(|word| p.instead(word, "G00"))
@@ -43,7 +43,7 @@ pub(super) const KINDS: &[Kind] = &[
         "sign-of-clearance",
         Fear::Crash,
         "the clearance height has a minus sign (`G00 Z-1.` for `G00 Z1.`)",
-        &["rapid-plunge", "rapid-in-material", "move-outside-travel"],
+        &["rapid-plunge", "rapid-in-material", "move-outside-travel", "plunge-goes-nowhere"],
         |p| {
             p.each(|block| {
                 let word = block.word(b'Z').filter(|word| word.number.is_some_and(|z| z > 0.0))?;
@@ -62,7 +62,7 @@ pub(super) const KINDS: &[Kind] = &[
         "rapid-in-cut",
         Fear::Crash,
         "a cut in the middle of a contour is a rapid move (`G00` for `G01`)",
-        &["rapid-in-material", "rapid-plunge", "refused-under-compensation"],
+        &["rapid-in-material", "rapid-between-cuts", "rapid-plunge", "refused-under-compensation"],
         |p| {
             p.each(|block| {
                 let word = block
@@ -78,7 +78,7 @@ pub(super) const KINDS: &[Kind] = &[
         "retract-forgotten",
         Fear::Crash,
         "the retract is forgotten and the tool goes on at depth at rapid",
-        &["rapid-in-material", "rapid-plunge"],
+        &["rapid-in-material", "rapid-between-cuts", "plunge-goes-nowhere", "rapid-plunge"],
         |p| {
             p.each(|block| {
                 let up = block.moves(&[Effect::Rapid])

@@ -255,14 +255,15 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "feed-per-minute-on-a-lathe",
         Fear::Scrap,
-        "feed a minute (`G98`) is on while the numbers are feed a turn",
+        "feed a minute (`G98`, `G94`) is on while the numbers are feed a turn",
         &["feed-of-another-mode", "feed-implausible"],
         |p| {
             p.each(|block| {
                 block
                     .code(&[Effect::FeedPerRevolution])
                     .filter(|_| p.is_lathe())
-                    .map(|word| p.instead(word, "G98"))
+                    // Where `G98` is something else, `G94` says it.
+                    .map(|word| p.instead(word, if p.is_for(&["linuxcnc"]) { "G94" } else { "G98" }))
             })
         },
     )

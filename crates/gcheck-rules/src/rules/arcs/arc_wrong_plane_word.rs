@@ -1,5 +1,6 @@
 //! A centre word of an arc that does not belong to the plane.
 
+use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{ArcFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Plane;
 use gcheck_program::{Value, Word};
@@ -8,7 +9,9 @@ use crate::meta::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// An arc has a centre word of the axis that stands on its plane: `K` in the XY plane (`G17`).
+    /// An arc has a centre word of the axis that stands on its plane: `K` in the XY plane (`G17`). Or the block of an arc in
+    /// the ZX or YZ plane (`G18`, `G19`) has words for X and Y, where to go or where the centre is, and none for Z: it is an
+    /// arc of the XY plane.
     ///
     /// ## Why it matters
     /// The plane or the word is not the one that was meant. Some controls stop with an alarm; others do not read the word and
@@ -23,6 +26,11 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G17 G21 G90 G0 X0 Y0 Z0
     /// G2 X10. Y0 I5. K2. F100.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G18 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10. Y10. R10. F100.
     /// M30
     /// ```
     /// ## Not reported
@@ -58,6 +66,10 @@ impl PathRule for ArcWrongPlaneWord {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Arc(arc) = event else { return };
+        if !arc.expanded && is_meant_for_xy(cx, arc.plane) {
+            report.add(arc_of_another_plane(cx, arc.plane));
+            return;
+        }
         let foreign = centre_word_across(arc.plane);
         if arc.expanded || !cx.origin().letters.contains(gcheck_controls::Letter::of(foreign)) {
             return;
@@ -91,12 +103,42 @@ fn is_nonzero(cx: &PathCx<'_>, letter: char) -> bool {
     word.is_some_and(|word| matches!(word.value, Value::Number(value) if value.abs() > 0.0))
 }
 
-fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
-    let name = match plane {
+/// Has the block words for X and Y and neither Z nor `K`, in a plane of which Z is one axis?
+fn is_meant_for_xy(cx: &PathCx<'_>, plane: Plane) -> bool {
+    let letters = cx.origin().letters;
+    let has = |letter: char| letters.contains(Letter::of(letter));
+    plane != Plane::Xy
+        && cx.state().plane(cx.model) == Some(plane)
+        && (has('X') && has('Y') || has('I') && has('J'))
+        && !letters.intersects(LetterSet::of("ZKUVW"))
+}
+
+fn arc_of_another_plane(cx: &PathCx<'_>, plane: Plane) -> Finding {
+    let name = name_of(plane);
+    let code = cx.code_name(Role::Plane).unwrap_or_default();
+    let xy = cx.cancel_of(Effect::PlaneXy).unwrap_or_default();
+    let finding = cx
+        .finding(
+            &META,
+            cx.range(),
+            format!("arc with words for X and Y, but the {name} plane is active (`{code}`)"),
+        )
+        .label(format!("without Z: looks meant for the XY plane (`{xy}`)"))
+        .help(format!("choose the plane of the arc (`{xy}`)"))
+        .at_most(Severity::Warning);
+    cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("the plane (`{code}`)"))
+}
+
+const fn name_of(plane: Plane) -> &'static str {
+    match plane {
         Plane::Xy => "XY",
         Plane::Zx => "ZX",
         Plane::Yz => "YZ",
-    };
+    }
+}
+
+fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
+    let name = name_of(plane);
     let code = cx.code_name(Role::Plane).unwrap_or_default();
     let finding = cx
         .finding(
@@ -115,6 +157,21 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn arcs_of_the_xy_plane_in_another_one() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G18 G21 G90 G0 X0 Y0 Z0\nG2 X10. Y5. R20. F100.\nG3 X0. I-5. J0.\nG3 X10. Z0. I5. J0.\nG2 X0. R5.\nM30\n",
+            &expect![[r#"
+                2 | G2 X10. Y5. R20. F100.
+                  | ^^^^^^^^^^^^^^^^^^^^^^ warning[arc-wrong-plane-word] arc with words for X and Y, but the ZX plane is active (`G18`)
+                3 | G3 X0. I-5. J0.
+                  | ^^^^^^^^^^^^^^^ warning[arc-wrong-plane-word] arc with words for X and Y, but the ZX plane is active (`G18`)
+            "#]],
+        );
+    }
 
     #[test]
     fn the_word_is_marked() {

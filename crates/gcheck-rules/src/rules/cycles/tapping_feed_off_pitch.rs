@@ -7,10 +7,14 @@ use gcheck_program::BlockFlags;
 use crate::boundary::is_before;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
+use crate::schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A tapping cycle goes down by another way each turn than the pitch of the thread that the tool's comment names.
+    /// A tapping cycle goes down by another way each turn than the pitch of the thread that the tool's comment names: the
+    /// comment at the tool change, or the entry of the tool in a list at the head of the program.
+    ///
+    /// A little less than the pitch is left to holders that give way. A little more is left to the rounding of the feed alone.
     ///
     /// ## Why it matters
     /// A tap leads itself by its pitch. With another feed it tears the thread out, pulls out of its holder or breaks. Feed a
@@ -56,8 +60,8 @@ remembers!(TappingFeedOffPitch: told);
 
 /// A holder that gives way is fed short by a few parts in a hundred.
 const SHORT: f64 = 0.93;
-/// Rounded numbers of feed and speed.
-const LONG: f64 = 1.03;
+/// Of pitches that were rounded before the feed was computed from them.
+const LONG: f64 = 1.006;
 
 impl PathRule for TappingFeedOffPitch {
     fn memory(&mut self) -> Remembers<'_> {
@@ -96,14 +100,15 @@ impl PathRule for TappingFeedOffPitch {
             Some(FeedMode::PerRevolution) => feed,
             _ => return,
         } * units.in_mm();
-        let Some(thread) = thread_of_tool(cx, changed) else { return };
-        if (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
-            return;
-        }
-        self.told = Some(changed);
+        let Some(thread) = thread_of_tool(cx, changed).or_else(|| thread_in_list(cx)) else { return };
         let pitch = gcheck_geometry::Mm(thread.pitch);
         let by_turns = state.feed_mode(cx.model) == Some(FeedMode::PerRevolution);
         let right = if by_turns { thread.pitch } else { thread.pitch * speed } / units.in_mm();
+        let is_rounded = (feed - right).abs() <= rounding(feed);
+        if is_rounded || (SHORT..=LONG).contains(&(a_turn / thread.pitch)) {
+            return;
+        }
+        self.told = Some(changed);
         let right = trimmed(right);
         let message = format!(
             "the tap goes down {} a turn, the pitch is {}",
@@ -126,6 +131,14 @@ impl PathRule for TappingFeedOffPitch {
 
 fn is_tapping(effect: Effect) -> bool {
     matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
+}
+
+/// By how much a number may be off that was rounded to the digits it has.
+fn rounding(number: f64) -> f64 {
+    let text = trimmed(number);
+    let digits = text.split_once('.').map_or(0, |(_, behind)| behind.len());
+    // A little more, for the numbers of the machine.
+    0.501 / 10_f64.powi(i32::try_from(digits).unwrap_or(0))
 }
 
 fn trimmed(number: f64) -> String {
@@ -167,6 +180,54 @@ fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
         }
     }
     found
+}
+
+/// Blocks at the head of a program in which a list of its tools is looked for.
+const HEAD: u32 = 100;
+
+/// The thread that the entry of the tool in a list at the head of the program names.
+fn thread_in_list(cx: &PathCx<'_>) -> Option<Thread> {
+    let tool = Abstract::known(cx.state().tool()).and_then(whole)?;
+    let file = cx.program.file(0)?;
+    let mut found: Option<Thread> = None;
+    for block in 0..HEAD {
+        let at = At { file: 0, block };
+        let Some(place) = cx.place_of(at) else { break };
+        let block = place.block();
+        if !block.flags.contains(BlockFlags::COMMENT) || !place.table.words(block).is_empty() {
+            continue;
+        }
+        let text = file.loaded.chunk_text(place.chunk);
+        let text = text.get(block.range.start as usize..block.range.end as usize).unwrap_or_default();
+        for entry in entries(text).filter(|(number, _)| *number == tool) {
+            let Some((name, pitch)) = thread_in(entry.1) else { continue };
+            // Two entries of one tool: a list for another machine, or of two set-ups.
+            if found.as_ref().is_some_and(|thread| thread.pitch.to_bits() != pitch.to_bits()) {
+                return None;
+            }
+            found = Some(Thread { name, pitch, at });
+        }
+    }
+    found
+}
+
+/// The entries of a list of tools in a comment: `T4 1/4-20 TAP`, `T1 END MILL, T2 M6 TAP`; the number, and what follows.
+fn entries(text: &str) -> impl Iterator<Item = (u32, &str)> {
+    let starts = text.char_indices().filter_map(move |(at, letter)| {
+        let before = text.get(..at)?.bytes().next_back();
+        let begins = matches!(letter, 'T' | 't') && before.is_some_and(|b| !b.is_ascii_alphanumeric());
+        let rest = text.get(at + 1..).filter(|_| begins)?;
+        let digits = rest.bytes().take_while(u8::is_ascii_digit).count();
+        let (number, behind) = rest.split_at_checked(digits)?;
+        let ends = behind.starts_with([' ', ':', '-', '=', '|', ',', '\t']);
+        number.parse().ok().filter(|_| ends && digits <= 4).map(|number: u32| (at, number, behind))
+    });
+    let starts: Vec<_> = starts.collect();
+    let ends: Vec<usize> = starts.iter().skip(1).map(|(at, ..)| *at).chain([text.len()]).collect();
+    starts.into_iter().zip(ends).filter_map(move |((_, number, behind), end)| {
+        let length = end.saturating_sub(text.len() - behind.len());
+        Some((number, behind.get(..length)?))
+    })
 }
 
 /// The one thread that a comment about a tap names, and its pitch in millimetres.
@@ -318,6 +379,54 @@ mod tests {
                 5 | G84 Z-1. R.1 F.05
                   |              ^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0001 in a turn, the pitch is 0.05 in
             "#]],
+        );
+    }
+
+    #[test]
+    fn the_list_at_the_head_names_the_thread() {
+        let program = |feed: &str| {
+            format!(
+                "O1\n(T3 5 MM DRILL)\n(T4 M6 TAP)\nT4 M6\nG21 G90 G54 G0 X0. Y0.\nS300 M3\nG84 Z-9. R3. F{feed}\nG80\nM30\n"
+            )
+        };
+        check_rule(&RULE, "haas-mill", &program("300."), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("307."),
+            &expect![[r#"
+            7 | G84 Z-9. R3. F307.
+              |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.023 mm a turn, the pitch is 1 mm
+        "#]],
+        );
+        let list = "; T1 drill, T2 M6 tap, T3 M8 tap\nT2 M6\nG21 G90 G54 G0 X0 Y0\nS300 M3\nG84 Z-9 R3 F400\nG80\nM2\n";
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            list,
+            &expect![[r#"
+            5 | G84 Z-9 R3 F400
+              |            ^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.333 mm a turn, the pitch is 1 mm
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_feed_that_was_rounded_belongs_to_the_pitch() {
+        let program = |feed: &str| {
+            format!("T4 M6 (5/16-18 TAP)\nG20 G90 G54 G0 X0. Y0.\nS480 M3\nG84 Z-.9 R.2 F{feed}\nG80\nM30\n")
+        };
+        for feed in ["26.667", "26.67", "26.7", "27."] {
+            check_rule(&RULE, "haas-mill", &program(feed), &expect![[""]]);
+        }
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program("27.5"),
+            &expect![[r#"
+            4 | G84 Z-.9 R.2 F27.5
+              |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0573 in a turn, the pitch is 0.0556 in
+        "#]],
         );
     }
 

@@ -1,4 +1,4 @@
-//! Increments that nobody switched back to positions.
+//! Increments that nobody switched back to positions, or that stand where positions were meant.
 
 use std::ops::Range;
 
@@ -10,11 +10,15 @@ use super::distance_mode_not_stated::is_home;
 use crate::boundary::{Boundary, LeftOn};
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
     /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference return whose
     /// block switched them on, goes by increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
+    ///
+    /// So is `G91` where a tool begins: in the block of its first rapid move in X and Y, which also chooses a work offset or
+    /// names zeros alone, or where another tool of the program begins in positions. From where the tool was changed nobody
+    /// goes by increments.
     ///
     /// ## Why it matters
     /// The tool goes by the coordinates of its target instead of to them: through the part, or against the end of travel.
@@ -40,6 +44,12 @@ declare_rule! {
     /// G91 G28 Z0.
     /// G0 X5. Y5.
     /// G90
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G91 G54 G0 X0.5 Y0.5 S900 M3
+    /// G43 H1 Z1.
     /// M30
     /// ```
     /// ## Not reported
@@ -79,6 +89,8 @@ struct IncrementalLeftOn {
     /// The program moved before it stated the mode.
     relies_on_start: bool,
     has_moved: bool,
+    /// A tool of the program began in positions.
+    begins_in_positions: bool,
 }
 
 remembers!(IncrementalLeftOn: change, in_subprogram);
@@ -114,6 +126,7 @@ impl PathRule for IncrementalLeftOn {
     }
 
     fn rapid(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        self.begins(cx, report);
         self.moves(cx, report);
     }
 
@@ -129,6 +142,39 @@ impl PathRule for IncrementalLeftOn {
 }
 
 impl IncrementalLeftOn {
+    /// Is this the first move of a tool, in increments that its own block states?
+    fn begins(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let is_first = self.change.is_some() || !self.has_moved;
+        if !is_first || !cx.origin().letters.intersects(LetterSet::of("XY")) || is_home(cx) {
+            return;
+        }
+        let has_others = self.begins_in_positions;
+        self.begins_in_positions |= cx.state().is_incremental(cx.model) == Some(false);
+        let states = cx.state().is_incremental(cx.model) == Some(true)
+            && cx.trace().set_by(Fact::Mode(Role::Distance)) == Some(cx.origin().at);
+        let is_meant = cx.depth() > 1 || cx.origin().flags.contains(BlockFlags::EXPRESSION);
+        let chooses_offset = cx.code_of_role(Role::WorkOffset).is_some();
+        let moves_nothing = moves_nothing(cx);
+        if states && !is_meant && (chooses_offset || moves_nothing || has_others) {
+            let range = cx.effect_range(|effect| effect == Effect::Incremental);
+            let incremental = cx.code_name(Role::Distance).unwrap_or_default();
+            let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+            let message = format!("the first move of the tool goes by increments (`{incremental}`)");
+            let fix = Fix::risky(format!("write `{absolute}`"), range.clone(), absolute.clone());
+            let finding =
+                cx.finding(&META, range, message).help(format!("write `{absolute}` here")).fix_if(Some(fix));
+            let why = if moves_nothing {
+                "an increment of zero moves nothing"
+            } else if chooses_offset {
+                "the work offset of this block counts for positions"
+            } else {
+                "the other tools of the program begin in positions"
+            };
+            report
+                .add(finding.label("by this much from wherever the axes stand, not to this point").note(why));
+        }
+    }
+
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
@@ -185,6 +231,14 @@ impl IncrementalLeftOn {
     }
 }
 
+/// Are the coordinates of the block zero?
+fn moves_nothing(cx: &PathCx<'_>) -> bool {
+    let Some(place) = cx.place() else { return false };
+    let words = place.table.words(place.block());
+    let mut coordinates = words.iter().filter(|word| matches!(word.letter.ascii(), b'X' | b'Y' | b'Z'));
+    coordinates.all(|word| word.number().is_some_and(|number| number.abs() < 1e-9))
+}
+
 fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
     let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
     let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
@@ -225,6 +279,50 @@ mod tests {
     }
 
     #[test]
+    fn a_tool_that_begins_in_increments() {
+        let program = |first: &str, second: &str| {
+            format!("G21\nT1 M6\n{first} G0 X0. Y0.\nG90 G0 Z5.\nT2 M6\n{second} G0 X3. Y3.\nG90\nM30\n")
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G90", "G91"),
+            &expect![[r#"
+            6 | G91 G0 X3. Y3.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91", "G91"),
+            &expect![[r#"
+            3 | G91 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91 G54", "G90"),
+            &expect![[r#"
+            3 | G91 G54 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G91", "G90"),
+            &expect![[r#"
+            3 | G91 G0 X0. Y0.
+              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "G91 G0 X5. Y5.\nG1 X5. F90.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
     fn a_subprogram_that_leaves_them_on() {
         check_rule(
             &RULE,
@@ -239,7 +337,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G91 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | G20 G91 G0 X0.
+                  |     ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+            "#]],
         );
     }
 

@@ -1,6 +1,6 @@
 //! A dwell of many minutes.
 
-use gcheck_controls::{DwellWord, Effect, Letter, Motion, Unpointed};
+use gcheck_controls::{DwellWord, Effect, Letter, LetterSet, Motion, Unpointed};
 use gcheck_engine::Event;
 
 use super::dwell_unit_unsure::other_reading;
@@ -86,14 +86,16 @@ impl PathRule for DwellVeryLong {
     }
 }
 
-/// May the program cut anything? What it calls may.
+/// May the program cut anything? What it calls may. A code that cuts needs somewhere to go: a line of modes that is copied
+/// from another machine may name one, such as `G90` on a lathe, and moves nothing.
 fn may_cut(cx: &PathCx<'_>) -> bool {
     let control = cx.scene.control();
     let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
     let cuts = [Motion::Feed, Motion::Arc, Motion::Thread, Motion::Cycle, Motion::Operation, Motion::Curve];
+    let goes = cx.survey.letters.intersects(LetterSet::of("XYZUVWABCIJK"));
     cx.survey.has_computed_codes
         || !cx.survey.calls.is_empty()
-        || codes.any(|code| cuts.contains(&code.motion()))
+        || goes && codes.any(|code| cuts.contains(&code.motion()))
 }
 
 /// Does the time exceed what the code that reads it takes?
@@ -186,6 +188,19 @@ mod tests {
             "O1\nG97 S500 M3\nG4 P1200000\nM5\nM30\n",
             &expect![[r#"
                 3 | G4 P1200000
+                  |    ^^^^^^^^ info[dwell-very-long] dwell of 20 minutes
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_code_that_could_cut_cuts_nothing_without_an_axis() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "O1\nG18 G20 G40 G80 G90 G99\nS500 M3\nG4 P1200000\nM5\nM30\n",
+            &expect![[r#"
+                4 | G4 P1200000
                   |    ^^^^^^^^ info[dwell-very-long] dwell of 20 minutes
             "#]],
         );

@@ -177,16 +177,21 @@ pub(crate) struct Clear {
 impl Clear {
     /// Of the tool in the spindle; an inch across when nobody knows.
     pub(crate) fn of(cx: &PathCx<'_>) -> Self {
-        let number = Abstract::known(cx.state().tool()).filter(|n| (1.0..1e6).contains(n));
-        #[expect(clippy::cast_sign_loss, reason = "range checked above")]
-        let tool = number.and_then(|n| cx.state().tables().tool(n as u32));
-        match tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) {
-            Some(diameter) => Self { radius: diameter / 2.0, assumption: None },
+        match cutter_radius(cx) {
+            Some(radius) => Self { radius, assumption: None },
             None => {
                 Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
             }
         }
     }
+}
+
+/// The radius of the tool in the spindle, as the machine file has it: millimetres.
+pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
+    let number = Abstract::known(cx.state().tool()).filter(|n| (1.0..1e6).contains(n))?;
+    #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+    let tool = cx.state().tables().tool(number as u32)?;
+    Some(tool.diameter.0 / 2.0).filter(|radius| *radius > 0.0)
 }
 
 /// What was cut so far, as far as it is known throughout.
@@ -308,6 +313,11 @@ impl Cuts {
     pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
         let mut cuts = self.list.iter().take(count);
         cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+    }
+
+    /// Has it given up to know what was cut?
+    pub(crate) fn is_blind(&self) -> bool {
+        self.blind
     }
 
     /// How many cuts are kept.

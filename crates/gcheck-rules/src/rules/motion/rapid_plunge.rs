@@ -2,19 +2,21 @@
 
 use std::ops::Range;
 
-use gcheck_engine::{Event, Travel, TravelKind};
+use gcheck_engine::{Event, Position, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
 use super::rapid_in_material::{Clear, Cuts, point};
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A rapid move takes the tool from above the zero of the part to below it, at a place where no move has cut so deep
     /// before, and the next move feeds straight on down.
     ///
-    /// A tool that goes down beside the part to cut its contour feeds sideways next; nothing is said of that.
+    /// A tool that goes down beside the part to cut its contour feeds sideways next. Of that nothing is said, unless it is
+    /// the only time in the program that a rapid move does so, and three or more times the tool is fed down: then it is
+    /// information.
     ///
     /// ## Why it matters
     /// The tool that drills on down from there meets material there: it hits the part at rapid. Often a minus sign is one too
@@ -46,7 +48,10 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(RapidPlunge::default()) },
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::FINISH),
+            make: || Box::new(RapidPlunge::default()),
+        },
     }
 }
 
@@ -55,9 +60,13 @@ struct RapidPlunge {
     cuts: Cuts,
     /// The move before this one, if it went down.
     plunge: Option<Plunge>,
+    /// How often the tool was fed straight down from above the part, up to [`MANY`].
+    fed: u8,
+    /// Rapid moves down from where the tool cut on sideways: the first, and how many.
+    odd: Option<(Finding, u32)>,
 }
 
-remembers!(RapidPlunge: plunge);
+remembers!(RapidPlunge: plunge, odd);
 
 /// A rapid move down.
 #[derive(Clone, PartialEq)]
@@ -71,6 +80,8 @@ remembers!(Plunge: bytes);
 
 /// Millimetres: heights that differ by less are one, and the surface is this thick.
 const LEVEL: f64 = 0.01;
+/// So many times fed down make one rapid move down odd.
+const MANY: u8 = 3;
 
 impl PathRule for RapidPlunge {
     fn memory(&mut self) -> Remembers<'_> {
@@ -83,18 +94,51 @@ impl PathRule for RapidPlunge {
             return;
         }
         if let Event::Travel(travel) = event {
-            if let Some(plunge) = plunge
-                && feeds_on_down(travel, plunge.to)
-            {
-                tell(cx, &plunge, report);
+            if is_fed_down(travel) {
+                self.fed = (self.fed + 1).min(MANY);
+            }
+            match plunge {
+                Some(plunge) if feeds_on_down(travel, plunge.to) => report.add(tell(
+                    cx,
+                    &plunge,
+                    "rapid move down into the part",
+                    "the tool feeds on down from there",
+                )),
+                Some(plunge) if travel.kind == TravelKind::Feed => self.note(cx, &plunge, &travel.to),
+                _ => {}
             }
             self.plunge = self.look(cx, travel);
+        } else if let (Some(plunge), Event::Arc(arc)) = (plunge, event) {
+            self.note(cx, &plunge, &arc.to);
         }
         self.cuts.add(event);
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        if let Some((finding, 1)) = self.odd.take().filter(|_| self.fed >= MANY) {
+            report
+                .add(finding.note("everywhere else the program feeds the tool down").at_most(Severity::Info));
+        }
     }
 }
 
 impl RapidPlunge {
+    /// Keeps a rapid move down behind which the tool cuts on sideways.
+    fn note(&mut self, cx: &PathCx<'_>, plunge: &Plunge, to: &Position) {
+        let cuts_on = point(to).is_some_and(|[.., z]| (z - plunge.to[2]).abs() < LEVEL);
+        match &mut self.odd {
+            _ if !cuts_on => {}
+            // A loop comes by again.
+            Some((finding, _)) if finding.range == plunge.bytes => {}
+            Some((_, count)) => *count = 2,
+            None => {
+                let finding =
+                    tell(cx, plunge, "the one rapid move down to a cut", "the tool cuts on from there");
+                self.odd = Some((finding, 1));
+            }
+        }
+    }
+
     /// A rapid move from above the part to a depth that nothing has reached at that place.
     fn look(&self, cx: &PathCx<'_>, travel: &Travel) -> Option<Plunge> {
         if travel.kind != TravelKind::Rapid || travel.expanded {
@@ -119,18 +163,27 @@ fn feeds_on_down(travel: &Travel, [x, y, z]: [f64; 3]) -> bool {
     travel.kind == TravelKind::Feed && (x1 - x).hypot(y1 - y) < LEVEL && z1 < z - LEVEL
 }
 
-fn tell(cx: &PathCx<'_>, plunge: &Plunge, report: &mut Report<'_>) {
+/// Straight down at feed, from above the part to below its zero?
+fn is_fed_down(travel: &Travel) -> bool {
+    let (Some([x0, y0, z0]), Some([x1, y1, z1])) = (point(&travel.from), point(&travel.to)) else {
+        return false;
+    };
+    let is_plain = travel.kind == TravelKind::Feed && !travel.expanded;
+    is_plain && (x1 - x0).hypot(y1 - y0) < LEVEL && z0 >= 0.0 && z1 < -LEVEL
+}
+
+fn tell(cx: &PathCx<'_>, plunge: &Plunge, message: &str, next: &str) -> Finding {
     let depth = cx.shown(Mm(-plunge.to[2]));
-    let mut finding = cx
-        .finding(&META, plunge.bytes.clone(), "rapid move down into the part")
+    let finding = cx
+        .finding(&META, plunge.bytes.clone(), message)
         .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
-        .also(cx.range(), "the tool feeds on down from there")
+        .also(cx.range(), next)
         .assuming("the part is solid where the program has not cut")
         .help("end the rapid move above the part, and feed from there");
-    if let Some(assumption) = &plunge.clear.assumption {
-        finding = finding.assuming(assumption.clone());
+    match &plunge.clear.assumption {
+        Some(assumption) => finding.assuming(assumption.clone()),
+        None => finding,
     }
-    report.add(finding);
 }
 
 #[cfg(test)]
@@ -164,6 +217,25 @@ mod tests {
             "G21 G90 G54 G0 X-10. Y0. Z5.\nG0 Z-2.\nG1 X50. F100.\nG0 Z5.\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn the_one_that_is_not_fed_is_odd() {
+        let program = |first: &str| {
+            let plunge = |x: u8, by: &str| format!("G0 X{x}. Y0.\n{by} Z-2.\nG1 Y30.\nG0 Z5.\n");
+            let rest = [plunge(40, "G0"), plunge(60, "G1"), plunge(80, "G1")].concat();
+            format!("G21 G90 G54 G0 X0. Y0. Z5. F90.\n{}{rest}M30\n", plunge(20, first))
+        };
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program("G1"),
+            &expect![[r#"
+            7 | G0 Z-2.
+              | ^^^^^^^ info[rapid-plunge] the one rapid move down to a cut
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", &program("G0"), &expect![[""]]);
     }
 
     #[test]

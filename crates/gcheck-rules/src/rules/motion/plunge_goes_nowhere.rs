@@ -1,0 +1,312 @@
+//! A feed move down that finds the tool as deep already.
+
+use std::ops::Range;
+
+use gcheck_controls::{Letter, LetterSet};
+use gcheck_engine::{Axis, Event, Position, TravelKind};
+use gcheck_geometry::Mm;
+
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// A rapid move ends below the zero of the part, and the feed move in Z behind it has no way left to go down: the tool is
+    /// as deep already, or deeper.
+    ///
+    /// A program in which that is found more than twice does it on purpose, and nothing is said of it.
+    ///
+    /// ## Why it matters
+    /// The way into the part was meant to be fed, and the tool has gone it at rapid: the clearance height in front of it has a
+    /// minus sign too many, or the retract before it is missing and the tool came sideways through the part.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z-2.
+    /// G1 Z-2. F100.
+    /// X40.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z2.
+    /// G1 Z-2. F100.
+    /// X40.
+    /// G0 X60.
+    /// G1 Z-2.
+    /// X80.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z2.
+    /// G1 Z-2. F100.
+    /// X40.
+    /// G0 Z2.
+    /// X30.
+    /// Z-1.9
+    /// G1 Z-4.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// A cutter that is fed up from below.
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z2.
+    /// Z-30.
+    /// G1 Z-25. F100.
+    /// G0 Z-30.
+    /// Z5.
+    /// M30
+    /// ```
+    rule "plunge-goes-nowhere" in "motion" {
+        summary: "feed move down finds the tool as deep already",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
+            make: || Box::new(PlungeGoesNowhere::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct PlungeGoesNowhere {
+    /// What the move before was.
+    before: Option<Before>,
+    /// What was found, in text order.
+    found: Vec<Finding>,
+}
+
+remembers!(PlungeGoesNowhere: before, found);
+
+#[derive(Clone, PartialEq)]
+struct Before {
+    way: Way,
+    /// Where it ended.
+    z: f64,
+    /// The block of the rapid move.
+    bytes: Range<u32>,
+}
+
+remembers!(Before: bytes);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// A cut.
+    Cut,
+    /// Down at rapid.
+    Down,
+    /// Sideways at rapid, from a cut at the same depth.
+    Along,
+    /// Up at feed, behind a rapid move sideways.
+    Up,
+}
+
+/// Programs in which it is found more often have their reasons: a cutter that is fed up step by step.
+const MOST: usize = 2;
+/// Levels that differ by less are one: millimetres.
+const LEVEL: f64 = 1e-4;
+/// Depths above this are the surface of the part: millimetres.
+const SURFACE: f64 = -0.01;
+/// Clearance heights are no higher: millimetres. Cutters that are fed up from below begin deeper.
+const CLEARANCE: f64 = 5.1;
+
+impl PathRule for PlungeGoesNowhere {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Where the change leaves the tool is the machine's business.
+        if matches!(event, Event::ToolChange(_)) {
+            self.before = None;
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+            cx.enough();
+            return;
+        }
+        let before = self.before.take();
+        let z_of = |position: &Position| position.get(Axis::Z);
+        match event {
+            Event::Travel(travel) if travel.expanded => {}
+            Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
+                self.before = rapid(cx, before, z_of(&travel.from), z_of(&travel.programmed));
+            }
+            Event::Travel(travel) if travel.kind == TravelKind::Feed => {
+                let z = z_of(&travel.programmed);
+                self.before = z.filter(|z| *z < SURFACE).map(|z| cut(cx, z));
+                let letters = cx.origin().letters;
+                let is_straight =
+                    letters.contains(Letter::of('Z')) && !letters.intersects(LetterSet::of("XYUVABC"));
+                if let (Some(before), Some(z)) = (before.filter(|_| is_straight), z) {
+                    self.plunge(cx, before, z);
+                }
+            }
+            Event::Arc(arc) if !arc.expanded => {
+                self.before = z_of(&arc.programmed).filter(|z| *z < SURFACE).map(|z| cut(cx, z));
+            }
+            _ => {}
+        }
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        let found = std::mem::take(&mut self.found);
+        if found.len() <= MOST {
+            found.into_iter().for_each(|finding| report.add(finding));
+        }
+    }
+}
+
+fn cut(cx: &PathCx<'_>, z: f64) -> Before {
+    Before { way: Way::Cut, z, bytes: cx.range() }
+}
+
+/// What a rapid move is for the feed move behind it.
+fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<f64>) -> Option<Before> {
+    let to = to.filter(|z| *z < SURFACE)?;
+    let is_level = before.as_ref().is_some_and(|before| (before.z - to).abs() < LEVEL);
+    match before {
+        Some(before) if is_level && before.way == Way::Cut => {
+            Some(Before { way: Way::Along, z: to, bytes: cx.range() })
+        }
+        Some(before) if is_level && before.way != Way::Up => Some(before),
+        // From where nobody knows, a tool comes from above.
+        _ => {
+            let is_down =
+                cx.origin().letters.contains(Letter::of('Z')) && from.is_none_or(|from| from >= 0.0);
+            is_down.then(|| Before { way: Way::Down, z: to, bytes: cx.range() })
+        }
+    }
+}
+
+impl PlungeGoesNowhere {
+    /// A feed move in Z alone.
+    fn plunge(&mut self, cx: &PathCx<'_>, before: Before, z: f64) {
+        let is_same = (z - before.z).abs() < LEVEL;
+        let is_up = z > before.z && !is_same;
+        let is_odd = match before.way {
+            Way::Cut => false,
+            Way::Down => is_same || is_up && z <= 0.0 && before.z >= -CLEARANCE,
+            Way::Along if is_up && z > SURFACE => {
+                // Whether the way up was meant shows the move behind it.
+                self.before = Some(Before { way: Way::Up, z, ..before });
+                return;
+            }
+            Way::Along => is_same || is_up,
+            Way::Up => z < SURFACE,
+        };
+        // A loop comes by again.
+        let is_known = self.found.iter().any(|finding| finding.range == before.bytes);
+        if !is_odd || is_known || self.found.len() > MOST {
+            return;
+        }
+        // A tool that works its way up may be meant.
+        let is_step = before.way == Way::Along && is_up;
+        let depth = cx.shown(Mm(if before.way == Way::Up { -z } else { -before.z }));
+        let (label, next) = match before.way {
+            Way::Down => (
+                format!("goes down at rapid to {depth} below the zero of the part"),
+                "has no way left to feed",
+            ),
+            _ => (
+                format!("goes sideways {depth} below the zero of the part"),
+                "feeds down where the tool already is as deep",
+            ),
+        };
+        let help = match before.way {
+            Way::Down => "check the sign and the height at which the rapid move ends",
+            _ => "lift the tool out of the part before the rapid move",
+        };
+        self.found.push(
+            cx.finding(&META, before.bytes, "rapid move goes as deep as the feed move behind it")
+                .label(label)
+                .also(cx.range(), next)
+                .help(help)
+                .at_most(if is_step { Severity::Info } else { Severity::Warning }),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn a_minus_sign_too_many() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X0. Y0. Z50.\nZ-2.\nG1 Z-1. F90.\nX9.\nG0 Z50.\nX20.\nZ-2.\nG1 Z-5.\nG0 Z50.\nM30\n",
+            &expect![[r#"
+                2 | Z-2.
+                  | ^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_retract_that_is_missing() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nY5\nG1 Z-1\nX30\nG0 X40\nG1 Z5\nZ-2\nG0 Z5\nM2\n",
+            &expect![[r#"
+                4 | G0 X20
+                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                8 | G0 X40
+                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+            "#]],
+        );
+    }
+
+    #[test]
+    fn steps_from_below_are_cut_on_purpose() {
+        let steps = |count: usize| {
+            let step = |n: usize| format!("G0 X60.\nG1 Z-{}.\nX45.\n", 50 - n);
+            let steps: String = (1..=count).map(step).collect();
+            format!("G21 G90 G54 G0 X60. Y0. Z5.\nZ-50.\nG1 X45. F90.\n{steps}G0 X60.\nZ5.\nM30\n")
+        };
+        check_rule(&RULE, "fanuc-mill", &steps(1), &expect![[r#"
+            4 | G0 X60.
+              | ^^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+        "#]]);
+        check_rule(&RULE, "fanuc-mill", &steps(3), &expect![[""]]);
+    }
+
+    #[test]
+    fn a_tool_change_lifts_the_tool() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F90.\nX9.\nT2 M6\nG0 X20.\nG1 Z-2.\nG0 Z5.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_tool_that_leaves_the_part_sideways_and_is_fed_up() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nG1 Z5\nG0 X0\nM2\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_height_that_nobody_knows_is_not_judged() {
+        check_rule(&RULE, "fanuc-mill", "G21 G90 G54 G0 X0. Y0.\nZ#100\nG1 Z-1. F90.\nM30\n", &expect![[""]]);
+    }
+}

@@ -1,0 +1,584 @@
+//! A rapid move at depth from one cut to the next.
+
+use std::ops::Range;
+
+use gcheck_controls::Effect;
+use gcheck_engine::{ArcMove, At, Event, Fact, Role, Spindle, TravelKind};
+use gcheck_geometry::Mm;
+
+use super::rapid_in_material::{Cuts, cutter_radius, point};
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+
+declare_rule! {
+    /// Below the zero of the part a rapid move stands where a cut belongs:
+    ///
+    /// * between two cuts at the same depth, through what was not cut so deep before: at an angle to both, along an arc,
+    ///   or with cutter compensation on;
+    /// * behind an arc, straight on to where the contour began;
+    /// * from a cut to a place where the tool is fed down: the retract is missing;
+    /// * down into the part and along, straight on into an arc, or up again without a cut.
+    ///
+    /// A program that does so more than twice has its reasons: it steps over beside the part. From one straight cut to one
+    /// beside it nothing is said, for the same reason.
+    ///
+    /// ## Why it matters
+    /// A `G0` stands where `G1` was meant, and the tool runs through the part at rapid; or the retract was forgotten, and the
+    /// tool is dragged to the next place at depth.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X-50. Y0.
+    /// G43 H1 Z5.
+    /// G1 Z-2. F100.
+    /// Y90.
+    /// G2 X-40. Y100. R10.
+    /// G0 X40.
+    /// G2 X50. Y90. R10.
+    /// G1 Y0.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// The retract is missing.
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X0. Y0.
+    /// G43 H1 Z5.
+    /// G1 Z-2. F100.
+    /// X20.
+    /// G0 X80. Y60.
+    /// Z2.
+    /// G1 Z-2.
+    /// Y90.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// Nothing is cut: the plunge was meant to be fed.
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X0. Y0.
+    /// G43 H1 Z5.
+    /// Z-2.
+    /// X20.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X-50. Y0.
+    /// G43 H1 Z5.
+    /// G1 Z-2. F100.
+    /// X100.
+    /// G0 Y30.
+    /// G1 X-50.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    rule "rapid-between-cuts" in "motion" {
+        summary: "rapid move at depth between two cuts",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::MOVES.union(Watch::CHANGES).union(Watch::FINISH),
+            make: || Box::new(RapidBetweenCuts::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct RapidBetweenCuts {
+    cuts: Cuts,
+    /// Where the last move ended, as programmed: the path of a cutter of unknown size is not known.
+    at: Option<[f64; 3]>,
+    /// Where the tool was fed down last.
+    start: Option<[f64; 2]>,
+    /// The move before, when it was a cut that ended at depth.
+    last: Option<Cut>,
+    /// Rapid moves at one depth, with no other move since.
+    way: Option<Way>,
+    /// Ways that are odd, or would be if they were not the program's habit.
+    found: Vec<Found>,
+}
+
+remembers!(RapidBetweenCuts: way, found);
+
+/// A cut at depth, as far as its neighbours ask.
+#[derive(Clone, Copy, PartialEq)]
+struct Cut {
+    z: f64,
+    /// Where it goes at its end; `None` for one that goes down, and where that is not known.
+    heads: Option<[f64; 2]>,
+    is_arc: bool,
+}
+
+/// Rapid moves that follow each other at one depth.
+#[derive(Clone, PartialEq)]
+struct Way {
+    z: f64,
+    /// The cut that they come from; `None` where a rapid move came down.
+    behind: Option<Cut>,
+    /// The first block.
+    bytes: Range<u32>,
+    /// The first block, and the last one.
+    blocks: [At; 2],
+    /// Where the first one goes, and where the last; none yet for a move straight down.
+    heads: Option<[[f64; 2]; 2]>,
+    to: [f64; 2],
+    /// Moves sideways, and those of them with cutter compensation on.
+    pieces: usize,
+    compensated: usize,
+    /// Goes through what was not cut so deep before; `None` where nobody knows.
+    is_new: Option<bool>,
+    /// The tool was lifted straight up at the end.
+    is_lifted: bool,
+}
+
+remembers!(Way: bytes, blocks);
+
+/// An odd way.
+#[derive(Clone, PartialEq)]
+struct Found {
+    bytes: Range<u32>,
+    /// What is to be said of it, if that alone is odd.
+    finding: Option<Finding>,
+}
+
+remembers!(Found: bytes, finding);
+
+/// Programs with more such ways step over beside the part.
+const MOST: usize = 2;
+/// Shorter ways say nothing: millimetres.
+const SHORT: f64 = 2.0;
+/// Levels that differ by less are one: millimetres.
+const LEVEL: f64 = 1e-4;
+/// Depths above this are the surface of the part: millimetres.
+const SURFACE: f64 = -0.01;
+/// How far beside its path a cutter clears of which nobody knows how wide it is: millimetres. For suspicions.
+const CLEARS: f64 = 6.35;
+/// Sine of an angle below which two ways go in one direction.
+const STRAIGHT: f64 = 0.035;
+/// The same, of contours whose numbers are rounded coarsely.
+const NEARLY_STRAIGHT: f64 = 0.12;
+
+impl PathRule for RapidBetweenCuts {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        // Where the change leaves the tool is the machine's business.
+        if matches!(event, Event::ToolChange(_)) {
+            (self.at, self.start, self.last, self.way) = (None, None, None, None);
+        }
+    }
+
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+            cx.enough();
+            return;
+        }
+        let (programmed, is_expanded) = match event {
+            Event::Travel(travel) => (point(&travel.programmed), travel.expanded),
+            Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
+            _ => (None, true),
+        };
+        let sees = !self.cuts.is_blind() && self.cuts.follows(cx, event);
+        // What compensation puts in at a corner is no move of its own.
+        if !(is_expanded && is_compensated(cx)) {
+            let (at, last, way) = (self.at.take(), self.last.take(), self.way.take());
+            self.at = programmed;
+            if let (Some(from), Some(to)) = (at, programmed.filter(|_| !is_expanded)) {
+                match event {
+                    Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
+                        self.way = self.rapid(cx, [from, to], last, way, sees);
+                    }
+                    Event::Travel(travel) if travel.kind == TravelKind::Feed => {
+                        self.last = self.feed(cx, [from, to], way);
+                    }
+                    Event::Arc(arc) => self.last = self.arc(cx, arc, [from, to], way),
+                    _ => {}
+                }
+            }
+        }
+        if sees {
+            self.cuts.add(event);
+        }
+    }
+
+    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+        let found = std::mem::take(&mut self.found);
+        if found.len() <= MOST {
+            for finding in found.into_iter().filter_map(|found| found.finding) {
+                report.add(finding);
+            }
+        }
+    }
+}
+
+impl RapidBetweenCuts {
+    /// The way that this move begins or goes on with.
+    fn rapid(
+        &mut self,
+        cx: &PathCx<'_>,
+        [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
+        last: Option<Cut>,
+        way: Option<Way>,
+        sees: bool,
+    ) -> Option<Way> {
+        let heads = direction([x0, y0], [x1, y1]);
+        let at = cx.origin().at;
+        let begin = |behind: Option<Cut>, is_new: Option<bool>| Way {
+            z: z1,
+            behind,
+            bytes: cx.range(),
+            blocks: [at, at],
+            heads: heads.map(|heads| [heads, heads]),
+            to: [x1, y1],
+            pieces: usize::from(heads.is_some()),
+            compensated: usize::from(heads.is_some() && is_compensated(cx)),
+            is_new,
+            is_lifted: false,
+        };
+        if (z1 - z0).abs() < LEVEL {
+            let heads = heads?;
+            let is_new = sees.then(|| self.is_new(cx, [x0, y0], [x1, y1], z0));
+            let way = match (way, last) {
+                (Some(way), _) if !way.is_lifted => Way {
+                    blocks: [way.blocks[0], at],
+                    heads: Some([way.heads.map_or(heads, |[first, _]| first), heads]),
+                    to: [x1, y1],
+                    pieces: way.pieces + 1,
+                    compensated: way.compensated + usize::from(is_compensated(cx)),
+                    is_new: way.is_new.zip(is_new).map(|(before, now)| before || now),
+                    ..way
+                },
+                (None, Some(behind)) if (behind.z - z0).abs() < LEVEL => begin(Some(behind), is_new),
+                _ => return None,
+            };
+            self.judge_compensated(cx, &way);
+            return Some(way);
+        }
+        if heads.is_none() && z0 >= 0.0 && z1 < SURFACE {
+            let is_open = |cuts: &Cuts| cuts.reach(cuts.len(), [x1, y1], z1, clears(cx));
+            return Some(begin(None, sees.then(|| !is_open(&self.cuts))));
+        }
+        if heads.is_none() && z1 > z0 {
+            let way = way?;
+            self.judge_closing(cx, &way);
+            if way.behind.is_none() && z1 > 0.0 {
+                self.judge_dip(cx, &way);
+                return None;
+            }
+            return Some(Way { is_lifted: true, ..way });
+        }
+        None
+    }
+
+    /// Does a move at this depth go where nothing was cut so deep?
+    fn is_new(&self, cx: &PathCx<'_>, from: [f64; 2], to: [f64; 2], z: f64) -> bool {
+        let (x, y) = (to[0] - from[0], to[1] - from[1]);
+        let is_cut = |part: f64| {
+            let at = [from[0] + part * x, from[1] + part * y];
+            self.cuts.reach(self.cuts.len(), at, z, clears(cx))
+        };
+        self.found.len() <= MOST && x.hypot(y) >= SHORT && ![0.25, 0.5, 0.75].into_iter().all(is_cut)
+    }
+
+    fn feed(
+        &mut self,
+        cx: &PathCx<'_>,
+        [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
+        way: Option<Way>,
+    ) -> Option<Cut> {
+        let heads = direction([x0, y0], [x1, y1]);
+        let is_level = (z1 - z0).abs() < LEVEL;
+        if let Some(way) = way {
+            match heads {
+                Some(heads) if is_level && !way.is_lifted => {
+                    self.judge(cx, &way, Cut { z: z1, heads: Some(heads), is_arc: false });
+                }
+                // Down at the place where the rapid move ended.
+                None if way.behind.is_some() && way.is_lifted && z1 < SURFACE => {
+                    self.judge_plunge(cx, &way);
+                }
+                _ => {}
+            }
+        }
+        if heads.is_none() && z1 < z0 {
+            self.start = Some([x1, y1]);
+        }
+        (z1 < SURFACE && z1 <= z0 + LEVEL).then_some(Cut {
+            z: z1,
+            heads: heads.filter(|_| is_level),
+            is_arc: false,
+        })
+    }
+
+    fn arc(
+        &mut self,
+        cx: &PathCx<'_>,
+        arc: &ArcMove,
+        [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
+        way: Option<Way>,
+    ) -> Option<Cut> {
+        let is_flat = arc.plane == gcheck_geometry::Plane::Xy && (z1 - z0).abs() < LEVEL;
+        let centre = [arc.centre.0.0, arc.centre.1.0];
+        let heads = |at: [f64; 2]| {
+            let [x, y] = direction(centre, at).filter(|_| arc.sweep.is_finite())?;
+            Some(if arc.sweep > 0.0 { [-y, x] } else { [y, -x] })
+        };
+        if let Some(way) = way.filter(|way| is_flat && !way.is_lifted) {
+            self.judge(cx, &way, Cut { z: z1, heads: heads([x0, y0]), is_arc: true });
+        }
+        (z1 < SURFACE && is_flat).then_some(Cut { z: z1, heads: heads([x1, y1]), is_arc: true })
+    }
+
+    /// Rapid moves that a cut at their depth follows.
+    fn judge(&mut self, cx: &PathCx<'_>, way: &Way, next: Cut) {
+        let Some([first, last]) = way.heads else { return };
+        let from_arc = way.behind.is_some_and(|cut| goes_on(&cut, first));
+        let into_arc = goes_on(&next, last);
+        // Between two arcs that it goes on with, a line belongs to their contour, however narrow that is.
+        let is_within = from_arc && into_arc
+            || way.behind.is_some() && way.compensated > 0 && is_compensated(cx) && way.is_new != Some(false);
+        let is_tangent = (from_arc || into_arc) && way.is_new == Some(true);
+        let is_angled = way.pieces == 1
+            && way.is_new == Some(true)
+            && matches!(
+                (way.behind.and_then(|cut| cut.heads), next.heads),
+                (Some(behind), Some(next)) if !is_along(behind, next)
+            );
+        if is_within || is_tangent || is_angled {
+            let message = match way.behind {
+                Some(_) => "rapid move at depth between two cuts",
+                None => "rapid moves at depth lead straight into a cut",
+            };
+            let next = if into_arc { "an arc goes on straight" } else { "this cuts on at the same depth" };
+            let finding = tell(cx, way, message, next)
+                .at_most(if is_within || is_tangent { Severity::Warning } else { Severity::Info })
+                .help("write `G1` if this belongs to the contour; else lift the tool before it");
+            self.keep(way, Some(finding));
+        } else if way.behind.is_some() && way.is_new == Some(true) {
+            self.keep(way, None);
+        }
+    }
+
+    /// Rapid moves behind a cut with cutter compensation on: one leads away from the contour, more belong to it.
+    fn judge_compensated(&mut self, cx: &PathCx<'_>, way: &Way) {
+        if way.behind.is_some() && way.compensated == 2 && way.is_new != Some(false) {
+            let message = "rapid moves at depth with cutter compensation on";
+            let finding = tell(cx, way, message, "and this, still with compensation");
+            self.keep(way, Some(finding.help("write `G1` if they belong to the contour")));
+        }
+    }
+
+    /// Rapid moves behind an arc, straight on to where the contour began.
+    fn judge_closing(&mut self, cx: &PathCx<'_>, way: &Way) {
+        let (Some(behind), Some([first, _]), Some(start)) = (way.behind, way.heads, self.start) else {
+            return;
+        };
+        let is_onward = behind.is_arc
+            && behind
+                .heads
+                .is_some_and(|own| dot(own, first) > 0.0 && across(own, first).abs() < NEARLY_STRAIGHT);
+        if is_onward && direction(way.to, start).is_none() {
+            let message = "rapid move at depth closes the contour";
+            let finding = tell(cx, way, message, "the tool is lifted where it was fed down");
+            self.keep(way, Some(finding.help("write `G1` if this belongs to the contour")));
+        }
+    }
+
+    /// Rapid moves from a cut to where the tool is fed down.
+    fn judge_plunge(&mut self, cx: &PathCx<'_>, way: &Way) {
+        if way.is_new == Some(true) {
+            let message = "rapid move at depth to where the tool goes down next";
+            let finding = tell(cx, way, message, "the tool is fed down here");
+            self.keep(way, Some(finding.help("lift the tool out of the part before the rapid move")));
+        }
+    }
+
+    /// Rapid moves down and up again.
+    fn judge_dip(&mut self, cx: &PathCx<'_>, way: &Way) {
+        let [first, last] = way.blocks;
+        let at = cx.origin().at;
+        // Whoever does something else down there has come for that.
+        let goes_on = first.file == at.file
+            && at.block == last.block + 1
+            && (last.block - first.block) as usize == way.pieces;
+        let stands =
+            cx.state().spindle() == Some(Spindle::Stopped) && cx.trace().set_by(Fact::Spindle).is_some();
+        if way.is_new == Some(true) && goes_on && !stands {
+            let message = "rapid move down into the part and up again, and nothing is cut";
+            let finding = tell(cx, way, message, "the tool goes up again");
+            self.keep(way, Some(finding.help("write `G1` if the tool is to cut here")));
+        }
+    }
+
+    /// Notes a way once, however often a loop comes by. More than say something are not kept.
+    fn keep(&mut self, way: &Way, finding: Option<Finding>) {
+        if let Some(known) = self.found.iter_mut().find(|found| found.bytes == way.bytes) {
+            known.finding = known.finding.take().or(finding);
+        } else if self.found.len() <= MOST {
+            self.found.push(Found { bytes: way.bytes.clone(), finding });
+        }
+    }
+}
+
+/// Does an arc go on straight in this direction, or come from it?
+fn goes_on(cut: &Cut, heads: [f64; 2]) -> bool {
+    cut.is_arc && cut.heads.is_some_and(|own| is_along(own, heads) && dot(own, heads) > 0.0)
+}
+
+fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
+    let depth = cx.shown(Mm(-way.z));
+    let finding = cx.finding(&META, way.bytes.clone(), message).also(cx.range(), why);
+    if way.is_new == Some(true) {
+        finding
+            .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
+            .assuming("the part is solid where the program has not cut")
+    } else {
+        finding.label(format!("{depth} below the zero of the part"))
+    }
+}
+
+/// How far beside its path the tool in the spindle clears, millimetres.
+fn clears(cx: &PathCx<'_>) -> f64 {
+    cutter_radius(cx).unwrap_or(CLEARS)
+}
+
+fn is_compensated(cx: &PathCx<'_>) -> bool {
+    let on = cx.state().effect(Role::Compensation, cx.model);
+    on.is_some_and(|effect| effect != Effect::CompensationOff)
+}
+
+/// Length one; `None` for a way that goes nowhere.
+fn direction(from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
+    let (x, y) = (to[0] - from[0], to[1] - from[1]);
+    let length = x.hypot(y);
+    (length > LEVEL).then(|| [x / length, y / length])
+}
+
+/// Do two directions lie on one line?
+fn is_along(a: [f64; 2], b: [f64; 2]) -> bool {
+    across(a, b).abs() < STRAIGHT
+}
+
+/// The sine of the angle between two directions.
+fn across(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+fn dot(a: [f64; 2], b: [f64; 2]) -> f64 {
+    a[0] * b[0] + a[1] * b[1]
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    /// Around a part, its corners rounded.
+    const ROUND: &str = "G21 G90 G54 G0 X-50. Y0. Z5.\nG1 Z-2. F100.\nY90.\nG2 X-40. Y100. R10.\nG1 X40.\nG2 X50. Y90. R10.\nG1 Y0.\nX-50.\nG0 Z5.\nM30\n";
+
+    #[test]
+    fn a_side_of_the_contour() {
+        check_rule(&RULE, "haas-mill", ROUND, &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &ROUND.replace("G1 X40.", "G0 X40."),
+            &expect![[r#"
+            5 | G0 X40.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &ROUND.replace("R10.\nG1 Y0.\nX", "R10.\nG0 Y0.\nG1 X"),
+            &expect![[r#"
+                7 | G0 Y0.
+                  | ^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+            "#]],
+        );
+    }
+
+    #[test]
+    fn who_steps_over_beside_the_part_at_rapid() {
+        let pass = |y: u8| format!("G0 Y{y}.\nG1 X100.\nG0 Y{}.\nG1 X0.\n", y + 30);
+        let program = format!(
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX100.\n{}{}G0 Z5.\nM30\n",
+            pass(30),
+            pass(90)
+        );
+        check_rule(&RULE, "haas-mill", &program, &expect![[""]]);
+    }
+
+    #[test]
+    fn a_corner_of_straight_cuts_is_a_suspicion() {
+        let program =
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX50.\nY50.\nG0 X0.\nG1 X-30. Y20.\nG0 Z5.\nM30\n";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            program,
+            &expect![[r#"
+            5 | G0 X0.
+              | ^^^^^^ info[rapid-between-cuts] rapid move at depth between two cuts
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_cutter_of_unknown_size_with_compensation_on() {
+        let program = "G21 G90 G54 T1 M6\nG0 X-50. Y-50. Z5.\nG1 Z-2. F100.\nG41 D1 X0. Y-20.\nY90.\nG0 X90.\nG1 Y0.\nX-20.\nG40 X-50. Y-50.\nG0 Z5.\nM30\n";
+        check_rule(
+            &RULE,
+            "haas-mill",
+            program,
+            &expect![[r#"
+            6 | G0 X90.
+              | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth between two cuts
+        "#]],
+        );
+        let away =
+            program.replace("G0 X90.\nG1", "G1 X90.\n").replace("X-20.\nG40 X", "X-20.\nG0 Y-50.\nG40 X");
+        check_rule(&RULE, "haas-mill", &away, &expect![[""]]);
+    }
+
+    #[test]
+    fn back_to_the_middle_of_a_pocket() {
+        let program = "G21 G90 G54 G0 X0. Y0. Z5.\nG1 Z-2. F100.\nX30.\nG3 I-30.\nG0 X0.\nZ5.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+    }
+
+    #[test]
+    fn beside_the_part_down_and_along_to_the_cut() {
+        let program = "G21 G90 G54 G0 X-50. Y0. Z5.\nZ-2.\nX-20.\nG1 X50. F100.\nG0 Z5.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+    }
+
+    #[test]
+    fn down_for_something_else_than_a_cut() {
+        let program = "G21 G90 G54 G0 X-50. Y0. Z5.\nZ-2.\nX-20.\nM0\nG0 Z5.\nM30\n";
+        check_rule(&RULE, "haas-mill", program, &expect![[""]]);
+    }
+
+    #[test]
+    fn the_contour_is_closed_at_rapid() {
+        let program = ROUND
+            .replace("G1 Y0.\nX-50.", "G1 Y0.\nX-40.\nG2 X-50. Y10. R10.\nG0 Y90.")
+            .replace("Z5.\nG1 Z-2. F100.\nY90.", "Y90.\nZ5.\nG1 Z-2. F100.");
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &program,
+            &expect![[r#"
+            10 | G0 Y90.
+               | ^^^^^^^ warning[rapid-between-cuts] rapid move at depth closes the contour
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,141 @@
+//! A rapid move below the zero of the part that carries a feed.
+
+use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_engine::{Axis, Event, Role, TravelKind};
+use gcheck_geometry::Mm;
+use gcheck_program::Word;
+
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// A block with a feed (`F`) goes down to below the zero of the part, or sideways there, and a rapid move is on.
+    ///
+    /// Who writes a feed into the block means the tool to cut. Above the part nothing is said: some give the feed of the
+    /// next cut early.
+    ///
+    /// ## Why it matters
+    /// At rapid the feed counts for nothing, and the tool runs into the part at full speed. A `G0` stands where `G1` was
+    /// meant, or the `G0` of an earlier block is still on.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z2.
+    /// Z-5. F100.
+    /// G1 X40.
+    /// G0 Z5.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90 G54 G0 X10. Y10.
+    /// G43 H1 Z2. F100.
+    /// G1 Z-5.
+    /// X40.
+    /// G0 Z5. F900.
+    /// M30
+    /// ```
+    rule "rapid-with-feed" in "motion" {
+        summary: "rapid move below the zero of the part has a feed",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::RAPIDS, make: || Box::new(RapidWithFeed) },
+    }
+}
+
+struct RapidWithFeed;
+
+/// Millimetres: heights that differ by less are one, and the surface is this thick.
+const LEVEL: f64 = 0.01;
+
+impl PathRule for RapidWithFeed {
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let letters = cx.origin().letters;
+        if !letters.contains(Letter::of('F')) || !letters.intersects(LetterSet::of("XYZ")) {
+            return;
+        }
+        let Event::Travel(travel) = event else { return };
+        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
+        let is_plain = travel.kind == TravelKind::Rapid
+            && !travel.expanded
+            && cx.state().effect(Role::Motion, cx.model) == Some(Effect::Rapid);
+        let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
+        // A height that nobody knows is NaN, and below nothing. Up and out of the part is no cut.
+        let is_below = to < -LEVEL && to < from + LEVEL;
+        if !is_mill || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
+            return;
+        }
+        let depth = cx.shown(Mm(-to));
+        report.add(
+            cx.finding(&META, cx.letter_range('F'), "rapid move below the zero of the part has a feed (`F`)")
+                .label(format!("counts for nothing at rapid, {depth} below the zero of the part"))
+                .help("write `G1` if the block is to cut; else give the feed with the first cut"),
+        );
+    }
+}
+
+/// Codes whose way is not one of the part's coordinates.
+fn is_elsewhere(effect: Effect) -> bool {
+    matches!(effect, Effect::ReturnReference(_) | Effect::MachineCoordinates)
+}
+
+/// A code that the control does not have may be a move of its own on the control that the program is for.
+fn has_unknown_code(cx: &PathCx<'_>) -> bool {
+    let is_unknown = |word: &Word| matches!(word.letter.ascii(), b'G' | b'M') && !word.code.is_some();
+    cx.find_word(cx.origin().at, is_unknown).is_some()
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn down_and_along() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 G0 X0 Y0 Z5 F90\nZ-2 F80\nX10 F300\nG1 X20\nG0 Z5 F900\nM2\n",
+            &expect![[r#"
+                2 | Z-2 F80
+                  |     ^^^ warning[rapid-with-feed] rapid move below the zero of the part has a feed (`F`)
+                3 | X10 F300
+                  |     ^^^^ warning[rapid-with-feed] rapid move below the zero of the part has a feed (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn the_rapid_moves_of_a_cycle_have_its_feed_by_right() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG83 X5. Z-20. R-2. Q5. F90.\nG80\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn ways_of_the_machine_are_not_judged() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G21 G90 G54 G0 X0. Y0. Z5.\nG53 Z-20. F90.\nG91 G28 Z-1. F90.\nM30\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_code_of_another_control_may_be_the_move() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G54 G0 X0 Y0 Z5\nG31 Z-20 F90\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_depth_that_nobody_knows_is_not_judged() {
+        check_rule(&RULE, "fanuc-mill", "G21 G90 G54 G0 X0. Y0. Z5.\nZ#100 F90.\nM30\n", &expect![[""]]);
+    }
+}
