@@ -424,13 +424,12 @@ fn advance(
         let options = Options { skip: chain.skip, ..Options::NONE };
         let machine = &ground.scene.machine.engine;
         let leg = flow_from(ground.program, ground.model, machine, options, fuel, checkpoint, &mut recorder);
-        let joined = recorder.joined.take();
-        let stopped = leg.stopped;
+        let (joined, stopped) = (recorder.joined.take(), leg.stopped);
         if joined.is_none() && !stopped {
             recorder.close(leg);
         }
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
-        let broken = if recorder.enough.is_none() { Broken::Enough } else { Broken::Stopped };
+        let is_far = recorder.enough.is_none();
         work.executed += recorder.executed;
         if let Some(Joined { index, before, differing, trace }) = joined {
             at = index;
@@ -444,7 +443,7 @@ fn advance(
             // Given up on the way: what follows here is to be executed, and what was known may be met behind it.
             chain.segments.push(Segment::gap(entry));
             chain.segments.extend(old.into_iter().skip(at).flatten());
-            return Err(broken);
+            return Err(if is_far { Broken::Enough } else { Broken::Stopped });
         }
         chain.end = Some(watchers.remember(layout));
         return Ok(went_back);
