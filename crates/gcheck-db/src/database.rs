@@ -86,10 +86,13 @@ impl Open {
     fn outlined(&mut self, storage: &mut Storage) -> Snapshot {
         let snapshot = self.snapshot();
         if !snapshot.is_outlined() {
-            self.chunks.follow(storage, self.document.chunks());
-            let source = Asking { storage, chunks: &self.chunks };
-            let dialect = Dialect::new(&self.settings.control);
-            snapshot.outline_by(|| Whole::of_source(self.document.chunks(), &source, &dialect));
+            let known = self.incremental.whole_of(self.document.chunks()).cloned();
+            snapshot.outline_by(known.unwrap_or_else(|| {
+                self.chunks.follow(storage, self.document.chunks());
+                let source = Asking { storage, chunks: &self.chunks };
+                let dialect = Dialect::new(&self.settings.control);
+                Arc::new(Whole::of_source(self.document.chunks(), &source, &dialect))
+            }));
         }
         snapshot
     }

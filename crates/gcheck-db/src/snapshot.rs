@@ -266,8 +266,8 @@ impl Snapshot {
     }
 
     /// Takes survey and outline from somewhere else than the text, unless they are known.
-    pub(crate) fn outline_by(&self, make: impl FnOnce() -> Whole) {
-        self.0.whole.get_or_init(|| Arc::new(make()));
+    pub(crate) fn outline_by(&self, whole: Arc<Whole>) {
+        self.0.whole.get_or_init(|| whole);
     }
 
     /// What a chunk holds by itself, so that one without what is looked for need not be read; `None` for one that the control

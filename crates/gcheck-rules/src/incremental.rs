@@ -238,15 +238,25 @@ struct JoinedFile {
 }
 
 impl JoinedFile {
-    fn new(edited: &Edited<'_>) -> Result<Self, Stopped> {
+    /// `known` is the file as it is, if somebody has joined it before.
+    fn new(edited: &Edited<'_>, known: Option<&Arc<Whole>>) -> Result<Self, Stopped> {
         let mut directives = Vec::new();
         let mut lines = 0;
-        let whole = Whole::new(edited, |_, base, facts| {
+        let mut look = |_: usize, base: u32, facts: &ChunkFacts| {
             lines += facts.lines;
             directives.extend(facts.directives.iter().map(|range| range.start + base..range.end + base));
-        })?;
+        };
+        let whole = match known {
+            Some(known) => {
+                for (index, (facts, base)) in known.facts.iter().zip(&known.starts).enumerate() {
+                    look(index, *base, facts);
+                }
+                Arc::clone(known)
+            }
+            None => Arc::new(Whole::new(edited, look)?),
+        };
         directives.retain(|range: &Range<u32>| range.start < whole.region_end);
-        Ok(Self { whole: Arc::new(whole), directives, lines })
+        Ok(Self { whole, directives, lines })
     }
 }
 
@@ -266,13 +276,21 @@ impl Incremental {
         self.whole.as_ref()
     }
 
+    /// What the file as a whole holds, if these are its chunks as of the last time when paths were analysed or begun to be.
+    pub fn whole_of(&self, chunks: &[Arc<str>]) -> Option<&Arc<Whole>> {
+        // Of chunks that the control does not read nothing is kept.
+        let whole = self.whole.as_ref().filter(|whole| whole.chunks == chunks.len())?;
+        let (old, new) = self.layout.changed(chunks);
+        (old.is_empty() && new.is_empty()).then_some(whole)
+    }
+
     /// Checks the file as it is now.
     ///
     /// # Errors
     /// [`Stopped`] when `stop` said yes; what was done is kept.
     pub fn check(&mut self, edited: &Edited<'_>) -> Result<Outcome, Stopped> {
         let plan = Plan::new(edited.selection);
-        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited)?;
+        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
         let mut collector = Collector::new(edited.scene.control());
         whole.check_chunks(edited, 0..whole.chunks, &mut collector);
         // The head of a large file is as it was most of the time.
@@ -304,7 +322,7 @@ impl Incremental {
     /// # Errors
     /// [`Stopped`] when `stop` said yes; what was done is kept.
     pub fn check_first(&mut self, edited: &Edited<'_>, chunks: usize) -> Result<Outcome, Stopped> {
-        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited)?;
+        let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
         // Which suppressions are of no use is known at the end.
         let plan = Plan::new(edited.selection).without_suppressions();
         let mut collector = Collector::new(edited.scene.control());

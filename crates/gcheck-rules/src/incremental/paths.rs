@@ -403,7 +403,7 @@ fn advance(
             }
         }
         file.loaded.note_touched();
-        let spent: u64 = chain.segments.iter().map(|segment| segment.blocks).sum();
+        let fuel = ground.fuel.saturating_sub(chain.segments.iter().map(|segment| segment.blocks).sum());
         let mut recorder = Recorder {
             watchers: &mut *watchers,
             file: &file,
@@ -411,8 +411,7 @@ fn advance(
             found,
             offers,
             stop: ground.stop,
-            enough: ground.enough,
-            has_enough: false,
+            enough: Some(ground.enough),
             entry,
             segments: &mut chain.segments,
             old: &old,
@@ -424,15 +423,13 @@ fn advance(
         };
         let options = Options { skip: chain.skip, ..Options::NONE };
         let machine = &ground.scene.machine.engine;
-        let fuel = ground.fuel.saturating_sub(spent);
         let leg = flow_from(ground.program, ground.model, machine, options, fuel, checkpoint, &mut recorder);
-        let joined = recorder.joined.take();
-        let stopped = leg.stopped;
+        let (joined, stopped) = (recorder.joined.take(), leg.stopped);
         if joined.is_none() && !stopped {
             recorder.close(leg);
         }
         let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
-        let broken = if recorder.has_enough { Broken::Enough } else { Broken::Stopped };
+        let is_far = recorder.enough.is_none();
         work.executed += recorder.executed;
         if let Some(Joined { index, before, differing, trace }) = joined {
             at = index;
@@ -446,7 +443,7 @@ fn advance(
             // Given up on the way: what follows here is to be executed, and what was known may be met behind it.
             chain.segments.push(Segment::gap(entry));
             chain.segments.extend(old.into_iter().skip(at).flatten());
-            return Err(broken);
+            return Err(if is_far { Broken::Enough } else { Broken::Stopped });
         }
         chain.end = Some(watchers.remember(layout));
         return Ok(went_back);
@@ -493,9 +490,8 @@ struct Recorder<'r, 'w, 'c> {
     found: &'r RefCell<Vec<(Option<Severity>, Finding)>>,
     offers: bool,
     stop: &'r dyn Fn() -> bool,
-    /// The block that is far enough, and whether it was reached.
-    enough: u32,
-    has_enough: bool,
+    /// The block that is far enough; `None` when it was reached.
+    enough: Option<u32>,
     /// Where the segment under way began.
     entry: Option<Entry>,
     segments: &'r mut Vec<Segment>,
@@ -596,7 +592,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
     fn checkpoint(&mut self, leg: Leg, mut checkpoint: Checkpoint) -> bool {
         self.close(leg);
         self.watchers.forget_made();
-        self.has_enough = checkpoint.at.block >= self.enough;
+        self.enough = self.enough.filter(|enough| checkpoint.at.block < *enough);
         checkpoint.trace = checkpoint.trace.apart();
         let before = checkpoint.at.block.checked_sub(1).map(|block| {
             let mut before = At { block, ..checkpoint.at };
@@ -629,7 +625,7 @@ impl FlowObserver for Recorder<'_, '_, '_> {
             _ => Rc::new(kept),
         };
         self.entry = Some(Entry { checkpoint, before, kept });
-        !self.has_enough
+        self.enough.is_some()
     }
 
     fn stops(&mut self) -> bool {

@@ -236,7 +236,7 @@ fn soak(seed: u64, control: &str, world: &World<'_>, start: &str, others: &[&str
     let mut all = Work::default();
     for round in 0..=edits {
         // Every second time, more chunks each time.
-        bench.ahead = if round % 2 == 0 { (seed as usize + round) / 2 % 5 } else { 0 };
+        bench.ahead = if round % 2 == 0 { (seed as usize + round / 2) % 5 } else { 0 };
         let work = bench.assert_fresh(&text, lines, &|| format!("seed {seed}: {told:#?}"));
         all.executed += work.executed;
         all.kept += work.kept;
