@@ -218,7 +218,10 @@ mod tests {
             &RULE,
             "fanuc-lathe",
             "T0101\nG97 S800 M3\nM8\nG1 X20. Z-5. F.2\nM9\nT0202\nG0 X22. Z5.\nG92 X19. Z-20. F1.5\nM9\nT0303\nM8\nG1 X18. F.1\nM9\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                8 | G92 X19. Z-20. F1.5
+                  | ^^^^^^^^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
+            "#]],
         );
     }
 

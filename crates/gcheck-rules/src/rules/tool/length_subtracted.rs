@@ -76,7 +76,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "T1 M6\nG44 H1 Z1.\nG1 Z0. F5.\nG49\nT2 M6\nG43 H2 Z1.\nG1 Z0.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | G44 H1 Z1.
+                  | ^^^ warning[length-subtracted] the tool's length is subtracted (`G44`)
+            "#]],
         );
     }
 }
