@@ -306,6 +306,7 @@ pub(crate) mod tool {
     pub(crate) mod length_cancelled_before_cut;
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
+    pub(crate) mod length_subtracted;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_without_stop;
     pub(crate) mod tool_change_without_t;
@@ -590,6 +591,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &tool::length_cancelled_before_cut::RULE,
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
+    &tool::length_subtracted::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_without_stop::RULE,
     &tool::tool_change_without_t::RULE,

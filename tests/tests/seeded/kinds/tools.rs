@@ -107,6 +107,33 @@ pub(super) const KINDS: &[Kind] = &[
     )
     .anywhere(),
     Kind::new(
+        "length-subtracted",
+        Fear::Crash,
+        "`G44` is typed for `G43`: the length of one tool is subtracted",
+        &["length-subtracted", "unknown-code"],
+        |p| {
+            let tools = p.blocks.iter().filter(|block| length(block).is_some()).count();
+            p.each(|block| length(block).filter(|_| tools > 1).map(|(code, _)| p.instead(code, "G44")))
+        },
+    ),
+    Kind::new(
+        "tool-mistyped",
+        Fear::Crash,
+        "the number of another tool of the program is typed at a tool change",
+        &["length-offset-of-another-tool", "diameter-offset-of-another-tool", "tool-comment-of-another-tool"],
+        |p| {
+            p.each(|block| {
+                let tool = block.word(b'T').filter(|_| block.code(&[Effect::ToolChange]).is_some())?;
+                let mut section = p.behind(block).iter().take_while(|next| next.before.section == block.after.section);
+                let works = section.any(|next| length(next).is_some_and(|(_, offset)| offset.number == tool.number));
+                let mut others = p.blocks.iter().filter_map(|other| length(other)?.1.number);
+                let other = others.rfind(|other| Some(*other) != tool.number).filter(|_| works && goes_down(p, block))?;
+                Some(p.value(tool, format!("{other}")))
+            })
+        },
+    )
+    .anywhere(),
+    Kind::new(
         "diameter-of-another-tool",
         Fear::Scrap,
         "`D` of another tool of the program",

@@ -81,10 +81,15 @@ mod tests {
     #[test]
     fn a_job_without_lengths_may_be_zeroed_by_hand() {
         check_rule(&RULE, "haas-mill", "G0 X0. Y0.\nG1 X1. F5.\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "T1 M6\nG43 H1 Z1.\nG1 X1. F5.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "T1 M6\nG43 H1 Z1.\nG1 X1. F5.\nM30\n",
+            &expect![[r#"
             3 | G1 X1. F5.
               | ^^^^^^^^^^ info[work-offset-never-chosen] the program chooses no work offset (`G54`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

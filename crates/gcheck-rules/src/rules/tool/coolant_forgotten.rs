@@ -1,7 +1,7 @@
 //! Coolant that is switched off for a tool that never had it on.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Coolant, Event, Fact};
+use gcheck_engine::{Coolant, Event, Fact, TravelKind};
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
 use crate::memory::{Remembers, remembers};
@@ -121,7 +121,7 @@ impl PathRule for CoolantForgotten {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if !self.is_new || !is_cut(cx, event) {
+        if !self.is_new || !(is_cut(cx, event) || is_thread(event)) {
             return;
         }
         self.is_new = false;
@@ -153,6 +153,11 @@ impl PathRule for CoolantForgotten {
             report.add(finding.note(others));
         }
     }
+}
+
+/// A cut that the spindle leads.
+pub(super) fn is_thread(event: &Event) -> bool {
+    matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Thread)
 }
 
 #[cfg(test)]
@@ -205,6 +210,19 @@ mod tests {
         check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
         let text = program(&[("", "M9"), ("", ""), ("M8", "M9"), ("M8", "M9")]);
         check_rule(&RULE, "fanuc-mill", &text, &expect![[""]]);
+    }
+
+    #[test]
+    fn a_thread_is_a_cut() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "T0101\nG97 S800 M3\nM8\nG1 X20. Z-5. F.2\nM9\nT0202\nG0 X22. Z5.\nG92 X19. Z-20. F1.5\nM9\nT0303\nM8\nG1 X18. F.1\nM9\nM30\n",
+            &expect![[r#"
+                8 | G92 X19. Z-20. F1.5
+                  | ^^^^^^^^^^^^^^^^^^^ info[coolant-forgotten] the tool cuts with the coolant off (no `M8` before its `M9`)
+            "#]],
+        );
     }
 
     #[test]

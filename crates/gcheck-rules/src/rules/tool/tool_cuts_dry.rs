@@ -4,6 +4,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Coolant, Event};
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use super::coolant_forgotten::is_thread;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -93,7 +94,7 @@ impl PathRule for ToolCutsDry {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if !self.is_new || !is_cut(cx, event) {
+        if !self.is_new || !(is_cut(cx, event) || is_thread(event)) {
             return;
         }
         self.is_new = false;

@@ -121,10 +121,15 @@ mod tests {
 
     #[test]
     fn the_offset_of_a_length_is_no_size() {
-        check_rule(&RULE, "fanuc-mill", "T1 M6\nG43 H1 Z1.\nG41 G1 X1. F10.\nG40 X0.\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG43 H1 Z1.\nG41 G1 X1. F10.\nG40 X0.\nM30\n",
+            &expect![[r#"
             3 | G41 G1 X1. F10.
               | ^^^ warning[lasting-word-never-given] `G41` without `D`, which no earlier block gives
-        "#]]);
+        "#]],
+        );
         // Older controls have one table for both.
         check_rule(
             &RULE,
@@ -138,10 +143,15 @@ mod tests {
     fn a_main_program_gives_its_subprograms_what_it_gives() {
         let program =
             |d: &str| format!("O1\n{d}G43 H1 Z1.\nM98 P2\nM30\nO2\nG41 G1 X1. F10.\nG40 X0.\nM99\n");
-        check_rule(&RULE, "fanuc-mill", &program(""), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &program(""),
+            &expect![[r#"
             6 | G41 G1 X1. F10.
               | ^^^ warning[lasting-word-never-given] `G41` without `D`, which no earlier block gives
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", &program("D1\n"), &expect![[""]]);
     }
 

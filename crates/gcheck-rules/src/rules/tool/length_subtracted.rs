@@ -1,0 +1,85 @@
+//! A tool length that is subtracted where others are added.
+
+use gcheck_controls::Effect;
+
+use crate::meta::declare_rule;
+use crate::{FileCx, Finding, Fix, Report, Run};
+
+declare_rule! {
+    /// One tool takes its length with the code that subtracts it (`G44`), while others of the program add theirs (`G43`).
+    ///
+    /// ## Why it matters
+    /// Offsets are measured for one of the two. With the other the tool goes too deep by twice its offset.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G43 H1 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G44 H2 Z1.
+    /// G1 Z0.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G44 H1 Z1.
+    /// G1 Z0. F5.
+    /// T2 M6
+    /// G44 H2 Z1.
+    /// G1 Z0.
+    /// M30
+    /// ```
+    rule "length-subtracted" in "tool" {
+        summary: "tool length subtracted where others are added",
+        severity: Warning,
+        tier: Program,
+        mends: OnRequest,
+        since: "0.1.0",
+        run: Run::Program { check },
+    }
+}
+
+fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
+    let used = |effect: Effect| {
+        cx.survey.codes.iter().find(|(number, _)| {
+            let code = cx.control().code_at(cx.control().code_ix(*number));
+            code.is_some_and(|code| code.effect() == effect)
+        })
+    };
+    let (Some((minus, range)), Some((plus, added))) = (used(Effect::LengthMinus), used(Effect::LengthPlus))
+    else {
+        return;
+    };
+    report.add(
+        Finding::new(&META, range.clone(), format!("the tool's length is subtracted (`{minus}`)"))
+            .label("the offset counts against the tool")
+            .also(added.clone(), format!("here it is added (`{plus}`)"))
+            .help(format!(
+                "write `{plus}`, or tell in a suppression why this offset is measured the other way"
+            ))
+            .fix_if(Some(Fix::risky(format!("write `{plus}`"), range.clone(), plus.to_string()))),
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_code_that_subtracts_is_marked() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "T1 M6\nG44 H1 Z1.\nG1 Z0. F5.\nG49\nT2 M6\nG43 H2 Z1.\nG1 Z0.\nM30\n",
+            &expect![[r#"
+                2 | G44 H1 Z1.
+                  | ^^^ warning[length-subtracted] the tool's length is subtracted (`G44`)
+            "#]],
+        );
+    }
+}
