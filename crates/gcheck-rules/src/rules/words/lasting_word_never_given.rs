@@ -45,7 +45,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let survey = cx.survey;
-    if !speaks(survey) {
+    if may_be_called(survey) || survey.has_mistakes {
         return;
     }
     for missing in &survey.never_given {
@@ -57,11 +57,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Is the text enough to say so? What may be called takes its caller's words with it.
-pub(in crate::rules) fn speaks(survey: &Survey) -> bool {
-    let may_be_called = survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
-        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
-    !may_be_called && !survey.has_mistakes
+/// May a part of the file be called by another? It takes its caller's words with it, so that the text alone says nothing.
+pub(in crate::rules) fn may_be_called(survey: &Survey) -> bool {
+    survey.ends.iter().any(|end| end.ends == Ends::Subprogram)
+        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
 }
 
 /// Told where it is missed first; what comes later misses the same.
