@@ -425,7 +425,22 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         for also in std::mem::take(&mut self.executor.observer.also) {
             self.leg.reached.insert(also);
         }
+        match &outcome {
+            Outcome::Jump(to) => self.note_in_front(*to),
+            Outcome::Fork(ways) => ways.iter().for_each(|(to, _)| self.note_in_front(*to)),
+            _ => {}
+        }
         outcome
+    }
+
+    /// What is put in between a block and the one in front, the end of a subroutine or a loop, is on the way of a jump to the
+    /// block: the jump rests on both.
+    fn note_in_front(&self, to: At) {
+        if let Some(front) = to.block.checked_sub(1).filter(|_| to.file == 0)
+            && let Some(file) = self.program.file(0)
+        {
+            file.loaded.note(front);
+        }
     }
 
     fn take_earliest(&mut self) -> Option<Pending> {

@@ -162,6 +162,16 @@ impl<'a> Loaded<'a> {
         touched
     }
 
+    /// Notes a block as looked at, without reading it.
+    pub fn note(&self, block: u32) {
+        if let Some(touched) = &mut *self.touched.borrow_mut()
+            && let Some((chunk, _)) = self.outline.chunk_of(block)
+            && touched.chunks.last() != Some(&(chunk as u32))
+        {
+            touched.chunks.push(chunk as u32);
+        }
+    }
+
     /// The text, put together where it is kept in chunks.
     pub fn text(&self) -> Cow<'_, str> {
         match &self.text {

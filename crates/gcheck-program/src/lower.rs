@@ -401,11 +401,14 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         };
         let Some(letter) = letter else { return };
         // `X 1.`, `X 1. 5`, `X - 1.`: a number after all, spread over tokens.
+        // `X--1.` is an expression: its signs are taken one after the other.
         let literal = !rest.is_empty()
-            && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'));
+            && rest.iter().all(|b| matches!(b, b'0'..=b'9' | b'.' | b'-' | b'+' | b' ' | b'\t'))
+            && rest.iter().filter(|b| matches!(b, b'-' | b'+')).count() < 2;
         let (value, shape) = if literal {
             let is_digit = |b: &u8| !matches!(b, b' ' | b'\t' | b'-' | b'+');
-            let digits = rest.iter().position(is_digit).and_then(|first| rest.get(first..)).unwrap_or_default();
+            let digits =
+                rest.iter().position(is_digit).and_then(|first| rest.get(first..)).unwrap_or_default();
             if digits.iter().any(|b| !is_digit(b)) {
                 self.block_flags |= BlockFlags::DIVIDED_NUMBER;
             }
@@ -618,7 +621,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         if flags.contains(BlockFlags::CODE) && !reads_anything && !bound.without(read).is_empty() {
             flags |= BlockFlags::UNREAD_WORD;
         }
-        let both = |(increment, axis): &(Letter, Letter)| letters.contains(*increment) && letters.contains(*axis);
+        let both =
+            |(increment, axis): &(Letter, Letter)| letters.contains(*increment) && letters.contains(*axis);
         flags.set(BlockFlags::AXIS_TWICE, self.dialect.increments.iter().any(both));
         (letters, flags)
     }

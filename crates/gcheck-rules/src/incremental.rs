@@ -10,11 +10,12 @@ mod paths;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use gcheck_controls::{CodeNumber, Evidence, LetterSet};
+use gcheck_controls::{CodeIx, CodeNumber, Evidence, Letter, LetterSet};
 use gcheck_engine::{FlowObserver, Look, LookedUp, Model, Program};
 use gcheck_program::{BlockFlags, Dialect, Loaded, Outline, Skeleton, Survey, TapeMarks, lower};
 
@@ -83,6 +84,8 @@ struct Same {
     has_computed_codes: bool,
     block_deletes: u16,
     has_first_block: bool,
+    /// Codes that rely on words which no block before them gives, wherever they stand.
+    never_given: BTreeSet<(CodeIx, Letter)>,
 }
 
 impl Same {
@@ -95,6 +98,7 @@ impl Same {
             has_computed_codes: survey.has_computed_codes,
             block_deletes: survey.block_deletes,
             has_first_block: survey.first_block.is_some(),
+            never_given: survey.never_given.iter().map(|missing| (missing.code, missing.letter)).collect(),
         }
     }
 }

@@ -276,6 +276,33 @@ fn edited_examples_of_every_rule_are_checked_as_fresh_ones() {
 }
 
 #[test]
+fn a_line_put_in_behind_a_subroutine_is_on_the_way_past_it() {
+    let control = gcheck_controls::load("linuxcnc").unwrap();
+    let dialect = Dialect::new(&control);
+    let world = World::default();
+    let scene = Scene {
+        dialect: &dialect,
+        machine: &world.machine,
+        programs: world.programs,
+        control_is_guessed: false,
+    };
+    let selection = everything();
+    let mut bench = Bench {
+        scene,
+        selection: &selection,
+        suppressions: true,
+        incremental: Incremental::new(),
+        execution: Execution { fuel: 20_000, block_skip: None },
+    };
+    let text = |line: &str| {
+        format!("G21 G90 G17\no100 sub\no100 endsub\n{line}o200 sub\no200 endsub\no100 call\nM2\n")
+    };
+    bench.assert_fresh(&text(""), 1, &String::new);
+    bench.assert_fresh(&text("#1=-100\n"), 1, &String::new);
+    bench.assert_fresh(&text(""), 1, &String::new);
+}
+
+#[test]
 fn every_rule_says_what_it_remembers() {
     let mut silent = Vec::new();
     for rule in crate::all() {

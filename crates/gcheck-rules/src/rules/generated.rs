@@ -287,6 +287,7 @@ pub(crate) mod syntax {
     pub(crate) mod nested_comment;
     pub(crate) mod non_ascii_text;
     pub(crate) mod o_word_without_keyword;
+    pub(crate) mod sign_given_twice;
     pub(crate) mod statement_number_missing;
     pub(crate) mod statement_of_another_control;
     pub(crate) mod stray_bracket;
@@ -575,6 +576,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &syntax::nested_comment::RULE,
     &syntax::non_ascii_text::RULE,
     &syntax::o_word_without_keyword::RULE,
+    &syntax::sign_given_twice::RULE,
     &syntax::statement_number_missing::RULE,
     &syntax::statement_of_another_control::RULE,
     &syntax::stray_bracket::RULE,

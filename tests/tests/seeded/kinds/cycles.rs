@@ -79,6 +79,19 @@ pub(super) const KINDS: &[Kind] = &[
         &["cycle-word-not-positive", "number-out-of-range", "computed-value-out-of-range"],
         |p| p.each(|block| word_of(block, &PECKING, b'Q').map(|word| p.value(word, "0."))),
     ),
+    Kind::new(
+        "peck-below-zero",
+        Fear::Alarm,
+        "the depth of a peck has a minus sign",
+        &["cycle-word-not-positive", "number-out-of-range", "sign-not-accepted"],
+        |p| {
+            p.each(|block| {
+                let word =
+                    word_of(block, &PECKING, b'Q').filter(|word| word.number.is_some_and(|q| q > 0.0))?;
+                Some(p.value(word, format!("-{}", &p.words_of(word)[1..])))
+            })
+        },
+    ),
     Kind::new("dwell-cycle-without-p", Fear::Trap, "a cycle with a dwell has no time", MISSING, |p| {
         p.each(|block| {
             word_of(block, &[Effect::CycleDrillDwell], b'P')

@@ -57,6 +57,22 @@ pub(super) const KINDS: &[Kind] = &[
     )
     .anywhere(),
     Kind::new(
+        "end-for-return",
+        Fear::Crash,
+        "a subprogram ends the job (`M30` for `M99`)",
+        &["subprogram-without-return", "unreachable-block"],
+        |p| {
+            p.each(|block| {
+                // A main program that `/M30` ends goes on behind it.
+                let mut before = p.blocks[..block.ix].iter();
+                let is_behind = before.any(|other| !other.is_skippable && other.code(&ENDS).is_some());
+                let word = block.code(&[Effect::Return]).filter(|_| is_behind)?;
+                (block.words.len() == 1 && !block.is_skippable).then(|| p.instead(word, "M30"))
+            })
+        },
+    )
+    .anywhere(),
+    Kind::new(
         "end-too-early",
         Fear::Trap,
         "an `M30` from a trial is left in the middle",

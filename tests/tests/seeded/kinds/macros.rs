@@ -67,6 +67,47 @@ pub(super) const KINDS: &[Kind] = &[
     )
     .anywhere(),
     Kind::new(
+        "variable-mistyped",
+        Fear::Crash,
+        "the number of a variable is mistyped where it is read",
+        &[
+            "variable-read-before-set",
+            "maybe-variable-unset",
+            "common-variable-never-set",
+            "variable-unlisted",
+        ],
+        |p| {
+            if p.is_for(&["linuxcnc"]) {
+                return Vec::new();
+            }
+            p.each(|block| {
+                // A word with nothing but the variable: `X#101`.
+                let word = block.words.iter().find(|word| {
+                    let digits = p.words_of(word).get(2..).unwrap_or_default();
+                    p.words_of(word).get(1..2) == Some("#")
+                        && digits.len() <= 3
+                        && digits.parse::<u32>().is_ok_and(|number| number < 200)
+                })?;
+                let number: u32 = p.words_of(word)[2..].parse().ok()?;
+                let other = if number < 34 { 33 - number } else { 299 - number };
+                let is_free = other > 0 && !p.text.contains(&format!("#{other}"));
+                (is_free && !block.before.is_subprogram).then(|| p.value(word, format!("#{other}")))
+            })
+        },
+    ),
+    Kind::new(
+        "macro-call-without-program",
+        Fear::Alarm,
+        "a macro is called without its number (`G65` without `P`)",
+        &["required-word-missing", "word-choice-missing", "lasting-word-never-given"],
+        |p| {
+            p.each(|block| {
+                block.code(&[Effect::MacroCall])?;
+                Some(p.without(block.word(b'P')?))
+            })
+        },
+    ),
+    Kind::new(
         "equals-lost",
         Fear::Alarm,
         "the `=` of an assignment is lost",
@@ -78,13 +119,19 @@ pub(super) const KINDS: &[Kind] = &[
             })
         },
     ),
-    Kind::new("bracket-not-closed", Fear::Alarm, "a bracket is not closed", &["unclosed-bracket", "named-parameter-unset"], |p| {
-        p.each(|block| {
-            let end = block.end_of_words();
-            let at = p.text[block.range.start..end].rfind(']')? + block.range.start;
-            Some(Edit { range: at..at + 1, text: String::new() })
-        })
-    }),
+    Kind::new(
+        "bracket-not-closed",
+        Fear::Alarm,
+        "a bracket is not closed",
+        &["unclosed-bracket", "named-parameter-unset"],
+        |p| {
+            p.each(|block| {
+                let end = block.end_of_words();
+                let at = p.text[block.range.start..end].rfind(']')? + block.range.start;
+                Some(Edit { range: at..at + 1, text: String::new() })
+            })
+        },
+    ),
     Kind::new(
         "parentheses-for-brackets",
         Fear::Alarm,

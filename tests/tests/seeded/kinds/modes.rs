@@ -275,6 +275,19 @@ pub(super) const KINDS: &[Kind] = &[
         },
     )
     .anywhere(),
+    Kind::new(
+        "plane-under-rotation",
+        Fear::Scrap,
+        "another plane is chosen while a rotation is on",
+        &["plane-changed-under-rotation"],
+        |p| {
+            if p.is_lathe() || p.is_for(&["linuxcnc"]) {
+                Vec::new()
+            } else {
+                before_a_cut(p, "G68 X0. Y0. R30.\nG18")
+            }
+        },
+    ),
     Kind::new("scaling-left-on", Fear::Crash, "scaling is never cancelled", &["scaling-left-on"], |p| {
         if p.is_lathe() || p.is_for(&["linuxcnc", "generic"]) {
             Vec::new()

@@ -350,4 +350,21 @@ pub(super) const KINDS: &[Kind] = &[
             })
         },
     ),
+    Kind::new(
+        "corner-before-rapid",
+        Fear::Alarm,
+        "a rounding to the next move (`,R`) stands in front of a rapid move",
+        &["corner-before-rapid"],
+        |p| {
+            p.each(|block| {
+                let next = p.next(block)?;
+                let fits = block.moves(&[Effect::Linear])
+                    && next.moves(&[Effect::Rapid])
+                    && p.is_for(&["fanuc", "haas"])
+                    && !block.before.is_subprogram
+                    && block.has(b"XY");
+                fits.then(|| p.behind_words(block, ",R1."))
+            })
+        },
+    ),
 ];

@@ -82,6 +82,72 @@ pub(super) const KINDS: &[Kind] = &[
         },
     ),
     Kind::new(
+        "two-signs",
+        Fear::Alarm,
+        "a number has two minus signs (`Z--1.`)",
+        &["malformed-number", "unexpected-text", "missing-operand", "sign-given-twice"],
+        |p| {
+            literals(p, b"XYZ", |_, word| {
+                let text = digits(p, word);
+                (text.starts_with('-')).then(|| p.value(word, format!("-{text}")).into())
+            })
+        },
+    ),
+    Kind::new(
+        "blocks-run-together",
+        Fear::Crash,
+        "the end of a line is lost and two blocks become one",
+        &["word-given-twice", "two-codes-of-one-group"],
+        |p| {
+            p.each(|block| {
+                let next = p.next(block)?;
+                let fits = block.moves(&[Effect::Rapid, Effect::Linear])
+                    && next.moves(&[Effect::Rapid, Effect::Linear])
+                    && block
+                        .words
+                        .iter()
+                        .any(|word| b"XYZ".contains(&word.letter) && next.has(&[word.letter]));
+                let between = block.range.end..next.range.start;
+                let plain =
+                    block.end_of_words() == block.range.end && p.text[between.clone()].trim().is_empty();
+                (fits && plain).then(|| crate::kind::Edit { range: between, text: " ".to_owned() })
+            })
+        },
+    ),
+    Kind::new(
+        "tape-mark-in-the-middle",
+        Fear::Alarm,
+        "a `%` of a pasted program stands in the middle",
+        &["stray-tape-mark", "program-end-missing"],
+        |p| {
+            p.each(|block| {
+                let fits = block.code(&[Effect::ToolChange]).is_some()
+                    && p.text.starts_with('%')
+                    && !block.before.is_subprogram;
+                fits.then(|| p.line_above(block, "%"))
+            })
+        },
+    )
+    .anywhere(),
+    Kind::new(
+        "units-of-the-remark",
+        Fear::Crash,
+        "the remark at the head says that the program is in the other units",
+        &["units-comment-contradicts"],
+        |p| {
+            let units = p.blocks.iter().find_map(|block| block.code(&[Effect::Inch, Effect::Millimetre]));
+            let Some(other) = units.map(|word| match word.effect {
+                Some(Effect::Inch) => "(UNITS: MM)",
+                _ => "(UNITS: INCH)",
+            }) else {
+                return Vec::new();
+            };
+            let first = p.blocks.iter().find(|block| block.is_plain() && block.word(b'O').is_none());
+            first.map(|block| p.line_above(block, other).into()).into_iter().collect()
+        },
+    )
+    .anywhere(),
+    Kind::new(
         "comma-for-point",
         Fear::Alarm,
         "a comma stands for the decimal point (`X1,25`)",
@@ -119,7 +185,9 @@ pub(super) const KINDS: &[Kind] = &[
         &["zero-for-letter-o"],
         |p| {
             p.each(|block| {
-                let word = block.word(b'O').filter(|_| block.words.len() == 1)?;
+                // `O0` is no number of a program.
+                let is_number = |word: &&Word| block.words.len() == 1 && word.number != Some(0.0);
+                let word = block.word(b'O').filter(is_number)?;
                 Some(p.instead(word, format!("0{}", digits(p, word))))
             })
         },

@@ -84,12 +84,11 @@ impl CycleWordMissing {
         // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
         let begins = cx.has_effect(|effect| effect == code.effect());
-        let told_by_text = lasting_word_never_given::speaks(cx.survey)
-            && cx
-                .survey
-                .never_given
-                .iter()
-                .any(|missing| missing.letter == letter && cx.model.effect(missing.code) == code.effect());
+        let told_by_text =
+            !lasting_word_never_given::may_be_called(cx.survey)
+                && cx.survey.never_given.iter().any(|missing| {
+                    missing.letter == letter && cx.model.effect(missing.code) == code.effect()
+                });
         // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
         let needed = word.is_some_and(|word| {
             word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text

@@ -179,10 +179,13 @@ mod tests {
             );
             check_rule(&RULE, "haas-lathe", &program, found);
         };
-        turn("N10 G0 X0. Z.1\nG1 Z0. F.005\nX1.\nZ-.5\nX.5\nZ-1.25\nN20 X1.4", &expect![[r#"
+        turn(
+            "N10 G0 X0. Z.1\nG1 Z0. F.005\nX1.\nZ-.5\nX.5\nZ-1.25\nN20 X1.4",
+            &expect![[r#"
             9 | X.5
               | ^^^ info[turning-profile-turns-back] the profile of the turning cycle drops straight in X
-        "#]]);
+        "#]],
+        );
         // A wall at an angle, and a face in front of the profile.
         turn("N10 G0 X0. Z.1\nG1 X1. Z0. F.005\nZ-.5\nX.5 Z-1.\nZ-1.25\nN20 X1.4", &expect![[""]]);
         turn("N10 G0 X2. Z.1\nG1 Z0. F.005\nX0.\nX1.\nZ-1.\nN20 X2.5", &expect![[""]]);

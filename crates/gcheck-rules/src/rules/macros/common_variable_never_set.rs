@@ -4,9 +4,8 @@ use std::collections::HashSet;
 use std::ops::Range;
 
 use gcheck_controls::{Unset, Variable, VariableEntry, VariableKind};
-use gcheck_program::{BinaryOp, Op, Place, StatementKind, Target, Value};
+use gcheck_program::{BinaryOp, BlockFlags, Op, Place, StatementKind, Target, Value};
 
-use super::maybe_variable_unset::tested;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::usage::is_called_from_elsewhere;
@@ -47,9 +46,8 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct CommonVariableNeverSet {
-    told: HashSet<u32>,
-    /// Variables that the program asks whether they hold nothing; made when first asked for.
-    tested: Option<HashSet<u32>>,
+    /// Told, or asked for by a condition before they are used: what the program looks at, somebody else sets.
+    known: HashSet<u32>,
 }
 
 remembers!(CommonVariableNeverSet);
@@ -62,38 +60,41 @@ impl PathRule for CommonVariableNeverSet {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.scene.control().semantics().unset == Unset::Vacant
             && !is_called_from_elsewhere(program.survey)
-            && !program.survey.has_mistakes
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some((table, expressions)) = cx.expressions().filter(|(_, found)| !found.is_empty()) else {
+        if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             return;
-        };
-        for expr in expressions.iter() {
-            for op in table.ops(table.expr(*expr)) {
-                let Op::Variable(variable) = *op else { continue };
-                let Variable::Known(entry) = cx.scene.control().variable(variable) else { continue };
-                if cx.state().variables().is_written(variable)
-                    || self.told.contains(&variable)
-                    || !SCRATCH.contains(&variable)
-                    || !belongs_to_the_program(cx, entry)
-                {
-                    continue;
-                }
-                let Some(range) = cx.place().and_then(|place| use_of(&place, variable)) else { continue };
-                self.told.insert(variable);
-                if self.tested.get_or_insert_with(|| tested(cx)).contains(&variable) {
-                    continue;
-                }
+        }
+        let Some(place) = cx.place() else { return };
+        for (variable, how) in uses(&place) {
+            let is_known = self.known.contains(&variable) || cx.state().variables().is_written(variable);
+            if is_known || !SCRATCH.contains(&variable) {
+                continue;
+            }
+            let Variable::Known(entry) = cx.scene.control().variable(variable) else { continue };
+            if !belongs_to_the_program(cx, entry) {
+                continue;
+            }
+            self.known.insert(variable);
+            if let Use::Value(range) = how {
                 let keeps = match entry.kind {
-                    VariableKind::Common => "it holds nothing after power-on, else what the last program left",
+                    VariableKind::Common => {
+                        "it holds nothing after power-on, else what the last program left"
+                    }
                     _ => "it holds what was left there, also over power off",
                 };
                 report.add(
-                    cx.finding(&META, range, format!("`#{variable}` is used here and nothing before sets it"))
-                        .label("holds what was left there, or nothing")
-                        .note(format!("{}: {keeps}  [{}]", entry.title, entry.source))
-                        .help(format!("set `#{variable}` at the head of the program, or say in a remark who does")),
+                    cx.finding(
+                        &META,
+                        range,
+                        format!("`#{variable}` is used here and nothing before sets it"),
+                    )
+                    .label("holds what was left there, or nothing")
+                    .note(format!("{}: {keeps}  [{}]", entry.title, entry.source))
+                    .help(format!(
+                        "set `#{variable}` at the head of the program, or say in a remark who does"
+                    )),
                 );
             }
         }
@@ -109,37 +110,57 @@ fn belongs_to_the_program(cx: &PathCx<'_>, entry: &VariableEntry) -> bool {
     let Some([first, last]) = entry.range else { return false };
     match entry.kind {
         VariableKind::Common => true,
-        VariableKind::Retained => {
-            cx.survey.assigned.iter().any(|(number, _)| (first..=last).contains(number))
-        }
+        VariableKind::Retained => (first..=last).any(|number| cx.state().variables().is_written(number)),
         VariableKind::Local | VariableKind::System => false,
     }
 }
 
-/// Bytes of the word or statement that uses the value of a variable. A condition that jumps, and a count that goes on from
-/// what was there, use it on purpose.
-fn use_of(place: &Place, variable: u32) -> Option<Range<u32>> {
+/// How a block uses a variable.
+enum Use {
+    /// For its value: bytes of the word or statement.
+    Value(Range<u32>),
+    /// In a condition, or to count on from what was there: on purpose.
+    Looked,
+}
+
+/// The variables that a block reads, words first.
+fn uses(place: &Place) -> Vec<(u32, Use)> {
     let in_file = |range: Range<u32>| place.base + range.start..place.base + range.end;
     let ops = |expr| place.table.ops(place.table.expr(expr));
+    let variables = |expr| {
+        ops(expr).iter().filter_map(|op| match op {
+            Op::Variable(number) => Some(*number),
+            _ => None,
+        })
+    };
+    let mut found = Vec::new();
     for word in place.table.words(place.block()) {
-        if let Value::Expr(expr) = word.value
-            && ops(expr).contains(&Op::Variable(variable))
-        {
-            return Some(in_file(word.range()));
+        if let Value::Expr(expr) = word.value {
+            found.extend(variables(expr).map(|variable| (variable, Use::Value(in_file(word.range())))));
         }
     }
     for statement in place.table.statements(place.ix) {
         let is_switch = matches!(statement.kind, StatementKind::If { .. } | StatementKind::Guard { .. });
-        let reads = |expr| ops(expr).contains(&Op::Variable(variable));
-        let counts = matches!(&statement.kind, StatementKind::Assign { target: Target::Variable(to), .. } if *to == variable)
-            && statement.kind.expressions().any(|expr| {
-                ops(expr).iter().any(|op| matches!(op, Op::Binary(BinaryOp::Add | BinaryOp::Subtract)))
-            });
-        if !is_switch && !counts && statement.kind.expressions().any(reads) {
-            return Some(in_file(statement.range.clone()));
+        let target = match statement.kind {
+            StatementKind::Assign { target: Target::Variable(to), .. } => Some(to),
+            _ => None,
+        };
+        for expr in statement.kind.expressions() {
+            let is_tested = is_switch || ops(expr).contains(&Op::Variable(0));
+            let is_sum =
+                ops(expr).iter().any(|op| matches!(op, Op::Binary(BinaryOp::Add | BinaryOp::Subtract)));
+            for variable in variables(expr) {
+                let counts = is_sum && target == Some(variable);
+                let how = if is_tested || counts {
+                    Use::Looked
+                } else {
+                    Use::Value(in_file(statement.range.clone()))
+                };
+                found.push((variable, how));
+            }
         }
     }
-    None
+    found
 }
 
 #[cfg(test)]
@@ -183,16 +204,20 @@ mod tests {
     fn what_survives_power_off_may_be_set_up_once() {
         check_rule(&RULE, "haas-mill", "O1\nG0 X#101\nM30\n", &expect![[""]]);
         check_rule(&RULE, "fanuc-mill", "O1\n#502=3.\nG0 X#501 Y#502\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "O1\n#102= 3.\nG0 X#101 Y#102\nM30\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "O1\n#102= 3.\nG0 X#101 Y#102\nM30\n",
+            &expect![[r#"
             3 | G0 X#101 Y#102
               |    ^^^^^ info[common-variable-never-set] `#101` is used here and nothing before sets it
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
     fn words_say_how_long_the_variable_lives() {
-        let found =
-            findings(&Selection::only(&RULE), "fanuc-mill", "O1\nG0 X#101\nM30\n", &World::default());
+        let found = findings(&Selection::only(&RULE), "fanuc-mill", "O1\nG0 X#101\nM30\n", &World::default());
         expect![[r#"
             `#101` is used here and nothing before sets it
               here: holds what was left there, or nothing

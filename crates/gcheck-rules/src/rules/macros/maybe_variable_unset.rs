@@ -107,7 +107,7 @@ impl PathRule for MaybeVariableUnset {
 }
 
 /// Variables that stand beside `#0` in an expression.
-pub(super) fn tested(cx: &PathCx<'_>) -> HashSet<u32> {
+fn tested(cx: &PathCx<'_>) -> HashSet<u32> {
     let flags = BlockFlags::EXPRESSION | BlockFlags::STATEMENT;
     let mut tested = HashSet::new();
     for (_, place) in blocks_with(cx.program, cx.scene, flags) {

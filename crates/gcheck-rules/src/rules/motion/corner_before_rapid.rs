@@ -4,9 +4,11 @@ use std::ops::Range;
 
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Event, TravelKind};
+use gcheck_program::Word;
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
+use crate::turning::is_roughing;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
@@ -39,7 +41,7 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::MOVES, make: || Box::new(CornerBeforeRapid { corner: None }) },
+        run: Run::Path { watch: Watch::MOVES.union(Watch::BLOCKS), make: || Box::new(CornerBeforeRapid { corner: None }) },
     }
 }
 
@@ -60,6 +62,23 @@ impl PathRule for CornerBeforeRapid {
         program.survey.letters.intersects(corners())
     }
 
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if !cx.has_effect(is_roughing) {
+            return;
+        }
+        // The passes of a cycle are not made block by block.
+        let last = cx.profile_blocks().map(|(_, last)| last);
+        if let Some(corner) = last.and_then(|last| cx.find_word(last, is_corner)) {
+            report.add(
+                cx.finding(&META, corner, "chamfer or rounding at the end of a turning profile")
+                    .label("the corner to the next cut of the profile, which has none")
+                    .also(cx.range(), "the cycle that follows the profile")
+                    .help("end the profile with a cut behind the corner, or take the word away")
+                    .at_most(Severity::Warning),
+            );
+        }
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else {
             self.corner = None;
@@ -77,11 +96,15 @@ impl PathRule for CornerBeforeRapid {
                     .at_most(Severity::Warning),
             );
         }
-        let is_corner = |word: &gcheck_program::Word| word.letter.is_corner() && word.number() != Some(0.0);
         if travel.kind == TravelKind::Feed && !travel.expanded && cx.origin().letters.intersects(corners()) {
             self.corner = cx.find_word(cx.origin().at, is_corner);
         }
     }
+}
+
+/// A corner that is asked for, of some size.
+fn is_corner(word: &Word) -> bool {
+    corners().contains(word.letter) && word.number() != Some(0.0)
 }
 
 fn corners() -> LetterSet {
@@ -94,6 +117,19 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_profile_ends_with_a_cut() {
+        check_rule(
+            &RULE,
+            "fanuc-lathe",
+            "G21 T0101\nG97 S500 M3\nG0 X60. Z5.\nG71 U2. R1.\nG71 P10 Q20 U0.5 W0.1 F0.25\nN10 G0 X30.\nG1 Z-20. ,R1.\nN20 X60. ,R1.\nG0 X80.\nM30\n",
+            &expect![[r#"
+                8 | N20 X60. ,R1.
+                  |          ^^^^ warning[corner-before-rapid] chamfer or rounding at the end of a turning profile
+            "#]],
+        );
+    }
 
     #[test]
     fn an_arc_takes_the_corner() {

@@ -103,7 +103,8 @@ fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     // The passes behind the first one have its lead.
     let goes_on = cx.state().mode(Role::Motion).only().is_none_or(|mode| is_thread(cx.model.effect(mode)));
     let code = cx.scene.control().code_at(ix)?;
-    let is_lead = |word: &WordEntry| word.letter == "F" && matches!(word.need, Need::Modal | Need::Conditional);
+    let is_lead =
+        |word: &WordEntry| word.letter == "F" && matches!(word.need, Need::Modal | Need::Conditional);
     (!goes_on && code.entry().words.iter().any(is_lead)).then_some(code)
 }
 

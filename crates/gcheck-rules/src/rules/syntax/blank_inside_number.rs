@@ -89,6 +89,7 @@ mod tests {
               here: read as `G003.0`
               note: this control reads over blanks: what stands on both sides is one number
               help: write the letter in front of `3.0`, or take the blank away
-        "#]].assert_eq(&words(&found[0]));
+        "#]]
+        .assert_eq(&words(&found[0]));
     }
 }

@@ -42,7 +42,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     };
     let is_move = cx.codes().all(|(_, code)| {
         let axes = [Letter::of('X'), Letter::of('U'), Letter::of('H')];
-        moves(code.motion()) || !code.entry().takes_axes && !axes.iter().any(|axis| code.reads().contains(*axis))
+        moves(code.motion())
+            || !code.entry().takes_axes && !axes.iter().any(|axis| code.reads().contains(*axis))
     });
     if !cx.words_are_plain() || !is_move {
         return;
@@ -120,13 +121,15 @@ mod tests {
 
     #[test]
     fn words_say_which_is_which() {
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", "G1 X20. U0.5 F0.2\n", &World::default());
+        let found =
+            findings(&Selection::only(&RULE), "fanuc-lathe", "G1 X20. U0.5 F0.2\n", &World::default());
         expect![[r#"
             `X` and `U` move one axis in one block
               here: `U0.5` says how far X goes
               there: `X20.` says where X goes
               note: only one of the two counts, on most controls the last
               help: keep the one that is meant: `X20.` or `U0.5`
-        "#]].assert_eq(&words(&found[0]));
+        "#]]
+        .assert_eq(&words(&found[0]));
     }
 }

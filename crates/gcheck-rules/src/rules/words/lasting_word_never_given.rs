@@ -45,7 +45,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let survey = cx.survey;
-    if !speaks(survey) {
+    if may_be_called(survey) || survey.has_mistakes {
         return;
     }
     for missing in &survey.never_given {
@@ -57,17 +57,16 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Is the text enough to say so? What may be called takes its caller's words with it; behind the main program of the file,
-/// that is its caller.
-pub(in crate::rules) fn speaks(survey: &Survey) -> bool {
+/// May the program be called by one that is not in the file? It takes its caller's words with it, so that the text alone says
+/// nothing. Behind the main program of the file, that is the caller.
+pub(in crate::rules) fn may_be_called(survey: &Survey) -> bool {
     let second = survey.programs.get(1).map_or(0, |second| second.range.start);
     let is_of_main =
         |end: &EndMark| end.range.start < second && end.ends == Ends::Program && !end.conditional;
     let returns = |end: &EndMark| end.ends == Ends::Subprogram && (second == 0 || end.range.start < second);
-    let may_be_called = survey.ends.iter().any(returns)
+    survey.ends.iter().any(returns)
         || second > 0 && !survey.ends.iter().any(is_of_main)
-        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub);
-    !may_be_called && !survey.has_mistakes
+        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
 }
 
 /// Told where it is missed first; what comes later misses the same.

@@ -40,7 +40,9 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (word, code) in cx.codes() {
-        for needed in code.entry().words.iter().filter(|w| w.need == Need::Required || !w.required_with.is_empty()) {
+        for needed in
+            code.entry().words.iter().filter(|w| w.need == Need::Required || !w.required_with.is_empty())
+        {
             let with = beside(cx, needed);
             if needed.need != Need::Required && with.is_none() {
                 continue;
@@ -76,13 +78,7 @@ fn is_certain(cx: &BlockCx<'_>, word: &Word, code: Code<'_>) -> bool {
         && cx.words().iter().find(|w| w.code == word.code).is_some_and(|w| w.range() == word.range())
 }
 
-fn finding(
-    cx: &BlockCx<'_>,
-    word: &Word,
-    code: Code<'_>,
-    needed: &WordEntry,
-    with: Option<&str>,
-) -> Finding {
+fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, needed: &WordEntry, with: Option<&str>) -> Finding {
     let (text, letter, entry) = (cx.text(word), &needed.letter, code.entry());
     let when = with.map_or_else(|| "every time".to_owned(), |with| format!("with `{with}`"));
     let confidence = needed.confidence.unwrap_or(Confidence::Manual).min(entry.confidence);
@@ -143,8 +139,7 @@ mod tests {
                   | ^^^ error[required-word-missing] `G10` without `P`
             "#]],
         );
-        let found =
-            findings(&Selection::only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
+        let found = findings(&Selection::only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("needs `P` in its block with `L2`"), "{text}");
     }

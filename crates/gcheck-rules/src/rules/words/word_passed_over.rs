@@ -177,6 +177,11 @@ mod tests {
 
     #[test]
     fn a_macro_for_every_block_takes_any_word() {
-        check_rule(&RULE, "fanuc-mill", "G66.1 P9010 A1.\nG1 X1. Q2.\nG67\nG1 X2. Q1.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G66.1 P9010 A1.\nG1 X1. Q2.\nG67\nG1 X2. Q1.\nM30\n",
+            &expect![[""]],
+        );
     }
 }
