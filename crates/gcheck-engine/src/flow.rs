@@ -437,7 +437,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     /// block: the jump rests on both.
     fn note_in_front(&self, to: At) {
         if let Some(front) = to.block.checked_sub(1).filter(|_| to.file == 0)
-            && let Some(file) = self.program.file(0)
+            && let Some(file) = self.executor.program.file(0)
         {
             file.loaded.note(front);
         }
