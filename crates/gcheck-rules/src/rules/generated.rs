@@ -185,6 +185,7 @@ pub(crate) mod motion {
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
+    pub(crate) mod tool_down_at_end;
 }
 
 pub(crate) mod offsets {
@@ -485,6 +486,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::rapid_with_feed::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
+    &motion::tool_down_at_end::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::rotation_left_on::RULE,
