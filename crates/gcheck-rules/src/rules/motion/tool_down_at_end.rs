@@ -1,6 +1,6 @@
 //! A program that ends with the tool in the part.
 
-use gcheck_engine::{At, Axis, Event, Fact};
+use gcheck_engine::{Axis, Event, Fact};
 use gcheck_geometry::Mm;
 
 use crate::boundary::Boundary;
@@ -9,7 +9,8 @@ use crate::meta::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The program ends while the tool that cut last still stands below the zero of the part.
+    /// The program ends while the tool that cut last still stands below the zero of the part, and below the heights to which
+    /// its rapid moves went.
     ///
     /// ## Why it matters
     /// The spindle stops in the part, and the first move of the next run drags the tool through it. The last retract is
@@ -43,36 +44,48 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::BLOCKS.union(Watch::CUTS),
-            make: || Box::new(ToolDownAtEnd { cut: None }),
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::RAPIDS),
+            make: || Box::new(ToolDownAtEnd::default()),
         },
     }
 }
 
-#[derive(Clone, PartialEq)]
+#[derive(Default, Clone, PartialEq)]
 struct ToolDownAtEnd {
-    /// A cut of the tool in the spindle.
-    cut: Option<At>,
+    /// The tool in the spindle has cut.
+    has_cut: bool,
+    /// The highest level of its rapid moves: who has the zero far above the part goes about below it.
+    highest: Option<f64>,
 }
 
-remembers!(ToolDownAtEnd: cut);
+remembers!(ToolDownAtEnd);
 
 /// Millimetres: depths above this are the surface of the part.
 const SURFACE: f64 = -0.01;
+/// How much deeper than the highest rapid move the tool is to stand: millimetres.
+const LIFT: f64 = 0.5;
 
 impl PathRule for ToolDownAtEnd {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }
 
-    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
-        self.cut = Some(cx.origin().at);
+    fn cut(&mut self, _: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+        self.has_cut = true;
+    }
+
+    fn rapid(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if let Event::Travel(travel) = event
+            && let Some(z) = travel.to.get(Axis::Z)
+        {
+            self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
+        }
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         match cx.boundary() {
             // Where the change leaves the tool is the machine's business.
-            Some(Boundary::ToolChange) => self.cut = None,
+            Some(Boundary::ToolChange) => *self = Self::default(),
             Some(Boundary::ProgramEnd) => self.end(cx, report),
             None => {}
         }
@@ -80,12 +93,13 @@ impl PathRule for ToolDownAtEnd {
 }
 
 impl ToolDownAtEnd {
-    fn end(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+    fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
         // A probe and a pen go without the spindle, and may end anywhere.
-        let works = self.cut.take().is_some() && cx.trace().set_by(Fact::Spindle).is_some();
-        let Some(z) = cx.state().actual().get(Axis::Z).filter(|z| *z < SURFACE) else { return };
-        if is_mill && works && !cx.origin().letters.contains(gcheck_controls::Letter::of('Z')) {
+        let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
+        let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
+        let is_down = z < SURFACE && z < highest - LIFT;
+        if is_mill && works && is_down && !cx.origin().letters.contains(gcheck_controls::Letter::of('Z')) {
             let depth = cx.shown(Mm(-z));
             report.add(
                 cx.finding(
@@ -123,6 +137,16 @@ mod tests {
         for up in ["G91 G28 Z0.", "G53 G0 Z0.", "G0 Z#100", "M98 P7000"] {
             check_rule(&RULE, "fanuc-mill", &program(up), &expect![[""]]);
         }
+    }
+
+    #[test]
+    fn a_zero_far_above_the_part_is_no_surface() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 S900 M3\nG0 X0 Y0\nG0 Z-80\nG1 Z-90 F90\nX9\nG0 Z-80\nM5\nM2\n",
+            &expect![[""]],
+        );
     }
 
     #[test]
