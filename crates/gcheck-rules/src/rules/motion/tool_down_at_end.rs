@@ -1,5 +1,6 @@
 //! A program that ends with the tool in the part.
 
+use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Event, Fact};
 use gcheck_geometry::Mm;
 
@@ -94,12 +95,14 @@ impl PathRule for ToolDownAtEnd {
 
 impl ToolDownAtEnd {
     fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
+        // Without Y a program turns.
+        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill
+            && cx.survey.letters.contains(Letter::of('Y'));
         // A probe and a pen go without the spindle, and may end anywhere.
         let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
         let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
         let is_down = z < SURFACE && z < highest - LIFT;
-        if is_mill && works && is_down && !cx.origin().letters.contains(gcheck_controls::Letter::of('Z')) {
+        if is_mill && works && is_down && !cx.origin().letters.contains(Letter::of('Z')) {
             let depth = cx.shown(Mm(-z));
             report.add(
                 cx.finding(
@@ -127,7 +130,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G54 S900 M3\nG0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nM5\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                7 | M2
+                  | ^^ warning[tool-down-at-end] the program ends with the tool below the zero of the part
+            "#]],
         );
     }
 
@@ -156,6 +162,12 @@ mod tests {
 
     #[test]
     fn turning_has_no_surface_above() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G18 G21 G90 G54 G97 S900 M3\nG0 X50 Z5\nG1 Z-20 F90\nM2\n",
+            &expect![[""]],
+        );
         check_rule(
             &RULE,
             "haas-lathe",
