@@ -187,6 +187,7 @@ pub(crate) mod motion {
     pub(crate) mod rapid_with_feed;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
+    pub(crate) mod tool_down_at_end;
 }
 
 pub(crate) mod offsets {
@@ -497,6 +498,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &motion::rapid_with_feed::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
+    &motion::tool_down_at_end::RULE,
     &offsets::mirror_left_on::RULE,
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::polar_coordinates_left_on::RULE,

@@ -78,7 +78,13 @@ pub(super) const KINDS: &[Kind] = &[
         "retract-forgotten",
         Fear::Crash,
         "the retract is forgotten and the tool goes on at depth at rapid",
-        &["rapid-in-material", "rapid-between-cuts", "plunge-goes-nowhere", "rapid-plunge"],
+        &[
+            "rapid-in-material",
+            "rapid-between-cuts",
+            "plunge-goes-nowhere",
+            "tool-down-at-end",
+            "rapid-plunge",
+        ],
         |p| {
             p.each(|block| {
                 let up = block.moves(&[Effect::Rapid])

@@ -264,7 +264,7 @@ mod tests {
             "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nY5\nG1 Z-1\nX30\nG0 X40\nG1 Z5\nZ-2\nG0 Z5\nM2\n",
             &expect![[r#"
                 4 | G0 X20
-                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                  | ^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
                 8 | G0 X40
                   | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
             "#]],
@@ -278,10 +278,15 @@ mod tests {
             let steps: String = (1..=count).map(step).collect();
             format!("G21 G90 G54 G0 X60. Y0. Z5.\nZ-50.\nG1 X45. F90.\n{steps}G0 X60.\nZ5.\nM30\n")
         };
-        check_rule(&RULE, "fanuc-mill", &steps(1), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &steps(1),
+            &expect![[r#"
             4 | G0 X60.
-              | ^^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
-        "#]]);
+              | ^^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+        "#]],
+        );
         check_rule(&RULE, "fanuc-mill", &steps(3), &expect![[""]]);
     }
 

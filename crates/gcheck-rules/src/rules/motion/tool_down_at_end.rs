@@ -1,0 +1,178 @@
+//! A program that ends with the tool in the part.
+
+use gcheck_controls::Letter;
+use gcheck_engine::{Axis, Event, Fact};
+use gcheck_geometry::Mm;
+
+use crate::boundary::Boundary;
+use crate::memory::{Remembers, remembers};
+use crate::meta::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+
+declare_rule! {
+    /// The program ends while the tool that cut last still stands below the zero of the part, and below the heights to which
+    /// its rapid moves went.
+    ///
+    /// ## Why it matters
+    /// The spindle stops in the part, and the first move of the next run drags the tool through it. The last retract is
+    /// missing, or its height has a minus sign too many.
+    ///
+    /// ## Reported
+    /// ```nc,reported,haas-mill
+    /// T1 M6
+    /// G21 G90 G54 G0 X0. Y0. S900 M3
+    /// G43 H1 Z5.
+    /// G1 Z-2. F100.
+    /// X40.
+    /// G0 X60.
+    /// M5
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// T1 M6
+    /// G21 G90 G54 G0 X0. Y0. S900 M3
+    /// G43 H1 Z5.
+    /// G1 Z-2. F100.
+    /// X40.
+    /// G53 G0 Z0.
+    /// M5
+    /// M30
+    /// ```
+    rule "tool-down-at-end" in "motion" {
+        summary: "program ends with the tool below the zero of the part",
+        severity: Warning,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path {
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::RAPIDS),
+            make: || Box::new(ToolDownAtEnd::default()),
+        },
+    }
+}
+
+#[derive(Default, Clone, PartialEq)]
+struct ToolDownAtEnd {
+    /// The tool in the spindle has cut.
+    has_cut: bool,
+    /// The highest level of its rapid moves: who has the zero far above the part goes about below it.
+    highest: Option<f64>,
+}
+
+remembers!(ToolDownAtEnd);
+
+/// Millimetres: depths above this are the surface of the part.
+const SURFACE: f64 = -0.01;
+/// How much deeper than the highest rapid move the tool is to stand: millimetres.
+const LIFT: f64 = 0.5;
+
+impl PathRule for ToolDownAtEnd {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn cut(&mut self, _: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
+        self.has_cut = true;
+    }
+
+    fn rapid(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        if let Event::Travel(travel) = event
+            && let Some(z) = travel.to.get(Axis::Z)
+        {
+            self.highest = Some(self.highest.map_or(z, |highest| highest.max(z)));
+        }
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        match cx.boundary() {
+            // Where the change leaves the tool is the machine's business.
+            Some(Boundary::ToolChange) => *self = Self::default(),
+            Some(Boundary::ProgramEnd) => self.end(cx, report),
+            None => {}
+        }
+    }
+}
+
+impl ToolDownAtEnd {
+    fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // Without Y a program turns.
+        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill
+            && cx.survey.letters.contains(Letter::of('Y'));
+        // A probe and a pen go without the spindle, and may end anywhere.
+        let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
+        let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
+        let is_down = z < SURFACE && z < highest - LIFT;
+        if is_mill && works && is_down && !cx.origin().letters.contains(Letter::of('Z')) {
+            let depth = cx.shown(Mm(-z));
+            report.add(
+                cx.finding(
+                    &META,
+                    cx.boundary_range(Boundary::ProgramEnd),
+                    "the program ends with the tool below the zero of the part",
+                )
+                .label(format!("the tool still stands {depth} below it"))
+                .help("lift the tool out of the part before the end"),
+            );
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn the_end_is_marked() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 S900 M3\nG0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nM5\nM2\n",
+            &expect![[r#"
+                7 | M2
+                  | ^^ warning[tool-down-at-end] the program ends with the tool below the zero of the part
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_height_that_nobody_knows_is_not_judged() {
+        let program = |up: &str| format!("G21 G90 G54 S900 M3\nG0 X0. Y0. Z5.\nG1 Z-2. F90.\n{up}\nM30\n");
+        for up in ["G91 G28 Z0.", "G53 G0 Z0.", "G0 Z#100", "M98 P7000"] {
+            check_rule(&RULE, "fanuc-mill", &program(up), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_zero_far_above_the_part_is_no_surface() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G54 S900 M3\nG0 X0 Y0\nG0 Z-80\nG1 Z-90 F90\nX9\nG0 Z-80\nM5\nM2\n",
+            &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_pen_may_end_anywhere() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nM2\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn turning_has_no_surface_above() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G18 G21 G90 G54 G97 S900 M3\nG0 X50 Z5\nG1 Z-20 F90\nM2\n",
+            &expect![[""]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "T101\nG21 G97 S900 M3\nG0 X50. Z5.\nG1 Z-20. F0.2\nM30\n",
+            &expect![[""]],
+        );
+    }
+}
