@@ -293,6 +293,7 @@ fn a_line_put_in_behind_a_subroutine_is_on_the_way_past_it() {
         suppressions: true,
         incremental: Incremental::new(),
         execution: Execution { fuel: 20_000, block_skip: None },
+        ahead: 0,
     };
     let text = |line: &str| {
         format!("G21 G90 G17\no100 sub\no100 endsub\n{line}o200 sub\no200 endsub\no100 call\nM2\n")
