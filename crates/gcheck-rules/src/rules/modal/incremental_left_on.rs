@@ -77,6 +77,7 @@ declare_rule! {
 }
 
 #[derive(Default, Clone, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
 struct IncrementalLeftOn {
     /// The work before was in positions.
     was_absolute: bool,

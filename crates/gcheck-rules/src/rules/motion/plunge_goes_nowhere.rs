@@ -161,7 +161,9 @@ impl PathRule for PlungeGoesNowhere {
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
         let found = std::mem::take(&mut self.found);
         if found.len() <= MOST {
-            found.into_iter().for_each(|finding| report.add(finding));
+            for finding in found {
+                report.add(finding);
+            }
         }
     }
 }
