@@ -61,7 +61,7 @@ pub fn figures(snapshot: &Snapshot, fuel: u64, stop: &dyn Fn() -> bool) -> Resul
     let view = view(snapshot, &model);
     let timing = Timing::of_machine(&model, &snapshot.settings().machine.engine);
     let mut statistics = Statistics::new(view, timing, model.work_at_power_on());
-    let stopped = run_through(snapshot, fuel, stop, &mut |step| statistics.add(step))?;
+    let stopped = run_through(snapshot, fuel, stop, &mut |seen| statistics.add(seen))?;
     let units = statistics.units();
     let total = statistics.total();
     // Sections that began in a called program belong to lines of other files.

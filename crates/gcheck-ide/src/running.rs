@@ -15,7 +15,7 @@ use gcheck_toolpath::{Spot, Step, View};
 
 use crate::reading::Reading;
 
-/// Runs a document, at most so many blocks; `step` sees every event. Says why the run did not reach the program's end, in a
+/// Runs a document, at most so many blocks; `show` is shown every event. Says why the run did not reach the program's end, in a
 /// few words.
 ///
 /// # Errors
@@ -24,7 +24,7 @@ pub(crate) fn run_through(
     snapshot: &Snapshot,
     fuel: u64,
     stop: &dyn Fn() -> bool,
-    step: &mut dyn FnMut(&Step<'_>),
+    show: &mut dyn FnMut(&Step<'_>),
 ) -> Result<Option<String>, Cancelled> {
     if stop() {
         return Err(Cancelled);
@@ -32,7 +32,7 @@ pub(crate) fn run_through(
     snapshot.with_program(|program, model| {
         let machine = &snapshot.settings().machine.engine;
         let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).unwrap_or(Units::Mm);
-        let mut watcher = Watcher { program, model, units, files: Vec::new(), stop, stopped: false, step };
+        let mut watcher = Watcher { program, model, units, files: Vec::new(), stop, stopped: false, show };
         let result = run(program, model, machine, Options::NONE, fuel, &mut watcher);
         if watcher.stopped {
             return Err(Cancelled);
@@ -72,7 +72,7 @@ struct Watcher<'a> {
     stop: &'a dyn Fn() -> bool,
     /// It said yes.
     stopped: bool,
-    step: &'a mut dyn FnMut(&Step<'_>),
+    show: &'a mut dyn FnMut(&Step<'_>),
 }
 
 /// Name and begins of the lines of a file.
@@ -135,7 +135,7 @@ impl Observer<Concrete> for Watcher<'_> {
             None => (Rc::from(""), 0),
         };
         let spot = Spot { file: &name, line, n: origin.n };
-        (self.step)(&Step::seen(event, state, self.model, spot, self.units));
+        (self.show)(&Step::seen(event, state, self.model, spot, self.units));
     }
     fn stops(&mut self) -> bool {
         self.stopped |= (self.stop)();

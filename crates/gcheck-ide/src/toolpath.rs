@@ -52,7 +52,7 @@ pub fn toolpath(
     if is_turned(snapshot) {
         plot = plot.for_lathe();
     }
-    let stopped = run_through(snapshot, fuel, stop, &mut |step| plot.add(step))?;
+    let stopped = run_through(snapshot, fuel, stop, &mut |seen| plot.add(seen))?;
     let drawing = plot.finish();
     let names = tool_names(snapshot);
     let tool = |tool| names.get(tool).map(str::to_owned);
