@@ -149,7 +149,7 @@ mod tests {
                 5 => "T3\n",
                 _ => "X1.5 Y2.25\n",
             };
-            if line == 900 && seed % 2 == 0 {
+            if line == 900 && seed.is_multiple_of(2) {
                 text += "M30\n%\n";
             }
         }

@@ -94,7 +94,7 @@ struct IncrementalLeftOn {
     begins_in_positions: bool,
 }
 
-remembers!(IncrementalLeftOn: change, in_subprogram);
+remembers!(IncrementalLeftOn: change, at_return, in_subprogram);
 
 impl PathRule for IncrementalLeftOn {
     fn memory(&mut self) -> Remembers<'_> {

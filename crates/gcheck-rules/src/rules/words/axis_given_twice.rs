@@ -63,9 +63,9 @@ fn finding(cx: &BlockCx<'_>, axis: &Word, increment: &Word) -> Finding {
     let semantics = cx.control().semantics();
     let (first, last) =
         if axis.range().start < increment.range().start { (axis, increment) } else { (increment, axis) };
-    let is = |word: &Word| match word.letter == axis.letter {
-        true => format!("`{}` says where {} goes", cx.text(word), axis.letter),
-        false => format!("`{}` says how far {} goes", cx.text(word), axis.letter),
+    let is = |word: &Word| {
+        let says = if word.letter == axis.letter { "where" } else { "how far" };
+        format!("`{}` says {says} {} goes", cx.text(word), axis.letter)
     };
     Finding::new(
         &META,
