@@ -336,16 +336,6 @@ fn a_semicolon_ends_the_block_or_starts_a_comment() {
 }
 
 #[test]
-fn blanks_and_signs_inside_numbers() {
-    check("linuxcnc", "G01 2 X 1. 5 Y - 3\nX--6 Y-+6\n", &expect![[""]]);
-}
-
-#[test]
-fn an_axis_with_both_its_addresses() {
-    check("fanuc-lathe", "X1. U2.\nX1. W2.\n", &expect![[""]]);
-}
-
-#[test]
 fn block_delete_levels() {
     check(
         "fanuc-mill",
