@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Axis, Event, Position, TravelKind};
-use gcheck_geometry::Mm;
+use gcheck_geometry::{Mm, Plane};
 
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
@@ -135,6 +135,10 @@ impl PathRule for PlungeGoesNowhere {
             return;
         }
         let before = self.before.take();
+        // There a program may turn: Z is no depth.
+        if cx.state().plane(cx.model) == Some(Plane::Zx) {
+            return;
+        }
         let z_of = |position: &Position| position.get(Axis::Z);
         match event {
             Event::Travel(travel) if travel.expanded => {}

@@ -2,7 +2,7 @@
 
 use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Event, Fact};
-use gcheck_geometry::Mm;
+use gcheck_geometry::{Mm, Plane};
 
 use crate::boundary::Boundary;
 use crate::memory::{Remembers, remembers};
@@ -95,9 +95,10 @@ impl PathRule for ToolDownAtEnd {
 
 impl ToolDownAtEnd {
     fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // Without Y a program turns.
+        // Without Y, and in the ZX plane, a program turns.
         let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill
-            && cx.survey.letters.contains(Letter::of('Y'));
+            && cx.survey.letters.contains(Letter::of('Y'))
+            && cx.state().plane(cx.model) != Some(Plane::Zx);
         // A probe and a pen go without the spindle, and may end anywhere.
         let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
         let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
