@@ -255,7 +255,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         if block.flags.contains(BlockFlags::TAPE_MARK) {
-            return if at.block == 0 { Outcome::Next } else { Outcome::End(Ending::Tape) };
+            return if self.opens_tape(at, block) { Outcome::Next } else { Outcome::End(Ending::Tape) };
         }
         self.observer.before(self.origin, state);
         self.flow = None;
@@ -266,6 +266,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             self.observer.after(self.origin, state);
         }
         outcome
+    }
+
+    /// Is this `%` the opening one? What the control reads ends with the closing one, and a note may stand in front of the
+    /// opening one: `(PART 12)`.
+    fn opens_tape(&self, at: At, block: &Block) -> bool {
+        let is_last = |file: &ProgramFile<'_>| at.block + 1 >= file.loaded.outline().blocks();
+        let closes = self.program.file(at.file).is_none_or(|file| is_last(&file));
+        at.block == 0 || block.letters.is_empty() && !closes
     }
 
     fn run_block(

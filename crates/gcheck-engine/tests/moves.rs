@@ -186,3 +186,15 @@ fn repeats_of_a_cycle_go_round_by_a_polar_angle() {
             at x0 y-10 z2"#]],
     );
 }
+
+#[test]
+fn a_note_in_front_of_the_tape_is_no_program() {
+    let text = |head: &str| format!("{head}%\nO1\nG21 G90 G54\nG0 X1.\n%\nG0 X2.\nM30\n");
+    for head in ["", "\n", "(PART 12)\n", "(PART 12)\n(REV B)\n"] {
+        let shown = shown_on("haas-mill", "XYZ", &machine(10.0), &text(head));
+        expect![[r#"
+            rapid x1 y0 z0
+            at x1 y0 z0"#]]
+        .assert_eq(&shown);
+    }
+}

@@ -143,11 +143,11 @@ fn codes_are_resolved_and_numbers_keep_their_shape() {
         "linuxcnc",
         "g38.2 z-1. 5 f 100\n",
         &expect![[r#"
-        "g38.2 z-1. 5 f 100" BlockFlags(CODE)
-          G = 38.2 (1 decimals)  G38.2
-          Z = -1.5 (1 decimals)
-          F = 100
-    "#]],
+            "g38.2 z-1. 5 f 100" BlockFlags(CODE | DIVIDED_NUMBER)
+              G = 38.2 (1 decimals)  G38.2
+              Z = -1.5 (1 decimals)
+              F = 100
+        "#]],
     );
 }
 
@@ -251,18 +251,18 @@ fn blanks_do_not_count_in_numbers_and_arguments() {
         "linuxcnc",
         "g 0 x 1 . 5 y - 2 z . 5\nX1 . 5 Y[1 0 + . 5] Z[2 * * 3]\no1 call [1] (between) [2 .] (behind)\nX1 . 5 . 5\n",
         &expect![[r#"
-            "g 0 x 1 . 5 y - 2 z . 5" BlockFlags(CODE)
+            "g 0 x 1 . 5 y - 2 z . 5" BlockFlags(CODE | DIVIDED_NUMBER)
               G = 0  G0
               X = 1.5 (1 decimals)
               Y = -2
               Z = 0.5 (1 decimals)
-            "X1 . 5 Y[1 0 + . 5] Z[2 * * 3]" BlockFlags(EXPRESSION)
+            "X1 . 5 Y[1 0 + . 5] Z[2 * * 3]" BlockFlags(EXPRESSION | DIVIDED_NUMBER)
               X = 1.5 (1 decimals)
               Y = 10 0.5 add
               Z = 2 3 power
             "o1 call [1] (between) [2 .] (behind)" BlockFlags(STATEMENT | COMMENT)
               "o1 call [1] (between) [2 .]": Number(1) CALL ["1", "2"]
-            "X1 . 5 . 5" BlockFlags(ERROR)
+            "X1 . 5 . 5" BlockFlags(ERROR | DIVIDED_NUMBER)
               X = 15.5 (1 decimals)
               ! MalformedNumber "X1 . 5 . 5"
         "#]],
@@ -271,9 +271,9 @@ fn blanks_do_not_count_in_numbers_and_arguments() {
         "haas-mill",
         "X1 . 5\n",
         &expect![[r#"
-        "X1 . 5" BlockFlags(0x0)
-          X = 1.5 (1 decimals)
-    "#]],
+            "X1 . 5" BlockFlags(DIVIDED_NUMBER)
+              X = 1.5 (1 decimals)
+        "#]],
     );
 }
 

@@ -702,19 +702,19 @@ fn bad_input() {
         both modes, fanuc-mill: warning[two-codes-of-one-group] warning[feed-implausible]
         helix without centre, generic-mill: warning[arc-without-centre]
         helix without centre, haas-mill: error[arc-without-centre]
-        helix without centre, fanuc-mill: warning[arc-without-centre]
+        helix without centre, fanuc-mill: warning[arc-without-centre] info[tool-down-at-end]
         helix of a zero radius, generic-mill: warning[zero-radius-arc]
         helix of a zero radius, haas-mill: warning[zero-radius-arc]
         helix of a zero radius, fanuc-mill: warning[zero-radius-arc]
-        helix of an unknown radius, generic-mill: 
-        helix of an unknown radius, haas-mill: 
-        helix of an unknown radius, fanuc-mill: 
+        helix of an unknown radius, generic-mill: info[tool-down-at-end]
+        helix of an unknown radius, haas-mill: info[tool-down-at-end]
+        helix of an unknown radius, fanuc-mill: info[tool-down-at-end]
         helix to an unknown height, generic-mill: 
         helix to an unknown height, haas-mill: 
         helix to an unknown height, fanuc-mill: 
-        helix with the height twice, generic-mill: warning[word-given-twice]
-        helix with the height twice, haas-mill: warning[word-given-twice]
-        helix with the height twice, fanuc-mill: warning[word-given-twice]
+        helix with the height twice, generic-mill: warning[word-given-twice] info[tool-down-at-end]
+        helix with the height twice, haas-mill: warning[word-given-twice] info[tool-down-at-end]
+        helix with the height twice, fanuc-mill: warning[word-given-twice] info[tool-down-at-end]
         dwell without a time, generic-mill: 
         dwell without a time, haas-mill: warning[required-word-missing]
         dwell without a time, fanuc-mill: 

@@ -157,15 +157,6 @@ mod tests {
     fn words_of_a_subprogram_in_the_file_are_none_of_the_cycles() {
         check_rule(
             &RULE,
-            "fanuc-mill",
-            "O1\nG21 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z10.\nM98 P2\nG82 Z-5. P300 F50.\nG80\nM30\nO2\nG2 X5. R2.5 F50.\nG0 X0.\nM99\n",
-            &expect![[r#"
-                6 | G82 Z-5. P300 F50.
-                  | ^^^ error[cycle-word-missing] canned cycle without `R` (`G82`)
-            "#]],
-        );
-        check_rule(
-            &RULE,
             "linuxcnc",
             "o1 sub\nG4 P1\no1 endsub\nG21 G90 G0 X0 Y0 Z10\nG82 X10 Z-5 R2 F100\nM2\n",
             &expect![[r#"

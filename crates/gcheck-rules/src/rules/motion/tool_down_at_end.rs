@@ -41,7 +41,7 @@ declare_rule! {
     /// ```
     rule "tool-down-at-end" in "motion" {
         summary: "program ends with the tool below the zero of the part",
-        severity: Warning,
+        severity: Info,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -133,7 +133,7 @@ mod tests {
             "G21 G90 G54 S900 M3\nG0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nM5\nM2\n",
             &expect![[r#"
                 7 | M2
-                  | ^^ warning[tool-down-at-end] the program ends with the tool below the zero of the part
+                  | ^^ info[tool-down-at-end] the program ends with the tool below the zero of the part
             "#]],
         );
     }

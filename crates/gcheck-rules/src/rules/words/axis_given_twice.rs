@@ -42,7 +42,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     };
     let is_move = cx.codes().all(|(_, code)| {
         let axes = [Letter::of('X'), Letter::of('U'), Letter::of('H')];
-        moves(code.motion())
+        moves(code.motion()) && code.group().modal
             || !code.entry().takes_axes && !axes.iter().any(|axis| code.reads().contains(*axis))
     });
     if !cx.words_are_plain() || !is_move {
