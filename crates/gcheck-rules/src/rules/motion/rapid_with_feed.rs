@@ -1,7 +1,7 @@
 //! A rapid move below the zero of the part that carries a feed.
 
 use gcheck_controls::{Effect, Letter, LetterSet};
-use gcheck_engine::{Axis, Event, Role, TravelKind};
+use gcheck_engine::{Abstract, Axis, Domain, Event, Role, TravelKind};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
@@ -49,6 +49,8 @@ struct RapidWithFeed;
 
 /// Millimetres: heights that differ by less are one, and the surface is this thick.
 const LEVEL: f64 = 0.01;
+/// Millimetres a minute: with this and more, a CAM system says "as fast as it goes": `F9991300.`.
+const NO_CUT: f64 = 100_000.0;
 
 impl PathRule for RapidWithFeed {
     fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -65,6 +67,9 @@ impl PathRule for RapidWithFeed {
         // A height that nobody knows is NaN, and below nothing. Up and out of the part is no cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
         if !is_mill || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
+            return;
+        }
+        if Abstract::known(cx.state().feed()).is_some_and(|feed| feed >= NO_CUT) {
             return;
         }
         let depth = cx.shown(Mm(-to));
@@ -117,6 +122,11 @@ mod tests {
             "G21 G90 G54 G0 X0. Y0. Z5.\nG83 X5. Z-20. R-2. Q5. F90.\nG80\nM30\n",
             &expect![[""]],
         );
+    }
+
+    #[test]
+    fn a_feed_without_measure_is_none() {
+        check_rule(&RULE, "linuxcnc", "G21 G90 G54 G0 X0 Y0 Z5\nZ-12 F9991300\nM2\n", &expect![[""]]);
     }
 
     #[test]
