@@ -102,6 +102,7 @@ impl CycleWordMissing {
         }
         let (name, entry) = (code.number(), code.entry());
         let is = word.map_or("", |word| word.is.as_str());
+        let confidence = word.and_then(|word| word.confidence).unwrap_or(entry.confidence);
         let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == code.effect());
         report.add(
             cx.finding(&META, range, format!("canned cycle without `{letter}` (`{name}`)"))
@@ -115,7 +116,7 @@ impl CycleWordMissing {
                     entry.title, entry.source
                 ))
                 .help(format!("give `{letter}` in the block that begins the cycle"))
-                .at_most(limit(entry.confidence)),
+                .at_most(limit(confidence)),
         );
     }
 }
@@ -135,7 +136,7 @@ mod tests {
             "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
             &expect![[r#"
                 5 | G81 Z-0.5 F5.
-                  | ^^^ error[cycle-word-missing] canned cycle without `R` (`G81`)
+                  | ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
             "#]],
         );
     }
