@@ -183,11 +183,15 @@ impl PathRule for RapidBetweenCuts {
             _ => (None, true),
         };
         let sees = !self.cuts.is_blind() && self.cuts.follows(cx, event);
-        // What compensation puts in at a corner is no move of its own.
-        if !(is_expanded && is_compensated(cx)) {
+        // What compensation puts in at a corner is no move of its own; the strokes of a cycle end what was under way.
+        if is_expanded {
+            if !is_compensated(cx) {
+                (self.at, self.last, self.way) = (programmed, None, None);
+            }
+        } else {
             let (at, last, way) = (self.at.take(), self.last.take(), self.way.take());
             self.at = programmed;
-            if let (Some(from), Some(to)) = (at, programmed.filter(|_| !is_expanded)) {
+            if let (Some(from), Some(to)) = (at, programmed) {
                 match event {
                     Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
                         self.way = self.rapid(cx, [from, to], last, way, sees);
