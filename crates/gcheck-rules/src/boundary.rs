@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect, Ends, Letter};
+use gcheck_controls::{Code, CodeIx, CodeNumber, Effect, Ends, Letter, Machine};
 use gcheck_engine::{Abstract, At, Domain, Ending, Fact, Role, State};
 use gcheck_program::OKeyword;
 
@@ -180,6 +180,19 @@ impl PathCx<'_> {
     pub(crate) fn cancel_of(&self, effect: Effect) -> Option<String> {
         let code = self.scene.control().codes().find(|code| code.effect() == effect)?;
         Some(code.number().to_string())
+    }
+
+    /// A mill, not a lathe.
+    pub(crate) fn is_mill(&self) -> bool {
+        self.scene.control().machine() == Machine::Mill
+    }
+
+    /// Marks where the tool at work was changed in.
+    pub(crate) fn with_tool_change(&self, finding: Finding) -> Finding {
+        match self.trace().set_by(Fact::Tool).and_then(|at| self.range_of(at)) {
+            Some(range) => finding.also(range, "the tool comes here"),
+            None => finding,
+        }
     }
 
     /// How deep in calls the block stands: 1 for the main program.

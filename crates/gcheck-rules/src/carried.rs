@@ -1,63 +1,118 @@
-//! A mode that one tool's work switched on, that the next tool cuts with, and that nothing in the file switches off.
+//! A mode that one tool's work switched on, and that is still on where the next tool cuts or the program ends.
 //!
-//! Knows: where the first tool comes, where a mode was set, what the file can switch. Must not know: any rule.
+//! Knows: where the first tool comes, where a mode was set, what the file can switch. Must not know: any rule; those name their
+//! mode and how it is spoken of.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Fact, Role};
+use gcheck_engine::{At, Ending, Event, Fact, Role};
 
 use crate::boundary::{Boundary, is_before};
-use crate::memory::remembers;
-use crate::{Finding, PathCx, RuleMeta};
+use crate::memory::{Remembers, remembers};
+use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Uses};
 
-/// Looks whether tools cut with a mode of the tool before.
+/// A mode of coordinates that may be left on.
+pub(crate) struct Mode {
+    pub(crate) rule: &'static RuleMeta,
+    pub(crate) role: Role,
+    pub(crate) on: Effect,
+    pub(crate) off: Effect,
+    /// What the next tool cuts with: "the scaling".
+    pub(crate) of_tool: &'static str,
+    /// What is still on at the end: "scaling".
+    pub(crate) at_end: &'static str,
+    /// What is to be switched off: "scaling".
+    pub(crate) switched: &'static str,
+}
+
+/// Looks whether a mode is left on: by tools for the next one, or by the program at its end.
 ///
 /// A mode of the head of the program is meant for all tools, and one that the file switches off somewhere may be meant to
 /// last until there. A mode that begins in the middle of one tool's work and never ends is meant for that tool.
+pub(crate) struct LeftOn {
+    mode: &'static Mode,
+    carried: Carried,
+}
+
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct Carried {
+struct Carried {
     /// Where the first tool comes.
     first_tool: Option<At>,
     /// One cut speaks for all behind it, and for the end of the program.
-    pub(crate) is_told: bool,
+    is_told: bool,
 }
 
 remembers!(Carried: first_tool);
 
-impl Carried {
-    /// Before a block.
-    pub(crate) fn block(&mut self, cx: &PathCx<'_>) {
-        if self.first_tool.is_none() && cx.boundary() == Some(Boundary::ToolChange) {
-            self.first_tool = Some(cx.origin().at);
-        }
+impl LeftOn {
+    pub(crate) fn new(mode: &'static Mode) -> Self {
+        Self { mode, carried: Carried::default() }
     }
 
-    /// After a cut. The mode is `what`; codes with the effect `off` switch it off.
-    pub(crate) fn cut(
-        &mut self,
-        cx: &PathCx<'_>,
-        rule: &'static RuleMeta,
-        (of, on, off): (Role, Effect, Effect),
-        what: &str,
-    ) -> Option<Finding> {
-        let first_tool = self.first_tool.filter(|_| !self.is_told)?;
-        let code = cx.state().mode(of).only()?;
+    /// The tool cuts with the mode of the tool before.
+    fn at_cut(&self, cx: &PathCx<'_>) -> Option<Finding> {
+        let Mode { rule, role, on, off, of_tool, .. } = *self.mode;
+        let first_tool = self.carried.first_tool.filter(|_| !self.carried.is_told)?;
+        let code = cx.state().mode(role).only()?;
         if !code.is_some() || cx.model.effect(code) != on {
             return None;
         }
-        let (set, changed) = (cx.trace().set_by(Fact::Mode(of))?, cx.trace().set_by(Fact::Tool)?);
+        let (set, changed) = (cx.trace().set_by(Fact::Mode(role))?, cx.trace().set_by(Fact::Tool)?);
         if !is_before(first_tool, set) || !is_before(set, changed) || cx.file_uses(|effect| effect == off) {
             return None;
         }
-        self.is_told = true;
         let (name, cancel) = (cx.name_of(code), cx.cancel_of(off).unwrap_or_default());
         let finding = cx
-            .finding(rule, cx.range(), format!("the tool cuts with {what} of the tool before (`{name}`)"))
+            .finding(rule, cx.range(), format!("the tool cuts with {of_tool} of the tool before (`{name}`)"))
             .label("nothing in the file switches it off")
             .help(format!("switch it off with `{cancel}` where the work of the tool before ends"));
-        let finding = match cx.range_of(changed) {
-            Some(range) => finding.also(range, "the tool comes here"),
-            None => finding,
-        };
-        Some(cx.resting_on(finding, Fact::Mode(of), &format!("`{name}`")))
+        let finding = cx.with_tool_change(finding);
+        Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
+    }
+
+    fn judge_end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Mode { rule, role, on, off, at_end, switched, .. } = *self.mode;
+        if self.carried.is_told {
+            return;
+        }
+        let Some(finding) = cx.left_at_end(rule, role, |effect| effect == on, at_end) else { return };
+        let cancel = cx.cancel_of(off).unwrap_or_default();
+        report.add(
+            finding
+                .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
+                .help(format!("switch {switched} off with `{cancel}` before the program ends"))
+                .fix_if(cx.block_before(Some(&cancel))),
+        );
+    }
+}
+
+impl PathRule for LeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(&mut self.carried)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == self.mode.on)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if self.carried.first_tool.is_none() && cx.boundary() == Some(Boundary::ToolChange) {
+            self.carried.first_tool = Some(cx.origin().at);
+        }
+        if cx.boundary() == Some(Boundary::ProgramEnd) {
+            self.judge_end(cx, report);
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        if let Some(finding) = self.at_cut(cx) {
+            self.carried.is_told = true;
+            report.add(finding);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if cx.ends_at_tape_mark(ending) {
+            self.judge_end(cx, report);
+        }
     }
 }

@@ -11,6 +11,7 @@ mod carried;
 mod check;
 mod context;
 mod contract;
+mod coolant;
 mod evidence;
 mod finding;
 mod five_axis;

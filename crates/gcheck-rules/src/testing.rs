@@ -74,6 +74,16 @@ impl World<'_> {
         world
     }
 
+    /// The same as rules see it.
+    pub(crate) fn scene<'a>(&'a self, dialect: &'a Dialect<'a>) -> Scene<'a> {
+        Scene {
+            dialect,
+            machine: &self.machine,
+            programs: self.programs,
+            control_is_guessed: self.control_is_guessed,
+        }
+    }
+
     /// What one example holds in.
     pub(crate) fn of_example(rule: &RuleMeta, example: &DocExample) -> Self {
         Self { control_is_guessed: example.guessed, ..Self::of_examples(rule) }
@@ -107,12 +117,7 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: world.control_is_guessed,
-    };
+    let scene = world.scene(&dialect);
     let source = SourceText::from(program);
     check(&Job {
         source: &source,

@@ -97,7 +97,18 @@ struct Bench<'a> {
     ahead: usize,
 }
 
-impl Bench<'_> {
+impl<'a> Bench<'a> {
+    fn new(scene: Scene<'a>, selection: &'a Selection) -> Self {
+        Self {
+            scene,
+            selection,
+            suppressions: true,
+            incremental: Incremental::new(),
+            execution: Execution::default(),
+            ahead: 0,
+        }
+    }
+
     fn check(&mut self, text: &str, lines: usize) -> (Outcome, Work) {
         let chunks = cut(text, lines);
         let source = Fresh { chunks: &chunks, scene: self.scene, selection: self.selection };
@@ -214,23 +225,12 @@ fn edit(text: &mut String, dice: &mut Dice, others: &[&str]) -> String {
 fn soak(seed: u64, control: &str, world: &World<'_>, start: &str, others: &[&str], edits: usize) -> Work {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: world.control_is_guessed,
-    };
+    let scene = world.scene(&dialect);
     let selection = everything();
     let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let lines = 1 + dice.roll(3);
-    let mut bench = Bench {
-        scene,
-        selection: &selection,
-        suppressions: world.suppressions,
-        incremental: Incremental::new(),
-        execution: Execution { fuel: 20_000, block_skip: None },
-        ahead: 0,
-    };
+    let execution = Execution { fuel: 20_000, block_skip: None };
+    let mut bench = Bench { suppressions: world.suppressions, execution, ..Bench::new(scene, &selection) };
     let mut text = start.to_owned();
     let mut told = Vec::new();
     let mut all = Work::default();
@@ -280,21 +280,10 @@ fn a_line_put_in_behind_a_subroutine_is_on_the_way_past_it() {
     let control = gcheck_controls::load("linuxcnc").unwrap();
     let dialect = Dialect::new(&control);
     let world = World::default();
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: false,
-    };
+    let scene = world.scene(&dialect);
     let selection = everything();
-    let mut bench = Bench {
-        scene,
-        selection: &selection,
-        suppressions: true,
-        incremental: Incremental::new(),
-        execution: Execution { fuel: 20_000, block_skip: None },
-        ahead: 0,
-    };
+    let execution = Execution { fuel: 20_000, block_skip: None };
+    let mut bench = Bench { execution, ..Bench::new(scene, &selection) };
     let text = |line: &str| {
         format!("G21 G90 G17\no100 sub\no100 endsub\n{line}o200 sub\no200 endsub\no100 call\nM2\n")
     };
@@ -334,25 +323,13 @@ fn cost(change: impl Fn(&mut String)) -> Work {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
     let world = World::default();
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: false,
-    };
+    let scene = world.scene(&dialect);
     let mut selection = everything();
     // These remember every cut.
     selection.disable("rapid-in-material").unwrap();
     selection.disable("rapid-plunge").unwrap();
     selection.disable("rapid-between-cuts").unwrap();
-    let mut bench = Bench {
-        scene,
-        selection: &selection,
-        suppressions: true,
-        incremental: Incremental::new(),
-        execution: Execution::default(),
-        ahead: 0,
-    };
+    let mut bench = Bench::new(scene, &selection);
     let mut text = long_program(20);
     let first = bench.assert_fresh(&text, 7, &|| "at first".to_owned());
     assert!(first.from_the_start == 1 && first.executed > 100, "{first:?}");
@@ -424,12 +401,7 @@ fn work_that_is_given_up_is_taken_up_again() {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
     let world = World::default();
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: false,
-    };
+    let scene = world.scene(&dialect);
     let selection = everything();
     let text = long_program(400);
     let chunks = cut(&text, 7);
@@ -470,12 +442,7 @@ fn the_first_chunks_are_checked_without_the_rest() {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
     let world = World::default();
-    let scene = Scene {
-        dialect: &dialect,
-        machine: &world.machine,
-        programs: world.programs,
-        control_is_guessed: false,
-    };
+    let scene = world.scene(&dialect);
     let selection = everything();
     // Nobody says a feed, at the first tool and at one behind it; one is silenced far away.
     let text = long_program(400)
@@ -515,20 +482,12 @@ fn everything() -> Selection {
 fn what_is_put_in_where_a_segment_begins_is_executed() {
     let control = gcheck_controls::load("linuxcnc").unwrap();
     let dialect = Dialect::new(&control);
-    let machine = crate::MachineFacts::default();
-    let programs = &crate::NoPrograms;
-    let scene = Scene { dialect: &dialect, machine: &machine, programs, control_is_guessed: false };
+    let world = World::default();
+    let scene = world.scene(&dialect);
     let selection = everything();
     let (head, tail) = ("G17 G21 G90 G0 X10 Y0\nG1 X0 F100\nG1 X10\nG2 X10 Y0 I-10\n", "(END)\nG1 X3\nM2\n");
     for lines in 1..5 {
-        let mut bench = Bench {
-            scene,
-            selection: &selection,
-            suppressions: true,
-            incremental: Incremental::new(),
-            execution: Execution::default(),
-            ahead: 0,
-        };
+        let mut bench = Bench::new(scene, &selection);
         bench.assert_fresh(&format!("{head}{tail}"), lines, &|| format!("{lines} lines a chunk"));
         bench.assert_fresh(&format!("{head}X2 Y3\n{tail}"), lines, &|| {
             format!("{lines} lines a chunk, put in")

@@ -6,6 +6,7 @@ use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Axis, Event, Position, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
+use super::rapid_in_material::{LEVEL, SURFACE};
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -110,10 +111,6 @@ enum Way {
 
 /// Programs in which it is found more often have their reasons: a cutter that is fed up step by step.
 const MOST: usize = 2;
-/// Levels that differ by less are one: millimetres.
-const LEVEL: f64 = 1e-4;
-/// Depths above this are the surface of the part: millimetres.
-const SURFACE: f64 = -0.01;
 /// Clearance heights are no higher: millimetres. Cutters that are fed up from below begin deeper.
 const CLEARANCE: f64 = 5.1;
 
@@ -130,7 +127,7 @@ impl PathRule for PlungeGoesNowhere {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+        if !cx.is_mill() {
             cx.enough();
             return;
         }

@@ -6,7 +6,7 @@ use gcheck_controls::Effect;
 use gcheck_engine::{ArcMove, At, Event, Fact, Role, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
-use super::rapid_in_material::{Cuts, cutter_radius, point};
+use super::rapid_in_material::{Cuts, LEVEL, SURFACE, cutter_radius, point};
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -149,10 +149,6 @@ remembers!(Found: bytes, finding);
 const MOST: usize = 2;
 /// Shorter ways say nothing: millimetres.
 const SHORT: f64 = 2.0;
-/// Levels that differ by less are one: millimetres.
-const LEVEL: f64 = 1e-4;
-/// Depths above this are the surface of the part: millimetres.
-const SURFACE: f64 = -0.01;
 /// How far beside its path a cutter clears of which nobody knows how wide it is: millimetres. For suspicions.
 const CLEARS: f64 = 6.35;
 /// Sine of an angle below which two ways go in one direction.
@@ -173,7 +169,7 @@ impl PathRule for RapidBetweenCuts {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+        if !cx.is_mill() {
             cx.enough();
             return;
         }

@@ -83,9 +83,9 @@ const MOST_WAITING: usize = 32;
 /// Shorter ways say nothing: millimetres.
 const SHORT: f64 = 1.0;
 /// Levels that differ by less are one: millimetres.
-const LEVEL: f64 = 1e-4;
+pub(super) const LEVEL: f64 = 1e-4;
 /// Depths above this are the surface of the part: millimetres.
-const SURFACE: f64 = -0.01;
+pub(super) const SURFACE: f64 = -0.01;
 /// How much less high than the highest rapid move a level is to be at depth: millimetres.
 const LIFT: f64 = 0.5;
 
@@ -237,11 +237,10 @@ impl Cuts {
         let jumped = !new_frame
             // Z may count anew when a tool offset comes into effect.
             && matches!((self.last, point(from)), (Some(last), Some(from)) if is_apart(last, from));
-        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
         if frame.is_none()
             || new_frame && !self.list.is_empty()
             || jumped
-            || !is_mill
+            || !cx.is_mill()
             || !cx.is_on_every_path()
         {
             // Cuts of another frame, in another file, or on another path: where they were is not known here.

@@ -48,8 +48,7 @@ impl PathRule for RapidSidewaysAndDown {
         let Event::Travel(travel) = event else { return };
         let letters = cx.origin().letters;
         let is_named = letters.intersects(LetterSet::of("XY")) && letters.intersects(LetterSet::of("Z"));
-        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
-        if !is_named || !is_mill || travel.expanded || travel.kind != TravelKind::Rapid {
+        if !is_named || !cx.is_mill() || travel.expanded || travel.kind != TravelKind::Rapid {
             return;
         }
         let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);

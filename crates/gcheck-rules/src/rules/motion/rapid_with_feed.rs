@@ -59,14 +59,13 @@ impl PathRule for RapidWithFeed {
             return;
         }
         let Event::Travel(travel) = event else { return };
-        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill;
         let is_plain = travel.kind == TravelKind::Rapid
             && !travel.expanded
             && cx.state().effect(Role::Motion, cx.model) == Some(Effect::Rapid);
         let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
         // A height that nobody knows is NaN, and below nothing. Up and out of the part is no cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
-        if !is_mill || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
+        if !cx.is_mill() || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
             return;
         }
         if Abstract::known(cx.state().feed()).is_some_and(|feed| feed >= NO_CUT) {

@@ -136,7 +136,7 @@ fn zero_or_less(cx: &PathCx<'_>) -> bool {
 /// X and Y go to the point while Z stays below the zero of the part.
 fn across(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     let depth = travel.from.get(Axis::Z).filter(|z| *z < -SAME)?;
-    if cx.scene.control().machine() != gcheck_controls::Machine::Mill {
+    if !cx.is_mill() {
         return None;
     }
     let stays = |axis: Axis| (travel.programmed.raw(axis) - travel.from.raw(axis)).abs() < SAME;

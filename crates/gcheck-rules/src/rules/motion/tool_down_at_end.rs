@@ -4,6 +4,7 @@ use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Event, Fact};
 use gcheck_geometry::{Mm, Plane};
 
+use super::rapid_in_material::SURFACE;
 use crate::boundary::Boundary;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
@@ -61,8 +62,6 @@ struct ToolDownAtEnd {
 
 remembers!(ToolDownAtEnd);
 
-/// Millimetres: depths above this are the surface of the part.
-const SURFACE: f64 = -0.01;
 /// How much deeper than the highest rapid move the tool is to stand: millimetres.
 const LIFT: f64 = 0.5;
 
@@ -96,7 +95,7 @@ impl PathRule for ToolDownAtEnd {
 impl ToolDownAtEnd {
     fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         // Without Y, and in the ZX plane, a program turns.
-        let is_mill = cx.scene.control().machine() == gcheck_controls::Machine::Mill
+        let is_mill = cx.is_mill()
             && cx.survey.letters.contains(Letter::of('Y'))
             && cx.state().plane(cx.model) != Some(Plane::Zx);
         // A probe and a pen go without the spindle, and may end anywhere.

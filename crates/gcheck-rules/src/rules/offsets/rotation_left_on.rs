@@ -1,13 +1,11 @@
 //! A rotation that the program leaves on.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Ending, Event, Role};
+use gcheck_engine::Role;
 
-use crate::boundary::Boundary;
-use crate::carried::Carried;
-use crate::memory::{Remembers, remembers};
+use crate::carried::{LeftOn, Mode};
 use crate::meta::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Run, Watch};
 
 declare_rule! {
     /// The rotation of coordinates is still on where the program ends, or the next tool cuts with it and nothing in the
@@ -60,59 +58,20 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
-            make: || Box::new(RotationLeftOn::default()),
+            make: || Box::new(LeftOn::new(&MODE)),
         },
     }
 }
 
-#[derive(Clone, Default, PartialEq)]
-struct RotationLeftOn {
-    carried: Carried,
-}
-
-remembers!(RotationLeftOn: carried);
-
-impl PathRule for RotationLeftOn {
-    fn memory(&mut self) -> Remembers<'_> {
-        Remembers::All(self)
-    }
-
-    fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(|effect| effect == Effect::RotationOn)
-    }
-
-    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        self.carried.block(cx);
-        if cx.boundary() == Some(Boundary::ProgramEnd) && !self.carried.is_told {
-            judge(cx, report);
-        }
-    }
-
-    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
-        let mode = (Role::Rotation, Effect::RotationOn, Effect::RotationOff);
-        if let Some(finding) = self.carried.cut(cx, &META, mode, "the rotation") {
-            report.add(finding);
-        }
-    }
-
-    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) && !self.carried.is_told {
-            judge(cx, report);
-        }
-    }
-}
-
-fn judge(cx: &PathCx<'_>, report: &mut Report<'_>) {
-    let is_on = |effect| effect == Effect::RotationOn;
-    let Some(finding) = cx.left_at_end(&META, Role::Rotation, is_on, "the rotation") else { return };
-    let cancel = cx.cancel_of(Effect::RotationOff).unwrap_or_default();
-    report.add(
-        finding
-            .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
-            .help(format!("switch the rotation off with `{cancel}` before the program ends"))
-            .fix_if(cx.block_before(Some(&cancel))),
-    );
-}
+static MODE: Mode = Mode {
+    rule: &META,
+    role: Role::Rotation,
+    on: Effect::RotationOn,
+    off: Effect::RotationOff,
+    of_tool: "the rotation",
+    at_end: "the rotation",
+    switched: "the rotation",
+};
 
 #[cfg(test)]
 mod tests {

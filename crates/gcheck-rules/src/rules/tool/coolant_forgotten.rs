@@ -1,9 +1,10 @@
 //! Coolant that is switched off for a tool that never had it on.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Coolant, Event, Fact, TravelKind};
+use gcheck_engine::Event;
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
+use crate::coolant::CoolantWatch;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -56,10 +57,7 @@ declare_rule! {
 
 #[derive(Clone, Default, PartialEq)]
 struct CoolantForgotten {
-    /// Mist, flood, through the tool.
-    on: [bool; 3],
-    /// The tool has not cut yet.
-    is_new: bool,
+    coolant: CoolantWatch,
     /// The first cut of the tool at work, if it was dry and coolant was not spoken of since.
     dry: Option<Finding>,
     /// Tools that cut with coolant.
@@ -88,19 +86,13 @@ impl PathRule for CoolantForgotten {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+        let was_on = self.coolant.is_on();
+        self.coolant.changed(event);
         match event {
-            Event::Coolant { kind, on } => {
-                let was_on = self.on.contains(&true);
-                let [mist, flood, through] = &mut self.on;
-                *match kind {
-                    Coolant::Mist => mist,
-                    Coolant::Flood => flood,
-                    Coolant::Through => through,
-                } = *on;
+            Event::Coolant { on: true, .. } => self.dry = None,
+            Event::Coolant { on: false, .. } => {
                 let is_off = |effect| effect == Effect::CoolantOff;
-                if *on {
-                    self.dry = None;
-                } else if !was_on
+                if !was_on
                     && cx.has_effect(is_off)
                     && let Some(finding) = self.dry.take()
                 {
@@ -112,7 +104,6 @@ impl PathRule for CoolantForgotten {
                 }
             }
             Event::ToolChange(_) => {
-                self.is_new = true;
                 self.is_last = false;
                 self.silent += usize::from(self.dry.take().is_some());
             }
@@ -121,24 +112,20 @@ impl PathRule for CoolantForgotten {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if !self.is_new || !(is_cut(cx, event) || is_thread(event)) {
+        if !self.coolant.is_first_cut(event, is_cut(cx, event)) {
             return;
         }
-        self.is_new = false;
-        if self.on.contains(&true) {
+        if self.coolant.is_on() {
             self.wet += 1;
             return;
         }
         let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
         let off = cx.cancel_of(Effect::CoolantOff).unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}` before its `{off}`)");
-        let mut finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
+        let finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
             "switch the coolant on with `{on}`, or take the `{off}` out where the tool cuts dry"
         ));
-        if let Some(range) = cx.trace().set_by(Fact::Tool).and_then(|at| cx.range_of(at)) {
-            finding = finding.also(range, "the tool comes here");
-        }
-        self.dry = Some(finding);
+        self.dry = Some(cx.with_tool_change(finding));
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
@@ -153,11 +140,6 @@ impl PathRule for CoolantForgotten {
             report.add(finding.note(others));
         }
     }
-}
-
-/// A cut that the spindle leads.
-pub(super) fn is_thread(event: &Event) -> bool {
-    matches!(event, Event::Travel(travel) if travel.kind == TravelKind::Thread)
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! A tool without coolant among tools that have it.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Coolant, Event};
+use gcheck_engine::Event;
 
 use super::super::spindle::spindle_stopped_while_cutting::is_cut;
-use super::coolant_forgotten::is_thread;
+use crate::coolant::CoolantWatch;
 use crate::memory::{Remembers, remembers};
 use crate::meta::declare_rule;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
@@ -59,10 +59,7 @@ declare_rule! {
 
 #[derive(Clone, Default, PartialEq)]
 struct ToolCutsDry {
-    /// Mist, flood, through the tool.
-    on: [bool; 3],
-    /// The tool has not cut yet.
-    is_new: bool,
+    coolant: CoolantWatch,
     wet: usize,
     dry: Vec<Finding>,
 }
@@ -79,38 +76,23 @@ impl PathRule for ToolCutsDry {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        match event {
-            Event::Coolant { kind, on } => {
-                let [mist, flood, through] = &mut self.on;
-                *match kind {
-                    Coolant::Mist => mist,
-                    Coolant::Flood => flood,
-                    Coolant::Through => through,
-                } = *on;
-            }
-            Event::ToolChange(_) => self.is_new = true,
-            _ => {}
-        }
+        self.coolant.changed(event);
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if !self.is_new || !(is_cut(cx, event) || is_thread(event)) {
+        if !self.coolant.is_first_cut(event, is_cut(cx, event)) {
             return;
         }
-        self.is_new = false;
-        if self.on.contains(&true) {
+        if self.coolant.is_on() {
             self.wet += 1;
             return;
         }
         let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}`)");
-        let mut finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
+        let finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
             "switch the coolant on with `{on}`, or say in a suppression why the tool cuts dry"
         ));
-        if let Some(range) = cx.trace().set_by(gcheck_engine::Fact::Tool).and_then(|at| cx.range_of(at)) {
-            finding = finding.also(range, "the tool comes here");
-        }
-        self.dry.push(finding);
+        self.dry.push(cx.with_tool_change(finding));
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
