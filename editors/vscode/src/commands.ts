@@ -6,25 +6,26 @@ import * as vscode from "vscode";
 
 import type { ToolpathPreview } from "./preview/panel";
 import type { Server } from "./server";
+import { type State, stateText } from "./state";
 
-/** Pages that `gcheck explain` prints, as read-only documents. */
-const EXPLAIN = "gcheck-explain";
+/** What the server says of a place, as read-only documents: closing them asks nothing. */
+const ANSWER = "gcheck-answer";
 
 export function registerCommands(server: Server, preview: ToolpathPreview): vscode.Disposable[] {
+  const answers = new Answers();
   const command = (name: string, run: (...args: never[]) => unknown) =>
     vscode.commands.registerCommand(`gcheck.${name}`, run);
   return [
-    command("restart", () => server.restart()),
-    command("showOutput", () => server.showOutput()),
+    answers,
     command("showToolpath", () => preview.show()),
+    command("showState", () => showState(server, answers)),
     command("selectControl", () => selectControl(server)),
-    command("explainRule", (subject?: string) => explain(server, subject)),
-    command("stateAtCursor", () => showAnswer(server, "gcheck/stateAt", "state")),
-    command("showSyntaxTree", () => showAnswer(server, "gcheck/syntaxTree", "syntax tree")),
+    command("explain", (subject?: string, control?: string) => explain(server, answers, subject, control)),
     command("fixAll", () => vscode.commands.executeCommand("editor.action.fixAll")),
-    vscode.workspace.registerTextDocumentContentProvider(EXPLAIN, {
-      provideTextDocumentContent: (uri) => explanation(server, uri),
-    }),
+    command("showSyntaxTree", () => showSyntaxTree(server, answers)),
+    command("restartServer", () => server.restart()),
+    command("showOutput", () => server.showOutput()),
+    vscode.workspace.registerTextDocumentContentProvider(ANSWER, answers),
   ];
 }
 
@@ -35,15 +36,14 @@ interface Control {
 
 async function selectControl(server: Server): Promise<void> {
   const document = vscode.window.activeTextEditor?.document;
-  const listed = server.run(["controls", "--output-format", "json"]);
-  if (listed === undefined) {
-    void vscode.window.showErrorMessage("gcheck does not answer; see its output.");
+  const controls = await server.request<Control[]>("gcheck/controls", {});
+  if (controls === undefined) {
+    await doesNotRun(server);
     return;
   }
-  const controls = JSON.parse(listed) as Control[];
   const picked = await vscode.window.showQuickPick(
     controls.map((control) => ({ label: control.name, description: control.title })),
-    { title: "Control", placeHolder: "Which control runs the program?" },
+    { title: "Control", placeHolder: "Which control runs the program?", matchOnDescription: true },
   );
   if (picked === undefined) {
     return;
@@ -52,13 +52,13 @@ async function selectControl(server: Server): Promise<void> {
     ...(document?.languageId === "gcode"
       ? [{ label: "This program", description: "a comment in its first lines", place: "comment" as const }]
       : []),
-    { label: "Programs without one", description: "the setting gcheck.control", place: "setting" as const },
+    { label: "All programs", description: "the setting gcheck.control", place: "setting" as const },
   ];
   const where = await vscode.window.showQuickPick(places, { title: "For which programs?" });
   if (where?.place === "comment" && document !== undefined) {
     await server.request("workspace/executeCommand", {
       command: "gcheck.setControl",
-      arguments: [server.address(document).uri, picked.label],
+      arguments: [{ uri: server.address(document).uri, control: picked.label }],
     });
   } else if (where?.place === "setting") {
     const target =
@@ -69,22 +69,40 @@ async function selectControl(server: Server): Promise<void> {
   }
 }
 
-async function explain(server: Server, given?: string): Promise<void> {
-  const subject = given ?? (await ask());
-  if (subject === undefined || subject.trim() === "") {
-    return;
+/** Says that there is nobody to answer, and offers to start the server. */
+async function doesNotRun(server: Server): Promise<void> {
+  const choice = await vscode.window.showErrorMessage("The gcheck server does not run.", "Restart", "Show Output");
+  if (choice === "Restart") {
+    await server.restart();
+  } else if (choice === "Show Output") {
+    server.showOutput();
   }
-  const folder = vscode.window.activeTextEditor?.document.uri.fsPath;
-  const query = folder === undefined ? "" : path.dirname(folder);
-  const uri = vscode.Uri.from({ scheme: EXPLAIN, path: `${subject.trim()}.md`, query });
-  if ((await explanation(server, uri)) === undefined) {
-    void vscode.window.showInformationMessage(`gcheck knows no rule or code "${subject}".`);
-    return;
-  }
-  await vscode.commands.executeCommand("markdown.showPreviewToSide", uri);
 }
 
-/** Asks what to explain; what stands at the cursor is the first guess. */
+/** Shows all about a rule, or about a code as a control reads it: that of the active program where none is named. */
+async function explain(server: Server, answers: Answers, given?: string, control?: string): Promise<void> {
+  const subject = (given ?? (await ask()))?.trim();
+  if (subject === undefined || subject === "") {
+    return;
+  }
+  if (!server.isRunning) {
+    await doesNotRun(server);
+    return;
+  }
+  const document = vscode.window.activeTextEditor?.document;
+  const about =
+    control === undefined && document?.languageId === "gcode"
+      ? { subject, textDocument: server.address(document) }
+      : { subject, control };
+  const page = await server.request<string>("gcheck/explain", about);
+  if (page === undefined) {
+    void vscode.window.showInformationMessage(`gcheck knows no rule and no code "${subject}".`);
+    return;
+  }
+  await vscode.commands.executeCommand("markdown.showPreviewToSide", answers.put(`${subject}.md`, page));
+}
+
+/** Asks what to explain; the rule of the finding at the cursor, or the word there, is the first guess. */
 async function ask(): Promise<string | undefined> {
   const editor = vscode.window.activeTextEditor;
   const at = editor?.selection.active;
@@ -95,26 +113,68 @@ async function ask(): Promise<string | undefined> {
   return vscode.window.showInputBox({ title: "Explain", prompt: "A rule or a code, such as G143", value });
 }
 
-async function explanation(server: Server, uri: vscode.Uri): Promise<string | undefined> {
-  return server.run(["explain", uri.path.replace(/\.md$/, "")], uri.query === "" ? undefined : uri.query);
+async function showState(server: Server, answers: Answers): Promise<void> {
+  const editor = vscode.window.activeTextEditor;
+  const state = editor && (await askAtCursor<State>(server, editor, "gcheck/stateAt"));
+  if (editor !== undefined && state !== undefined) {
+    const block = editor.document.lineAt(Math.min(state.line, editor.document.lineCount - 1)).text;
+    await answers.show(`State in ${path.basename(editor.document.fileName)}`, stateText(state, block));
+  }
 }
 
-/** Asks the server about the cursor's place and shows what it says. */
-async function showAnswer(server: Server, method: string, what: string): Promise<void> {
+async function showSyntaxTree(server: Server, answers: Answers): Promise<void> {
   const editor = vscode.window.activeTextEditor;
-  if (editor === undefined) {
-    return;
+  const tree = editor && (await askAtCursor<string>(server, editor, "gcheck/syntaxTree"));
+  if (editor !== undefined && tree !== undefined) {
+    await answers.show(`Syntax Tree of ${path.basename(editor.document.fileName)}`, tree);
   }
-  const answer = await server.request<unknown>(method, {
+}
+
+/** Asks the server about the cursor's place; says so where it has no answer. */
+async function askAtCursor<T>(server: Server, editor: vscode.TextEditor, method: string): Promise<T | undefined> {
+  if (!server.isRunning) {
+    await doesNotRun(server);
+    return undefined;
+  }
+  const answer = await server.request<T>(method, {
     textDocument: server.address(editor.document),
-    position: editor.selection.active,
+    position: { line: editor.selection.active.line, character: editor.selection.active.character },
   });
   if (answer === undefined) {
-    void vscode.window.showInformationMessage(`gcheck has no ${what} for this place.`);
-    return;
+    void vscode.window.showInformationMessage("No path of the program comes to this line.");
   }
-  const isText = typeof answer === "string";
-  const content = isText ? answer : JSON.stringify(answer, undefined, 2);
-  const document = await vscode.workspace.openTextDocument({ content, language: isText ? "plaintext" : "json" });
-  await vscode.window.showTextDocument(document, { viewColumn: vscode.ViewColumn.Beside, preview: true });
+  return answer;
+}
+
+/** Pages with what the server said; a page of the same title takes the place of the one before. */
+class Answers implements vscode.TextDocumentContentProvider, vscode.Disposable {
+  private readonly texts = new Map<string, string>();
+  private readonly changed = new vscode.EventEmitter<vscode.Uri>();
+  readonly onDidChange = this.changed.event;
+
+  dispose(): void {
+    this.changed.dispose();
+  }
+
+  provideTextDocumentContent(uri: vscode.Uri): string {
+    return this.texts.get(uri.path) ?? "";
+  }
+
+  /** Keeps a page, and gives its address. */
+  put(title: string, text: string): vscode.Uri {
+    const uri = vscode.Uri.from({ scheme: ANSWER, path: title });
+    this.texts.set(uri.path, text);
+    this.changed.fire(uri);
+    return uri;
+  }
+
+  /** Shows a page beside the program. */
+  async show(title: string, text: string): Promise<void> {
+    const document = await vscode.workspace.openTextDocument(this.put(title, text));
+    await vscode.window.showTextDocument(document, {
+      viewColumn: vscode.ViewColumn.Beside,
+      preview: true,
+      preserveFocus: true,
+    });
+  }
 }

@@ -10,6 +10,7 @@ import { ToolpathPreview } from "./preview/panel";
 /** What tests reach in. */
 export interface Api {
   server: Server;
+  status: ControlStatus;
   preview: ToolpathPreview;
 }
 
@@ -19,5 +20,5 @@ export async function activate(context: vscode.ExtensionContext): Promise<Api> {
   const preview = new ToolpathPreview(context, server);
   context.subscriptions.push(server, status, preview, ...registerCommands(server, preview));
   await server.start();
-  return { server, preview };
+  return { server, status, preview };
 }

@@ -1,6 +1,5 @@
 // The language server's process: where it is found, how it is started again.
 
-import { spawnSync } from "node:child_process";
 import * as fs from "node:fs";
 import * as path from "node:path";
 
@@ -16,7 +15,19 @@ export interface Status {
   title: string;
   /** How it was chosen: `configuration`, `option`, `comment`, `detected` or `default`. */
   source: string;
+  /** What made it so: a comment, a file. */
+  because: string | null;
+  /** The configuration file. */
+  configuration: string | null;
+  /** Why the program is not checked. */
+  problem: string | null;
 }
+
+/** The command that hovers link to. */
+const EXPLAIN = "gcheck.explain";
+
+/** Is never cancelled. */
+const NEVER = new vscode.CancellationTokenSource().token;
 
 export class Server implements vscode.Disposable {
   private readonly output = vscode.window.createOutputChannel("gcheck");
@@ -24,6 +35,7 @@ export class Server implements vscode.Disposable {
   private readonly startedEmitter = new vscode.EventEmitter<void>();
   private client: LanguageClient | undefined;
   private program: string | undefined;
+  private readonly known = new Map<string, Status>();
 
   /** The server says which control reads a program. */
   readonly onStatus = this.statusEmitter.event;
@@ -38,6 +50,7 @@ export class Server implements vscode.Disposable {
         }
       }),
       vscode.workspace.onDidGrantWorkspaceTrust(() => void this.restart()),
+      vscode.workspace.onDidCloseTextDocument((document) => this.known.delete(document.uri.toString())),
     );
   }
 
@@ -69,10 +82,22 @@ export class Server implements vscode.Disposable {
       ],
       outputChannel: this.output,
       synchronize: { configurationSection: "gcheck" },
-      markdown: { isTrusted: false, supportHtml: false },
+      // Of what a hover says, nothing but this may be run by a click.
+      markdown: { isTrusted: { enabledCommands: [EXPLAIN] }, supportHtml: false },
     };
     const client = new LanguageClient("gcheck", "gcheck", run, options);
-    client.onNotification("gcheck/status", (status: Status) => this.statusEmitter.fire(status));
+    client.registerFeature({
+      fillClientCapabilities(capabilities) {
+        capabilities.experimental = { ...capabilities.experimental, gcheck: { explainCommand: EXPLAIN } };
+      },
+      initialize: () => undefined,
+      getState: () => ({ kind: "static" }),
+      clear: () => undefined,
+    });
+    client.onNotification("gcheck/status", (status: Status) => {
+      this.known.set(vscode.Uri.parse(status.uri).toString(), status);
+      this.statusEmitter.fire(status);
+    });
     this.client = client;
     try {
       await client.start();
@@ -106,21 +131,22 @@ export class Server implements vscode.Disposable {
   }
 
   /** Asks the server; `undefined` when it does not run or has no answer. */
-  async request<T>(method: string, parameters: unknown, token?: vscode.CancellationToken): Promise<T | undefined> {
+  async request<T>(
+    method: string,
+    parameters: object,
+    token: vscode.CancellationToken = NEVER,
+  ): Promise<T | undefined> {
     if (this.client === undefined || !this.isRunning) {
       return undefined;
     }
+    // Without a token the client takes what is `undefined` for a second parameter, and sends a list.
     const answer: T | null = await this.client.sendRequest(method, parameters, token);
     return answer ?? undefined;
   }
 
-  /** Runs the command line and gives what it prints; `undefined` when it fails. */
-  run(args: string[], folder?: string): string | undefined {
-    if (this.program === undefined) {
-      return undefined;
-    }
-    const result = spawnSync(this.program, args, { cwd: folder, encoding: "utf8", timeout: 10_000 });
-    return result.status === 0 ? result.stdout : undefined;
+  /** What the server said last of a program's control; `undefined` where it said nothing. */
+  statusOf(document: vscode.TextDocument): Status | undefined {
+    return this.known.get(document.uri.toString());
   }
 
   /** A document's address as the protocol writes it. */

@@ -1,24 +1,36 @@
 // The item of the status bar that says which control reads the program.
 
+import * as path from "node:path";
+
 import * as vscode from "vscode";
 
 import type { Server, Status } from "./server";
 
-const SOURCES: Record<string, string> = {
-  configuration: "named by gcheck.toml",
-  option: "named by the settings",
-  comment: "named by a comment of the program",
-  detected: "guessed from the program",
-  default: "nobody named one",
-};
+/** How the control was chosen, in words. */
+function how(status: Status): string {
+  const file = status.configuration === null ? "gcheck.toml" : path.basename(status.configuration);
+  switch (status.source) {
+    case "configuration":
+      return `named by ${file}`;
+    case "option":
+      return "named by the settings";
+    case "comment":
+      return "named by a comment of the program";
+    case "detected":
+      return status.because === null ? "guessed from the program" : `guessed from the program: ${status.because}`;
+    case "default":
+      return "a guess: nothing in the program names one";
+    default:
+      return status.source;
+  }
+}
 
 export class ControlStatus implements vscode.Disposable {
   private readonly item = vscode.languages.createLanguageStatusItem("gcheck.control", { language: "gcode" });
   private readonly bar = vscode.window.createStatusBarItem("gcheck.control", vscode.StatusBarAlignment.Right, 90);
-  private readonly known = new Map<string, Status>();
   private readonly subscriptions: vscode.Disposable[];
 
-  constructor(server: Server) {
+  constructor(private readonly server: Server) {
     this.item.name = "Control";
     this.item.command = { command: "gcheck.selectControl", title: "Change" };
     this.bar.name = "gcheck: control";
@@ -26,12 +38,8 @@ export class ControlStatus implements vscode.Disposable {
     this.subscriptions = [
       this.item,
       this.bar,
-      server.onStatus((status) => {
-        this.known.set(vscode.Uri.parse(status.uri).toString(), status);
-        this.show();
-      }),
+      server.onStatus(() => this.show()),
       vscode.window.onDidChangeActiveTextEditor(() => this.show()),
-      vscode.workspace.onDidCloseTextDocument((document) => this.known.delete(document.uri.toString())),
     ];
     this.show();
   }
@@ -42,18 +50,29 @@ export class ControlStatus implements vscode.Disposable {
     }
   }
 
-  private show(): void {
+  /** What the bar says: its text and what a pointer on it shows; `undefined` where it is hidden. For tests. */
+  get shown(): { text: string; tooltip: string } | undefined {
+    const status = this.current();
+    return status && { text: this.bar.text, tooltip: String(this.bar.tooltip) };
+  }
+
+  private current(): Status | undefined {
     const document = vscode.window.activeTextEditor?.document;
-    const status = document && this.known.get(document.uri.toString());
-    if (document?.languageId !== "gcode" || status === undefined) {
+    return document?.languageId === "gcode" ? this.server.statusOf(document) : undefined;
+  }
+
+  private show(): void {
+    const status = this.current();
+    if (status === undefined) {
       this.bar.hide();
       return;
     }
-    const how = SOURCES[status.source] ?? status.source;
+    const isBroken = status.problem !== null;
     this.item.text = status.control;
-    this.item.detail = how;
-    this.bar.text = `$(circuit-board) ${status.control}`;
-    this.bar.tooltip = `${status.title}: ${how}. Click to change.`;
+    this.item.detail = status.problem ?? how(status);
+    this.item.severity = isBroken ? vscode.LanguageStatusSeverity.Error : vscode.LanguageStatusSeverity.Information;
+    this.bar.text = isBroken ? "$(error) not checked" : `$(circuit-board) ${status.control}`;
+    this.bar.tooltip = status.problem ?? `${status.title}: ${how(status)}. Click to change.`;
     this.bar.show();
   }
 }

@@ -4,7 +4,9 @@
 //   node test/run.mjs TOOLS GCHECK [PICTURES]
 //
 // `node build.mjs --production --tests` comes before. TOOLS holds node_modules with code-server and playwright-core; GCHECK
-// is the program that is packed; pictures go to PICTURES. CHROMIUM names the browser when it is not /usr/bin/chromium.
+// is the program that is packed; pictures go to PICTURES. Variables of the environment: CHROMIUM names the browser when it
+// is not /usr/bin/chromium; GCHECK_TYPING=all types all programs, not some; GCHECK_TESTS=PATTERN runs
+// the tests whose suite and name fit, such as `commands: Show`.
 
 import { spawn, spawnSync } from "node:child_process";
 import * as fs from "node:fs";
@@ -19,11 +21,19 @@ const extension = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "..
 const require = createRequire(path.join(tools, "package.json"));
 const { chromium } = require("playwright-core");
 const vscode = path.join(tools, "node_modules/code-server/lib/vscode");
+/** Minutes after which something is stuck: typing all programs as slowly as people do takes most of an hour. */
+const PATIENCE = process.env.GCHECK_TYPING === "all" ? 90 : 20;
 
 const home = fs.mkdtempSync(path.join(os.tmpdir(), "gcheck-vscode-"));
 const installed = path.join(home, "extensions");
+const answers = path.join(home, "answers");
+fs.mkdirSync(answers);
+const environment = {
+  ...process.env,
+  GCHECK_ANSWERS: answers,
+  GCHECK_FIXTURES: path.resolve(extension, "../../fixtures"),
+};
 // Nothing but the package tells where a server is.
-const environment = { ...process.env };
 delete environment.GCHECK_PATH;
 
 let said = "";
@@ -136,13 +146,77 @@ async function clickPath() {
   }
 }
 
-/** What tests ask of the runner, by lines in the log. */
-async function asked(line) {
+/** Presses keys with a pause after each, as long as somebody takes who types. */
+async function press({ keys, delay: [least, most] }) {
+  // The same pauses in each run, and no two alike.
+  let seed = 1;
+  for (const key of keys) {
+    await (key.length === 1 ? page.keyboard.type(key) : page.keyboard.press(key));
+    seed = (seed * 48_271) % 2_147_483_647;
+    await new Promise((resolve) => setTimeout(resolve, least + (seed % (most - least + 1))));
+  }
+}
+
+/** What the workbench shows beside the text: the rows of a list, the help for a block, a hover, a message. */
+async function widgets() {
+  return page.evaluate(() => {
+    const seen = (selector) =>
+      [...document.querySelectorAll(selector)].filter((element) => element.getClientRects().length > 0);
+    const text = (selector) => seen(selector).map((element) => element.innerText).join("\n");
+    return {
+      rows: seen(".suggest-widget.visible .monaco-list-row").map((row) => row.getAttribute("aria-label") ?? ""),
+      focused: seen(".suggest-widget.visible .monaco-list-row.focused").length,
+      help: text(".parameter-hints-widget.visible"),
+      hover: text(".monaco-hover:not(.hidden)"),
+      lenses: seen(".codelens-decoration").map((lens) => lens.innerText),
+      messages: text(".notification-toast, .monaco-dialog-box"),
+    };
+  });
+}
+
+/** The colours of words in the text that is shown, each of its first occurrence. */
+async function colors(words) {
+  return page.evaluate((words) => {
+    const spans = [...document.querySelectorAll(".editor-instance .view-line span span")];
+    const color = (word) => {
+      const span = spans.find((span) => span.textContent.trim().startsWith(word));
+      return span === undefined ? null : getComputedStyle(span).color;
+    };
+    return Object.fromEntries(words.map((word) => [word, color(word)]));
+  }, words);
+}
+
+/** All text of pages inside the window. */
+async function frames() {
+  const texts = await Promise.all(
+    page.frames().slice(1).map((frame) => frame.evaluate(() => document.body?.innerText ?? "").catch(() => "")),
+  );
+  return texts.join("\n");
+}
+
+/** What tests ask of the browser. */
+const deeds = { screenshot: picture, clickPath, press, widgets, colors, frames };
+
+/** A line of the log: for the reader, a question of a test, or of VS Code itself. */
+async function logged(line) {
   const [, what, rest] = /^@(\S+) ?(.*)$/s.exec(line) ?? [];
-  if (what === "test") console.log(rest);
-  else if (what === "screenshot") await picture(rest);
-  else if (what === "click-path") await clickPath();
-  else said += `${line}\n`;
+  if (what === "test") {
+    console.log(rest);
+  } else if (what in deeds) {
+    const [, id, parameters] = /^(\d+) (.*)$/s.exec(rest);
+    let answer;
+    try {
+      answer = { result: (await deeds[what](JSON.parse(parameters))) ?? null };
+    } catch (error) {
+      answer = { failed: String(error.stack ?? error) };
+    }
+    const file = path.join(answers, `${id}.json`);
+    // Whoever waits for it is to see it whole.
+    fs.writeFileSync(`${file}.new`, JSON.stringify(answer));
+    fs.renameSync(`${file}.new`, file);
+  } else {
+    said += `${line}\n`;
+  }
 }
 
 /** A session with VS Code: true when its tests pass. */
@@ -160,6 +234,8 @@ async function session(name, settings, prepare = () => {}) {
     "update.mode": "none",
     "editor.minimap.enabled": false,
     "workbench.tips.enabled": false,
+    // In a browser VS Code saves by itself.
+    "files.autoSave": "off",
   };
   fs.writeFileSync(own, JSON.stringify({ ...usual, ...settings }));
   // VS Code runs tests for an extension under development only: this one does nothing.
@@ -186,8 +262,10 @@ async function session(name, settings, prepare = () => {}) {
   await listening(port);
   page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   await page.exposeFunction("codeAutomationLog", (_type, args) =>
-    asked(args.map(String).join(" ")).catch((error) => console.log(`FAILED: ${error.stack ?? error}`)),
+    logged(args.map(String).join(" ")).catch((error) => console.log(`FAILED: ${error.stack ?? error}`)),
   );
+  fs.rmSync(answers, { recursive: true, force: true });
+  fs.mkdirSync(answers);
   const exited = new Promise((resolve) => page.exposeFunction("codeAutomationExit", (code) => resolve(code)));
   const remote = (file) => `vscode-remote://127.0.0.1:${port}${file}`;
   const payload = [
@@ -210,10 +288,10 @@ async function end(code) {
 }
 
 const deadline = setTimeout(async () => {
-  console.log(`FAILED: not done after ten minutes\n${said.slice(-2000)}`);
+  console.log(`FAILED: not done after ${PATIENCE} minutes\n${said.slice(-2000)}`);
   await page?.screenshot({ path: path.join(pictures ?? os.tmpdir(), "vscode-stuck.png") }).catch(() => undefined);
   await end(1);
-}, 600_000);
+}, PATIENCE * 60_000);
 deadline.unref();
 
 try {

@@ -2,6 +2,7 @@
 
 import { createViewer, type Drawing, lengthText, THEMES, type Viewer } from "gcheck-viewer";
 
+import { clock } from "./clock";
 import type { FromPage, ToPage, Toolpath } from "./messages";
 
 declare function acquireVsCodeApi(): { postMessage(message: FromPage): void };
@@ -91,8 +92,7 @@ function describe(toolpath: Toolpath): void {
     }
   });
   if (seconds > 0) {
-    const whole = Math.round(seconds);
-    lines.push(`${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")} min`);
+    lines.push(`time ${clock(seconds)}`);
   }
   figures.replaceChildren(
     ...[...lines, ...notes].map((line) => Object.assign(document.createElement("div"), { textContent: line })),

@@ -1,0 +1,197 @@
+// The features of the protocol, each once, with the real server.
+
+import * as assert from "node:assert/strict";
+import * as path from "node:path";
+
+import * as vscode from "vscode";
+
+import { api, askList, browser, edit, finding, focus, goTo, hoverText, open, picture, place, type Test, until } from "./harness";
+
+const aFindingAppears: Test = [
+  "a finding appears, with a link to its page",
+  async () => {
+    const { document } = await open("part.nc");
+    const found = await until("the finding", () => finding(document, "unknown-code"));
+    assert.equal(document.getText(found.range), "G54.1");
+    assert.equal(found.source, "gcheck");
+    assert.ok(typeof found.code === "object" && found.code.target.toString().includes("unknown-code"));
+  },
+];
+
+const theBundledServerRuns: Test = [
+  "the server of the package runs",
+  async () => {
+    const { server } = await api();
+    const extension = vscode.extensions.getExtension("gcheck.gcheck");
+    assert.equal(server.path, extension && path.join(extension.extensionPath, "server", "gcheck"));
+    assert.ok(server.isRunning);
+  },
+];
+
+/** In a folder that nobody has said to trust, and that names a server of its own. */
+export const restricted: Test[] = [
+  [
+    "the folder is not trusted, and what it sets is not read",
+    async () => {
+      assert.equal(vscode.workspace.isTrusted, false);
+      const set = vscode.workspace.getConfiguration("gcheck");
+      assert.notEqual(set.inspect("path")?.workspaceValue, "", "the folder names a server");
+      assert.equal(set.get("path"), "");
+    },
+  ],
+  theBundledServerRuns,
+  aFindingAppears,
+];
+
+export const trusted: Test[] = [
+  theBundledServerRuns,
+  aFindingAppears,
+  [
+    "hover tells a code and the state",
+    async () => {
+      const { document } = await open("part.nc");
+      const text = await hoverText(document, place(document, "G43"));
+      assert.match(text, /G43/);
+      assert.match(text, /tool length/i);
+      assert.match(text, /^\*\*G43\*\*[^]*Z1`[^]*in effect: [^]*---[^]*needs `H`/, "the state is above what manuals tell");
+      // The findings of the line are the editor's to show.
+      assert.doesNotMatch(await hoverText(document, place(document, "G54.1", 1)), /unknown code/);
+      goTo(await open("part.nc"), "G43", 1);
+      await focus();
+      await vscode.commands.executeCommand("editor.action.showHover");
+      await picture("vscode-hover");
+    },
+  ],
+  [
+    "a fix clears its finding",
+    async () => {
+      const { document } = await open("fixable.nc");
+      const found = await until("the finding", () => finding(document, "code-given-twice"));
+      const actions = await vscode.commands.executeCommand<vscode.CodeAction[]>(
+        "vscode.executeCodeActionProvider",
+        document.uri,
+        found.range,
+        vscode.CodeActionKind.QuickFix.value,
+        20,
+      );
+      const fix = actions.find((action) => action.edit !== undefined && action.title.includes("ake the second"));
+      assert.ok(fix?.edit, `a fix is offered; there are: ${actions.map((action) => action.title).join(", ")}`);
+      assert.ok(await vscode.workspace.applyEdit(fix.edit));
+      await until("the finding to go", () => (finding(document, "code-given-twice") === undefined ? true : undefined));
+    },
+  ],
+  [
+    "findings follow typing",
+    async () => {
+      const { document } = await open("typed.nc");
+      await until("no finding", () => (vscode.languages.getDiagnostics(document.uri).length === 0 ? true : undefined));
+      await edit(document, (change) => change.replace(document.uri, new vscode.Range(4, 0, 4, 3), "G999"));
+      await until("the finding", () => finding(document, "unknown-code"));
+      await edit(document, (change) => change.replace(document.uri, new vscode.Range(4, 0, 4, 4), "G01"));
+      await until("the finding to go", () => (finding(document, "unknown-code") === undefined ? true : undefined));
+    },
+  ],
+  [
+    "a program is renamed across files",
+    async () => {
+      const { document } = await open("main.nc");
+      const change = await until("rename", async () => {
+        const answer = await vscode.commands.executeCommand<vscode.WorkspaceEdit>(
+          "vscode.executeDocumentRenameProvider",
+          document.uri,
+          place(document, "P2000").translate(0, 1),
+          "2500",
+        );
+        return answer.size > 0 ? answer : undefined;
+      });
+      const files = change.entries().map(([uri]) => path.basename(uri.fsPath)).sort();
+      assert.deepEqual(files, ["O2000.nc", "main.nc"]);
+      assert.ok(await vscode.workspace.applyEdit(change));
+      assert.match(document.getText(), /M98 P2500/);
+    },
+  ],
+  [
+    "go to definition crosses files",
+    async () => {
+      await vscode.commands.executeCommand("workbench.action.files.revert");
+      const { document } = await open("calls.nc");
+      const [target] = await until("definition", async () => {
+        const found = await vscode.commands.executeCommand<(vscode.Location | vscode.LocationLink)[]>(
+          "vscode.executeDefinitionProvider",
+          document.uri,
+          place(document, "P3000").translate(0, 1),
+        );
+        return found.length > 0 ? found : undefined;
+      });
+      const uri = target && ("targetUri" in target ? target.targetUri : target.uri);
+      assert.equal(uri && path.basename(uri.fsPath), "O3000.nc");
+    },
+  ],
+  [
+    "symbols, folding, tokens, completion, hints and lenses are there",
+    async () => {
+      const { document } = await open("part.nc");
+      const symbols = await askList<vscode.DocumentSymbol>("vscode.executeDocumentSymbolProvider", document);
+      const names = symbols.flatMap((symbol) => [symbol, ...symbol.children]).map((symbol) => symbol.name);
+      assert.ok(names.some((name) => name.includes("T1")), `T1 is in the outline; there are ${names.join(", ")}`);
+      await askList("vscode.executeFoldingRangeProvider", document);
+      await askList("vscode.executeCodeLensProvider", document);
+      const whole = new vscode.Range(0, 0, document.lineCount, 0);
+      await askList("vscode.executeInlayHintProvider", document, whole);
+      const tokens = await vscode.commands.executeCommand<vscode.SemanticTokens>(
+        "vscode.provideDocumentSemanticTokens",
+        document.uri,
+      );
+      assert.ok(tokens.data.length > 0, "semantic tokens");
+      const list = await vscode.commands.executeCommand<vscode.CompletionList>(
+        "vscode.executeCompletionItemProvider",
+        document.uri,
+        place(document, "G43").translate(0, 1),
+      );
+      const labels = list.items.map((item) => (typeof item.label === "string" ? item.label : item.label.label));
+      assert.ok(labels.some((label) => label.startsWith("G81")), `G81 is offered; there are ${labels.slice(0, 20).join(" ")}`);
+    },
+  ],
+  [
+    "the toolpath is drawn beside the text",
+    async () => {
+      const { preview } = await api();
+      const editor = await open("pocket.nc");
+      let pieces = 0;
+      const subscription = preview.onDrawn((count) => (pieces = count));
+      await vscode.commands.executeCommand("gcheck.showToolpath");
+      await until("the drawing", () => (pieces > 20 ? true : undefined));
+      subscription.dispose();
+      goTo(editor, "G03");
+      await picture("vscode-toolpath");
+    },
+  ],
+  [
+    "a click on a move goes to its line",
+    async () => {
+      const editor = await open("pocket.nc");
+      const top = new vscode.Position(0, 0);
+      editor.selection = new vscode.Selection(top, top);
+      await browser("clickPath");
+      const line = await until("the cursor to move", () => {
+        const line = vscode.window.activeTextEditor?.selection.active.line ?? 0;
+        return line > 0 ? line : undefined;
+      });
+      // From the left the outermost circle comes first.
+      assert.equal(editor.document.lineAt(line).text, "G03 I-20.");
+      await picture("vscode-click");
+    },
+  ],
+  [
+    "the server is started again",
+    async () => {
+      const { server } = await api();
+      const { document } = await open("part.nc");
+      await vscode.commands.executeCommand("gcheck.restartServer");
+      assert.ok(server.isRunning);
+      await until("the finding", () => finding(document, "unknown-code"));
+      await picture("vscode-findings");
+    },
+  ],
+];
+

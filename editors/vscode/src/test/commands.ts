@@ -1,0 +1,503 @@
+// Every command, setting, key and action of the extension, used on a real program as somebody uses it.
+
+import * as assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import * as fs from "node:fs";
+import * as path from "node:path";
+
+import * as vscode from "vscode";
+
+import {
+  api,
+  askList,
+  browser,
+  characters,
+  closeAll,
+  create,
+  finding,
+  focus,
+  folder,
+  goTo,
+  hoverText,
+  open,
+  pause,
+  picture,
+  place,
+  press,
+  type Test,
+  until,
+  type Widgets,
+  widgets,
+} from "./harness";
+
+/** A program with something for every action. */
+const ACTIONS = `%
+O1010 (ACTIONS)
+(gcheck: control=fanuc-mill)
+G21 G17 G40 G49 G80 G90 G54
+T1 M6
+S1000 M3
+G43 H1 Z5.
+G0 X10 Y5
+G1 Z-1. F100.
+G2 X20. Y15. R20.
+G0 Z5.
+G98 G81 X30. Y5. Z-3. R1. F50.
+G80
+N15 G0 Z50
+IF [#500 EQ 1.] GOTO 15
+G1 X1.
+M30
+%
+`;
+
+/** The text of the page that the extension shows beside the program. */
+async function answerPage(title: string): Promise<string> {
+  return until(`the page ${title}`, () => {
+    const shown = vscode.window.visibleTextEditors.find(
+      ({ document }) => document.uri.scheme === "gcheck-answer" && document.uri.path.startsWith(title),
+    );
+    return shown === undefined || shown.document.getText() === "" ? undefined : shown.document.getText();
+  });
+}
+
+/** Sets something for the folder while a test runs. */
+async function withSetting(name: string, value: unknown, test: () => Promise<void>): Promise<void> {
+  const settings = () => vscode.workspace.getConfiguration("gcheck");
+  await settings().update(name, value, vscode.ConfigurationTarget.Workspace);
+  try {
+    await test();
+  } finally {
+    await settings().update(name, undefined, vscode.ConfigurationTarget.Workspace);
+  }
+}
+
+/** Nothing that the window shows is an error. */
+async function noComplaint(): Promise<void> {
+  const { messages } = await widgets();
+  assert.equal(messages, "", "no message is shown");
+}
+
+/** The hints from a line on: feed and speed are told in the first of what is in view. */
+async function hints(document: vscode.TextDocument, from: number): Promise<string[]> {
+  const view = new vscode.Range(from, 0, document.lineCount, 0);
+  const all = await vscode.commands.executeCommand<vscode.InlayHint[]>("vscode.executeInlayHintProvider", document.uri, view);
+  return all.map(({ label }) => (typeof label === "string" ? label : label.map((part) => part.value).join("")));
+}
+
+/** Waits until the hints from a line on are as they should be. */
+async function hintsBecome(document: vscode.TextDocument, from: number, what: string, are: (labels: string[]) => boolean): Promise<void> {
+  let seen: string[] = [];
+  try {
+    await until(what, async () => {
+      seen = await hints(document, from);
+      return are(seen) ? true : undefined;
+    }, 20_000);
+  } catch (error) {
+    throw new Error(`there are ${seen.join("; ")}`, { cause: error });
+  }
+}
+
+/** The actions at a text, by title. */
+async function actionsAt(document: vscode.TextDocument, text: string): Promise<vscode.CodeAction[]> {
+  const at = place(document, text);
+  const range = new vscode.Range(at, at.translate(0, text.length));
+  return askList<vscode.CodeAction>("vscode.executeCodeActionProvider", document, range);
+}
+
+/** Does an action at a text, and gives the program after it; the program is put back. */
+async function afterAction(document: vscode.TextDocument, text: string, title: RegExp): Promise<string> {
+  const offered = await actionsAt(document, text);
+  const action = offered.find((action) => title.test(action.title));
+  assert.ok(action?.edit, `${title} is offered; there are: ${offered.map((one) => one.title).join("; ")}`);
+  assert.ok(await vscode.workspace.applyEdit(action.edit));
+  const after = document.getText();
+  await vscode.commands.executeCommand("workbench.action.files.revert");
+  return after;
+}
+
+/** The status bar, once it says something that fits. */
+async function statusSays(fits: RegExp): Promise<{ text: string; tooltip: string }> {
+  const { status } = await api();
+  return until(`the status ${fits}`, () => (fits.test(status.shown?.tooltip ?? "") ? status.shown : undefined));
+}
+
+export const commands: Test[] = [
+  [
+    "Show State at Cursor tells modes, places and what set them",
+    async () => {
+      const editor = await open("part.nc");
+      goTo(editor, "X2.5", 1);
+      await vscode.commands.executeCommand("gcheck.showState");
+      const text = await answerPage("State in part.nc");
+      assert.match(text, /^line 9: X2\.5\nevery path comes here\n\nBEFORE\n/);
+      assert.match(text, /position, work +X0\.75 Y0\.75 Z-0\.25/);
+      assert.match(text, /\nAFTER\n[^]*position, work +X2\.5 Y0\.75 Z-0\.25/);
+      assert.match(text, /\nG1 +motion, set in line 8\n/);
+      assert.match(text, /\ntool +1\n/);
+      assert.match(text, /\nfeed +F12 inch\/min\n/);
+      await noComplaint();
+      await picture("vscode-state");
+      await closeAll();
+    },
+  ],
+  [
+    "Show Syntax Tree shows the tree of the block",
+    async () => {
+      const editor = await open("part.nc");
+      goTo(editor, "G02", 1);
+      await vscode.commands.executeCommand("gcheck.showSyntaxTree");
+      const text = await answerPage("Syntax Tree of part.nc");
+      assert.match(text, /^BLOCK /);
+      assert.match(text, /"G02"/);
+      await noComplaint();
+      await closeAll();
+    },
+  ],
+  [
+    "Select Control writes a comment into this program",
+    async () => {
+      const { document } = await create("control.nc", "%\nO1011\nG0 X1.\nM30\n%\n");
+      await focus();
+      void vscode.commands.executeCommand("gcheck.selectControl");
+      await pause(1_000);
+      await picture("vscode-select-control");
+      await press([...characters("haas-lathe"), "Enter"]);
+      await pause(1_000);
+      await press([...characters("This"), "Enter"]);
+      await until("the comment", () => (document.getText().includes("(gcheck: control=haas-lathe)") ? true : undefined));
+      assert.equal(document.lineAt(2).text, "(gcheck: control=haas-lathe)");
+      const status = await statusSays(/comment/);
+      assert.equal(status.text, "$(circuit-board) haas-lathe");
+      assert.match(status.tooltip, /^Haas lathe.*: named by a comment of the program\. Click to change\.$/);
+      await noComplaint();
+      await closeAll();
+    },
+  ],
+  [
+    "Select Control sets the control of all programs",
+    async () => {
+      await create("control.nc", "%\nO1011\nG0 X1.\nM30\n%\n");
+      await focus();
+      void vscode.commands.executeCommand("gcheck.selectControl");
+      await pause(1_000);
+      await press([...characters("linuxcnc"), "Enter"]);
+      await pause(1_000);
+      await press([...characters("All"), "Enter"]);
+      const status = await statusSays(/settings/);
+      assert.equal(status.text, "$(circuit-board) linuxcnc");
+      assert.equal(vscode.workspace.getConfiguration("gcheck").get("control"), "linuxcnc");
+      await vscode.workspace.getConfiguration("gcheck").update("control", undefined, vscode.ConfigurationTarget.Workspace);
+      await statusSays(/a guess/);
+      await closeAll();
+    },
+  ],
+  [
+    "the status bar says how the control was chosen, and what keeps a program from being checked",
+    async () => {
+      await create("mill/gcheck.toml", 'control = "haas-mill"\n');
+      await create("mill/a.nc", "%\nO1012\nG0 X1.\nM30\n%\n");
+      const named = await statusSays(/gcheck\.toml/);
+      assert.equal(named.tooltip, "Haas mill (classic control and NGC): named by gcheck.toml. Click to change.");
+      fs.writeFileSync(path.join(folder(), "mill/gcheck.toml"), 'control = "haas-mil"\n');
+      const broken = await statusSays(/haas-mil`/);
+      assert.equal(broken.text, "$(error) not checked");
+      fs.writeFileSync(path.join(folder(), "mill/gcheck.toml"), 'control = "haas-mill"\n');
+      await statusSays(/named by gcheck\.toml/);
+      await closeAll();
+    },
+  ],
+  [
+    "Explain Rule or Code shows a page, from the palette and from a hover",
+    async () => {
+      const editor = await open("part.nc");
+      goTo(editor, "G43", 1);
+      await vscode.commands.executeCommand("gcheck.explain", "G43");
+      const page = await until("the page", async () => {
+        const text = await browser<string>("frames");
+        return text.includes("tool length") ? text : undefined;
+      });
+      assert.match(page, /G43 tool length/);
+      await picture("vscode-explain");
+      await vscode.commands.executeCommand("gcheck.explain", "unknown-code");
+      await until("the rule's page", async () => ((await browser<string>("frames")).includes("Why it matters") ? true : undefined));
+      // Without a subject it asks, and the word at the cursor is the first guess.
+      await closeAll();
+      goTo(await open("part.nc"), "G43", 1);
+      await focus();
+      void vscode.commands.executeCommand("gcheck.explain");
+      await pause(1_000);
+      await press(["Enter"]);
+      await until("the page again", async () => ((await browser<string>("frames")).includes("tool length") ? true : undefined));
+      await closeAll();
+      const hover = await hoverText((await open("part.nc")).document, place((await open("part.nc")).document, "G43", 1));
+      assert.match(hover, /\[All about G43\]\(command:gcheck\.explain\?/);
+      await vscode.commands.executeCommand("gcheck.explain", "no-such-rule");
+      await until("the message", async () => ((await widgets()).messages.includes("knows no rule and no code") ? true : undefined));
+      await vscode.commands.executeCommand("notifications.clearAll");
+      await closeAll();
+    },
+  ],
+  [
+    "Apply All Safe Fixes changes what has a fix that changes no move",
+    async () => {
+      const { document } = await create("fixes.nc", "%\nO1013\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nG00 G00 X10. Y10.\nG00 G00 X20. Y10.\nM30\n%\n");
+      await until("the finding", () => finding(document, "code-given-twice"));
+      await vscode.commands.executeCommand("gcheck.fixAll");
+      await until("the fixes", () => (document.getText().includes("\nG00 X10. Y10.\nG00 X20. Y10.\n") ? true : undefined));
+      await until("no finding", () => (finding(document, "code-given-twice") === undefined ? true : undefined));
+      await closeAll();
+    },
+  ],
+  [
+    "Show Output shows what the server said",
+    async () => {
+      await vscode.commands.executeCommand("gcheck.showOutput");
+      await until("the output", () =>
+        vscode.window.visibleTextEditors.some(({ document }) => document.uri.scheme === "output") ? true : undefined,
+      );
+      await vscode.commands.executeCommand("workbench.action.closePanel");
+    },
+  ],
+  [
+    "Tab takes the first entry of a list, Enter the one that somebody moved to, and else begins a line",
+    async () => {
+      const { document } = await create("keys.nc", "(gcheck: control=haas-mill)\n");
+      await focus();
+      await press(["Control+End", "G", "8"], [200, 300]);
+      const list = await until("the list", async () => {
+        const seen = await widgets();
+        return seen.rows.length > 2 ? seen : undefined;
+      });
+      assert.equal(list.focused, 0, "nothing is chosen before somebody chooses");
+      assert.match(list.rows[0] ?? "", /^G80.*canned cycle off/, list.rows.join("; "));
+      await picture("vscode-list");
+      await press(["Tab", " ", "G", "8", "ArrowDown", "ArrowDown", "Enter", "Enter", "G", "8", "1", "Enter", "G", "8", "Escape", "Enter"], [200, 300]);
+      assert.deepEqual(document.getText().split("\n").slice(1), ["G80 G81", "G81", "G8", ""]);
+      await closeAll();
+    },
+  ],
+  [
+    "a list opens neither after a blank nor for a number, and says what its rows are",
+    async () => {
+      await create("list.nc", "(gcheck: control=haas-mill)\n");
+      await focus();
+      await press(["Control+End", ...characters("G00 X1. ")], [150, 200]);
+      assert.deepEqual((await widgets()).rows, []);
+      await press(characters("Y2"), [150, 200]);
+      assert.deepEqual((await widgets()).rows, []);
+      await press(["Enter", ...characters("G83 Z-1. ")], [150, 200]);
+      await press(["Control+Space"], [500, 600]);
+      const { rows } = await until<Widgets>("the list", async () => {
+        const seen = await widgets();
+        return seen.rows.length > 0 ? seen : undefined;
+      });
+      assert.match(rows[0] ?? "", /^R.*R plane/, `words of the cycle come first: ${rows.join("; ")}`);
+      await picture("vscode-words");
+      await closeAll();
+    },
+  ],
+  [
+    "help for a block comes while a word is missing, and goes when the block is complete",
+    async () => {
+      await create("help.nc", "(gcheck: control=haas-mill)\nG54 G90 G20\n");
+      await focus();
+      await press(["Control+End", ...characters("G83 ")], [150, 200]);
+      await until("help", async () => ((await widgets()).help.includes("G83") ? true : undefined));
+      await press(characters("Z-1. R0.1 "), [150, 200]);
+      await picture("vscode-help");
+      assert.match((await widgets()).help, /depth of one peck|feed rate/);
+      await press(characters("Q0.1 F8. "), [150, 200]);
+      await until("help to go", async () => ((await widgets()).help === "" ? true : undefined));
+      await press(["Enter", ...characters("G00 X1. ")], [150, 200]);
+      assert.equal((await widgets()).help, "", "a move that lacks nothing has no help");
+      await closeAll();
+    },
+  ],
+  [
+    "help for a call shows the arguments that the macro reads",
+    async () => {
+      await create("O9010.nc", "%\nO9010 (BORE)\n(A=#1 DIAMETER)\n(Z=#26 DEPTH)\nIF [#9 EQ #0] THEN #9=100.\nG0 X#1\nG1 Z#26 F#9\nM99\n%\n");
+      await create("macro.nc", "(gcheck: control=fanuc-mill)\nG21 G90 G54\n");
+      await focus();
+      await press(["Control+End", ...characters("G65 P9010 ")], [150, 200]);
+      const help = await until("help", async () => {
+        const { help } = await widgets();
+        return help.includes("A=#1") ? help : undefined;
+      });
+      assert.match(help, /G65 P \[L\] A=#1 \[F=#9\] Z=#26/);
+      assert.match(help, /DIAMETER/);
+      await picture("vscode-macro-help");
+      await press(characters("A20. Z-5. "), [150, 200]);
+      await until("help to go", async () => ((await widgets()).help === "" ? true : undefined));
+      await closeAll();
+    },
+  ],
+  [
+    "every kind of action changes the program as its title says",
+    async () => {
+      const { document } = await create("actions.nc", ACTIONS);
+      await until("the finding", () => finding(document, "missing-decimal-point"));
+      const lines = (text: string) => text.split("\n");
+      assert.match(await afterAction(document, "X10 Y5", /^Write a decimal point/), /^G0 X10\. Y5\.[^]*G0 Z50$/m);
+      assert.ok(lines(await afterAction(document, "X10 Y5", /^Fix all 2 `missing-decimal-point` findings/)).includes("G0 X10. Y5."));
+      assert.match(await afterAction(document, "X10 Y5", /^Ignore `missing-decimal-point` on this line/), /gcheck: ignore missing-decimal-point/);
+      assert.match(await afterAction(document, "X10 Y5", /^Ignore `missing-decimal-point` in this file/), /gcheck: ignore-file missing-decimal-point/);
+      assert.match(await afterAction(document, "R20.", /^Write this arc with its centre/), /^G2 X20\. Y15\. I/m);
+      assert.match(await afterAction(document, "G81", /^Write this cycle as \d+ plain moves/), /^G0?1 Z-3\./m);
+      assert.ok(lines(await afterAction(document, "G0 Z5.", /^Add block delete to this block/)).includes("/G0 Z5."));
+      assert.match(await afterAction(document, "O1010", /^Renumber blocks in tens/), /^N(\d+0) G0 Z50$[^]*GOTO \1$/m);
+      assert.ok(lines(await afterAction(document, "O1010", /^Write 3 numbers with decimal points/)).includes("G0 X0.01 Y0.005"));
+      assert.ok(lines(await afterAction(document, "O1010", /^Write decimal points after 3 numbers/)).includes("G0 X10. Y5."));
+      const offered = await actionsAt(document, "X10 Y5");
+      const explain = offered.find(({ title }) => title === "Explain `missing-decimal-point`");
+      assert.equal(explain?.command?.command, "gcheck.explain");
+      await vscode.commands.executeCommand(explain.command.command, ...(explain.command.arguments ?? []));
+      await until("the page", async () => ((await browser<string>("frames")).includes("missing-decimal-point") ? true : undefined));
+      await closeAll();
+    },
+  ],
+  [
+    "lenses stand above the tools, and go with their setting",
+    async () => {
+      const { document } = await open("pocket.nc");
+      const lenses = await askList<vscode.CodeLens>("vscode.executeCodeLensProvider", document);
+      const titles = lenses.map((lens) => lens.command?.title ?? "");
+      assert.match(titles[0] ?? "", /^\d+:\d\d in all/, titles.join("; "));
+      assert.ok(titles.some((title) => /^T1 · 10 mm end mill · \d+:\d\d · X -?\d/.test(title)), titles.join("; "));
+      await until("the lenses in the text", async () => ((await widgets()).lenses.length > 0 ? true : undefined));
+      await withSetting("codeLens", false, async () => {
+        await until("no lenses", async () => ((await widgets()).lenses.length === 0 ? true : undefined));
+      });
+      await closeAll();
+    },
+  ],
+  [
+    "each kind of hint is shown, and goes with its setting",
+    async () => {
+      const text = "%\nO1014\n(gcheck: control=haas-mill)\n(T5 REAMER)\nG21 G17 G40 G49 G80 G90 G54\nT5 M6\nS900 M3\nG43 H5 Z5.\n#100=2.\n#101=#100*2.\nG0 X0. Y0.\nG94 F100.\nG1 Z-1.\nS800\nX#101\nG91 X3.\nG90\nM30\n%\n";
+      const { document } = await create("hints.nc", text);
+      const kinds: [string, RegExp, string][] = [
+        ["feed", /^F100 mm\/min$/, "G1 Z-1."],
+        ["speed", /^S900 rpm$/, "G1 Z-1."],
+        ["values", /^= 4$/, "%"],
+        ["positions", /^→ X7$/, "%"],
+        ["tools", /^REAMER$/, "%"],
+      ];
+      const has = (labels: string[], pattern: RegExp) => labels.some((label) => pattern.test(label));
+      for (const [kind, pattern, first] of kinds) {
+        const from = place(document, first).line;
+        await hintsBecome(document, from, kind, (labels) => has(labels, pattern));
+        await withSetting(`inlayHints.${kind}`, false, async () => {
+          await hintsBecome(document, from, `no ${kind}`, (labels) => !has(labels, pattern) && labels.length > 0);
+        });
+        await hintsBecome(document, from, `${kind} again`, (labels) => has(labels, pattern));
+      }
+      await picture("vscode-hints");
+      await closeAll();
+    },
+  ],
+  [
+    "gcheck.run checks when a program is saved",
+    async () => {
+      await withSetting("run", "onSave", async () => {
+        const editor = await create("run.nc", "%\nO1015\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nG0 X1.\nM30\n%\n");
+        await pause(2_000);
+        await editor.edit((change) => change.replace(new vscode.Range(4, 0, 4, 2), "G999"));
+        await pause(2_000);
+        assert.equal(finding(editor.document, "unknown-code"), undefined, "nothing is found before it is saved");
+        await editor.document.save();
+        await until("the finding", () => finding(editor.document, "unknown-code"));
+      });
+      await closeAll();
+    },
+  ],
+  [
+    "gcheck.configPath names the configuration of all programs",
+    async () => {
+      const { document } = await open("part.nc");
+      await until("the finding", () => finding(document, "unknown-code"));
+      const file = path.join(folder(), "other.toml");
+      fs.writeFileSync(file, 'control = "haas-mill"\n[rules]\nunknown-code = "off"\n');
+      await withSetting("configPath", file, async () => {
+        await until("no finding", () => (finding(document, "unknown-code") === undefined ? true : undefined));
+      });
+      await until("the finding again", () => finding(document, "unknown-code"));
+      await closeAll();
+    },
+  ],
+  [
+    "gcheck.path names the server",
+    async () => {
+      const { server } = await api();
+      const bundled = server.path;
+      assert.ok(bundled);
+      const other = path.join(folder(), "gcheck-elsewhere");
+      fs.copyFileSync(bundled, other);
+      const { document } = await open("part.nc");
+      await withSetting("path", other, async () => {
+        await until("the other server", () => (server.path === other && server.isRunning ? true : undefined));
+        await until("the finding", () => finding(document, "unknown-code"));
+      });
+      await until("the bundled server", () => (server.path === bundled && server.isRunning ? true : undefined));
+      await until("the finding", () => finding(document, "unknown-code"));
+      fs.rmSync(other);
+      await closeAll();
+    },
+  ],
+  [
+    "gcheck.trace.server writes what is said",
+    async () => {
+      await withSetting("trace.server", "messages", async () => {
+        const { document } = await open("part.nc");
+        // What a channel holds is in a file that VS Code writes by a library which is not there in every installation.
+        const output: { appendLine(line: string): void } = Reflect.get((await api()).server, "output");
+        const told: string[] = [];
+        const appendLine = output.appendLine.bind(output);
+        output.appendLine = (line) => (told.push(line), appendLine(line));
+        await hoverText(document, place(document, "G43", 1));
+        assert.ok(told.some((line) => line.includes("textDocument/hover")), told.join("\n"));
+        output.appendLine = appendLine;
+      });
+      await vscode.commands.executeCommand("workbench.action.closePanel");
+      await closeAll();
+    },
+  ],
+  [
+    "the problem matcher reads what the command line prints",
+    async () => {
+      const { server } = await api();
+      const matcher = vscode.extensions.getExtension("gcheck.gcheck")?.packageJSON.contributes.problemMatchers[0];
+      let printed = "";
+      try {
+        printed = execFileSync(server.path ?? "", ["check", "--output-format", "concise", "part.nc"], { cwd: folder(), encoding: "utf8" });
+      } catch (error) {
+        printed = String((error as { stdout: string }).stdout);
+      }
+      const found = printed.split("\n").map((line) => new RegExp(matcher.pattern.regexp).exec(line)).find((match) => match?.[5] === "unknown-code");
+      assert.ok(found, printed);
+      assert.deepEqual([found[1], found[2], found[4]], ["part.nc", "6", "error"]);
+    },
+  ],
+  [
+    "a program in capitals that comes or goes on disk is noticed",
+    async () => {
+      const { document } = await create("caller.nc", "%\nO1016\n(gcheck: control=haas-mill)\nG21 G17 G40 G49 G80 G90 G54\nM98 P4711\nM30\n%\n");
+      await until("the finding", () => finding(document, "missing-program") ?? vscode.languages.getDiagnostics(document.uri).find((d) => d.message.includes("4711")));
+      fs.writeFileSync(path.join(folder(), "O4711.NC"), "%\nO4711\nG0 X1.\nM99\n%\n");
+      await until("the finding to go", () =>
+        vscode.languages.getDiagnostics(document.uri).some((d) => d.message.includes("4711")) ? undefined : true,
+      );
+      await closeAll();
+    },
+  ],
+  [
+    "the walkthrough opens",
+    async () => {
+      await vscode.commands.executeCommand("workbench.action.openWalkthrough", "gcheck.gcheck#start", false);
+      await pause(2_000);
+      await picture("vscode-walkthrough");
+      await closeAll();
+    },
+  ],
+];
