@@ -2,24 +2,29 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
-use gcheck_rules::{Execution, Job, MachineFacts, NoPrograms, Scene, Selection, check};
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 use proptest::prelude::*;
 
 fn check_everywhere(bytes: Vec<u8>) {
     let source = SourceText::from_bytes(bytes).unwrap();
-    let mut selection = Selection::default();
+    let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();
     for name in gcheck_controls::names() {
         let control = gcheck_controls::load(name).unwrap();
         let dialect = Dialect::new(&control);
         let machine = MachineFacts::default();
-        let scene =
-            Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: true };
+        let environment = Environment {
+            dialect: &dialect,
+            machine: &machine,
+            programs: &NoPrograms,
+            control_is_guessed: true,
+        };
         let outcome = check(&Job {
             source: &source,
-            scene,
+            environment,
             selection: &selection,
             suppressions: true,
             execution: Execution::default(),

@@ -9,10 +9,10 @@ mod moves;
 use std::fs;
 use std::path::Path;
 
+use gcheck_diagnostics::{Finding, FixKinds};
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check, fix_all};
 use gcheck_program::Dialect;
-use gcheck_rules::{
-    Execution, Finding, FixKinds, Job, MachineFacts, NoPrograms, Scene, Selection, check, mend,
-};
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 use gcheck_testkit::corpus;
 use moves::{moves, own_programs};
@@ -23,15 +23,19 @@ fn mended(program: &[u8], control: &str, kinds: FixKinds) -> Option<Vec<u8>> {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let machine = MachineFacts::default();
-    let mut selection = Selection::default();
+    let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();
     let source = SourceText::from_bytes(program.to_vec()).unwrap();
-    let mended = mend(source, kinds, |source| {
-        let scene =
-            Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+    let mended = fix_all(source, kinds, |source| {
+        let environment = Environment {
+            dialect: &dialect,
+            machine: &machine,
+            programs: &NoPrograms,
+            control_is_guessed: false,
+        };
         check(&Job {
             source,
-            scene,
+            environment,
             selection: &selection,
             suppressions: true,
             execution: Execution { fuel: 100_000, block_skip: None },
@@ -43,7 +47,7 @@ fn mended(program: &[u8], control: &str, kinds: FixKinds) -> Option<Vec<u8>> {
     (mended.count > 0).then(|| mended.source.to_bytes())
 }
 
-/// The law for one program; says whether it had anything to mend.
+/// The law for one program; says whether it had anything to fix.
 fn holds(name: &str, program: &[u8], control: &str, folder: &Path) -> bool {
     let Some(after) = mended(program, control, FixKinds::Safe) else { return false };
     let (before, ended) = moves(program, control, folder);
@@ -51,7 +55,7 @@ fn holds(name: &str, program: &[u8], control: &str, folder: &Path) -> bool {
     if ended {
         assert_eq!(before, now, "{name} ({control})");
     } else {
-        // Mended, the program may go on where it stopped before.
+        // Fixed, the program may go on where it stopped before.
         let kept = before.iter().zip(&now).take_while(|(a, b)| a == b).count();
         let ending = before.len().saturating_sub(kept);
         assert!(ending <= 2, "{name} ({control}): {:?}, then {:?}", before.get(kept), now.get(kept));

@@ -10,9 +10,10 @@ use std::fs;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use gcheck_diagnostics::apply_to_bytes;
 use gcheck_format::{
     Indentation, LeadingZeros, LetterCase, Numbering, SequenceNumbers, Style, TrailingZeros, WordSpacing,
-    apply_to_bytes, formatted, renumber,
+    formatted, renumber,
 };
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;

@@ -8,8 +8,10 @@ use std::fs;
 use std::sync::Arc;
 
 use gcheck_controls::Control;
+use gcheck_diagnostics::Finding;
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::{Dialect, lower, lower_tree};
-use gcheck_rules::{Execution, Finding, Job, MachineFacts, NoPrograms, Scene, Selection, check};
+use gcheck_rules::RULES;
 use gcheck_syntax::{Document, SourceText, cut, parse};
 use gcheck_testkit::corpus::{CorpusProgram, programs};
 use rayon::prelude::*;
@@ -95,12 +97,22 @@ fn law_3_an_edited_program_is_a_fresh_one() {
 fn findings(control: &Control, source: &SourceText) -> Vec<Finding> {
     let dialect = Dialect::new(control);
     let machine = MachineFacts::default();
-    let scene =
-        Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
-    let mut selection = Selection::default();
+    let environment = Environment {
+        dialect: &dialect,
+        machine: &machine,
+        programs: &NoPrograms,
+        control_is_guessed: false,
+    };
+    let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();
-    check(&Job { source, scene, selection: &selection, suppressions: true, execution: Execution::default() })
-        .findings
+    check(&Job {
+        source,
+        environment,
+        selection: &selection,
+        suppressions: true,
+        execution: Execution::default(),
+    })
+    .findings
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! No error stands in a program that LinuxCNC ships and its interpreter (`rs274`) accepts.
+//! No error is in a program that LinuxCNC ships and its interpreter (`rs274`) accepts.
 //!
 //! Knows: the real-program corpus, the interpreter's exit code. Must not know: why a program is accepted or refused; the
 //! oracle compares the moves.
@@ -27,7 +27,7 @@ fn interpreter() -> Option<PathBuf> {
     found
 }
 
-/// The interpreter comes to the program's end, in the folder where it stands.
+/// The interpreter comes to the program's end, in the folder where it is.
 fn is_accepted(interpreter: &PathBuf, program: &CorpusProgram) -> bool {
     // The home folder holds the tool table of the running interpreter: two of them with one home disturb each other.
     let home = tempfile::tempdir().unwrap();

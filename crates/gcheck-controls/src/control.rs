@@ -3,6 +3,7 @@
 //! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
 
 use crate::execution::{Effect, Semantics};
+use crate::motion::MotionRules;
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
     LetterEntry, Limits, Machine, ModalGroup, Motion, NumberRules, Reference, SettingEntry, SyntaxRules,
@@ -66,6 +67,7 @@ pub struct Control {
     /// By rule id.
     pub(crate) alarms: Vec<(String, AlarmEntry)>,
     pub(crate) semantics: Semantics,
+    pub(crate) motion: MotionRules,
 }
 
 /// A code and what is derived from its entry once, at load time.
@@ -175,6 +177,11 @@ impl Control {
         &self.semantics
     }
 
+    /// How it moves axes.
+    pub fn motion(&self) -> &MotionRules {
+        &self.motion
+    }
+
     /// How text is read.
     pub fn syntax(&self) -> &SyntaxRules {
         &self.syntax
@@ -200,7 +207,7 @@ impl Control {
         &self.block
     }
 
-    /// How programs are written where nobody wishes otherwise.
+    /// How programs are written by default.
     pub fn format_customs(&self) -> &FormatCustoms {
         &self.format
     }

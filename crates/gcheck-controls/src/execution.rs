@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use serde::Deserialize;
 
 use crate::bar_feeder::BarFeederRules;
+use crate::motion::MotionRules;
 use crate::schema::Confidence;
 
 /// `execution.toml`.
@@ -19,6 +20,8 @@ pub(crate) struct ExecutionFile {
     pub(crate) effects: BTreeMap<String, Effect>,
     #[serde(default)]
     pub(crate) semantics: Option<Semantics>,
+    #[serde(default)]
+    pub(crate) motion: Option<MotionRules>,
 }
 
 /// What a code does to the machine's state. A code without an effect changes nothing that the engine follows.
@@ -43,13 +46,13 @@ pub enum Effect {
     Thread,
     /// Thread in and, with the spindle reversed, out again (`G33.1`).
     RigidTap,
-    /// Taps from where the tool stands to the block's point and back, the control turning the spindle (`G184` of mills).
+    /// Taps from the tool's position to the block's point and back, the control turning the spindle (`G184` of mills).
     TapHere,
     /// The same with a left-hand thread (`G174`).
     LeftTapHere,
     /// Toward the work, contact required (`G38.2`).
     ProbeToward,
-    /// Toward the work, no contact is no fault (`G38.3`).
+    /// Toward the work, no contact is not a fault (`G38.3`).
     ProbeTowardOptional,
     ProbeAway,
     ProbeAwayOptional,
@@ -65,7 +68,7 @@ pub enum Effect {
     ProbeCentre,
     /// Keeps the first touch for a two-touch measurement (`M75`).
     KeepTouch,
-    /// An alarm when the probe touched (`M78`): behind its block it has not.
+    /// An alarm when the probe touched (`M78`): after its block it has not.
     AlarmIfTouched,
     /// An alarm when the probe did not touch (`M79`).
     AlarmIfNotTouched,
@@ -158,7 +161,7 @@ pub enum Effect {
     LengthOff,
     LengthPlus,
     LengthMinus,
-    /// Offsets stand in the block (`G43.1`).
+    /// Offsets are in the block (`G43.1`).
     LengthFromBlock,
     /// Adds to the offsets in effect (`G43.2`).
     LengthAdd,
@@ -170,6 +173,14 @@ pub enum Effect {
     ExactPath,
     ExactStop,
     PathBlending,
+    /// A stop at the end of the block's move (`G9`).
+    ExactStopOnce,
+    /// How exactly corners are taken: a level in `P`, a tolerance in `E` (`G187`).
+    Smoothing,
+    /// Looking ahead on command: on or off by `Q`, a level in `R` (`G5.1`).
+    ContourControl,
+    /// Looking ahead on command: on or off by `P` (`G8`).
+    LookAheadControl,
     SurfaceSpeed,
     ConstantSpeed,
     ScalingOn,
@@ -267,7 +278,7 @@ pub struct Semantics {
     pub logic_on_bits: bool,
     /// Numbers closer than this are equal to `EQ` and `NE`; the other comparisons are exact.
     pub equal_within: f64,
-    /// `ATAN[a]` may stand alone; else it needs `/[b]` after it.
+    /// `ATAN[a]` may be alone; else it needs `/[b]` after it.
     pub atan_alone: bool,
     /// A value that no decimal point follows, computed from an expression, counts as with a point.
     pub computed_words_are_pointed: bool,
@@ -348,7 +359,7 @@ pub struct Semantics {
     /// The variables of a bar feeder, where the control commands one.
     #[serde(default)]
     pub bar_feeder: Option<BarFeederRules>,
-    /// Where this stands.
+    /// Its source.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -366,7 +377,7 @@ pub struct ProbeFeed {
 
 /// What a strict control refuses beside what its codes, addresses and block rules say, and when.
 ///
-/// Letters stand one behind the other: `"IJ"`.
+/// Letters follow each other: `"IJ"`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Refusals {
@@ -374,7 +385,8 @@ pub struct Refusals {
     /// have acted by then. All others are judged before the block.
     #[serde(default)]
     pub late_words: BTreeMap<String, String>,
-    /// By code: words that must stand before the block acts, but whose value is judged when the code acts, or not at all.
+    /// By code: words that the block must have when it begins, but whose value is judged when the code acts, or not at
+    /// all.
     #[serde(default)]
     pub late_values: BTreeMap<String, String>,
     /// By code: words that newer versions of the control read, and the one followed here does not.
@@ -383,7 +395,7 @@ pub struct Refusals {
     /// Codes that are read only where they open the block.
     #[serde(default)]
     pub first_only: Vec<String>,
-    /// By address: addresses beside which it may stand though no code reads it.
+    /// By address: addresses beside which it is allowed though no code reads it.
     #[serde(default)]
     pub beside: BTreeMap<String, String>,
     /// Axes of a machine that nobody described; all of the control's when not given.
@@ -450,7 +462,7 @@ pub struct ArcRules {
     pub zero_radius: f64,
     /// `P` counts turns.
     pub turns: bool,
-    /// Centre words when both `R` and they stand: `R` wins, else refused.
+    /// Centre words beside `R`: `R` wins, else refused.
     pub radius_wins: bool,
     /// Without centre and radius the move is straight, unless this setting says `alarm`; refused where no setting is named.
     #[serde(default)]
@@ -596,7 +608,7 @@ pub struct ToolRules {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocalShift {
-    /// One shift: `G52` writes it as it stands, `G92` so that the position reads as programmed.
+    /// One shift: `G52` writes it as it is written, `G92` so that the position reads as programmed.
     Shared,
     /// Two shifts that add up.
     Separate,

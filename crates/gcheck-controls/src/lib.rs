@@ -17,6 +17,7 @@ mod detect;
 mod execution;
 mod letter_set;
 mod loader;
+mod motion;
 mod schema;
 mod validate;
 mod wording;
@@ -32,6 +33,7 @@ pub use execution::{
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
+pub use motion::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FormatCustoms, FunctionEntry,
     Handling, Hint, LetterCase, LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules,

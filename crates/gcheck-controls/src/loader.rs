@@ -8,6 +8,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::control::CodeFacts;
 use crate::execution::{Effect, ExecutionFile, Semantics};
+use crate::motion::MotionRules;
 use crate::schema::{
     AlarmEntry, AlarmsFile, CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry,
     LettersFile, Machine, ModalGroup, SettingEntry, SettingsFile, VariableEntry, VariablesFile,
@@ -103,7 +104,7 @@ pub fn load(name: &str) -> Result<Arc<Control>, LoadError> {
     Ok(control)
 }
 
-/// Detection needs only the hints, which stand in `control.toml`: no code table is read for it.
+/// Detection needs only the hints, which are in `control.toml`: no code table is read for it.
 pub(crate) fn all_control_files() -> impl Iterator<Item = &'static ControlFile> {
     CONTROL_FILES.iter().filter_map(|file| file.as_ref().ok()).filter(|file| !file.is_abstract)
 }
@@ -140,6 +141,7 @@ struct Layers {
     alarms: Vec<(String, AlarmEntry)>,
     effects: BTreeMap<String, Effect>,
     semantics: Option<Semantics>,
+    motion: Option<MotionRules>,
 }
 
 fn resolve(name: &str) -> Result<Control, LoadError> {
@@ -214,6 +216,7 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
     if let Some(file) = parse_file::<ExecutionFile>(source, "execution.toml")? {
         layers.effects.extend(file.effects);
         layers.semantics = file.semantics.or(layers.semantics.take());
+        layers.motion = file.motion.or(layers.motion.take());
     }
     Ok(())
 }
@@ -258,12 +261,13 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         settings: layers.settings,
         alarms: layers.alarms,
         semantics: layers.semantics.ok_or_else(|| missing("semantics"))?,
+        motion: layers.motion.ok_or_else(|| missing("motion"))?,
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));
     for entry in codes {
         let number = CodeNumber::parse(&entry.code)
-            .ok_or_else(|| data_error(&control.name, &format!("`{}` is no code", entry.code)))?;
+            .ok_or_else(|| data_error(&control.name, &format!("`{}` is not a code", entry.code)))?;
         let group = control.group_by_id(&entry.group).ok_or_else(|| {
             data_error(
                 &control.name,
@@ -276,7 +280,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
     }
     for entry in layers.letters {
         let letter = Letter::parse(&entry.letter)
-            .ok_or_else(|| data_error(&control.name, &format!("`{}` is no address", entry.letter)))?;
+            .ok_or_else(|| data_error(&control.name, &format!("`{}` is not an address", entry.letter)))?;
         if let Some(slot) = control.letters.get_mut(letter.index()) {
             *slot = Some(entry);
         }
@@ -313,7 +317,7 @@ mod tests {
                 "settings.toml" => toml::from_str::<SettingsFile>(&text).map(|_| ()),
                 "alarms.toml" => toml::from_str::<AlarmsFile>(&text).map(|_| ()),
                 "execution.toml" => toml::from_str::<ExecutionFile>(&text).map(|_| ()),
-                _ => panic!("{}: a file that nobody reads", file.display()),
+                _ => panic!("{}: a file that is not read", file.display()),
             };
             read.unwrap_or_else(|error| panic!("{}: {error}", file.display()));
         }

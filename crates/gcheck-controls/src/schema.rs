@@ -67,7 +67,7 @@ pub enum Machine {
 pub struct SyntaxRules {
     /// What `;` means.
     pub semicolon: Semicolon,
-    /// Blanks may stand inside a number: `X 1. 5` is `X1.5`.
+    /// Blanks may be inside a number: `X 1. 5` is `X1.5`.
     pub blanks_in_numbers: bool,
     /// `O100 SUB`, `O<name> CALL`: flow control by O-words.
     pub o_words: bool,
@@ -75,7 +75,7 @@ pub struct SyntaxRules {
     pub macro_statements: bool,
     /// `#<name>`.
     pub named_parameters: bool,
-    /// An expression after `=` may stand without brackets: `#1=#2+3`.
+    /// An expression after `=` may be without brackets: `#1=#2+3`.
     pub bare_expressions: bool,
     /// More than one assignment in a block.
     pub several_assignments: bool,
@@ -85,7 +85,7 @@ pub struct SyntaxRules {
     pub program_number: bool,
     /// `/1` to `/9`.
     pub block_delete_levels: bool,
-    /// `/` may stand after the first word.
+    /// `/` may be after the first word.
     pub block_delete_inside: bool,
     /// How sure the two are; `assumed` when not given.
     #[serde(default)]
@@ -138,7 +138,7 @@ pub struct NumberRules {
     /// Source and confidence of `max_digits`.
     #[serde(default)]
     pub max_digits_confidence: Option<Confidence>,
-    /// Where these rules stand.
+    /// The source of these rules.
     pub source: String,
     /// How sure they are.
     pub confidence: Confidence,
@@ -150,7 +150,7 @@ pub struct NumberRules {
 pub enum Unpointed {
     /// One least increment: `X1` is 0.001 mm or 0.0001 inch.
     LeastIncrement,
-    /// The number as it stands: `X1` is 1 mm or 1 inch.
+    /// Whole units: `X1` is 1 mm or 1 inch.
     AsWritten,
     /// Either, by a parameter we do not know.
     ByParameter,
@@ -172,7 +172,7 @@ pub struct Limits {
     /// Nesting of `[`.
     #[serde(default)]
     pub bracket_depth: Option<u8>,
-    /// Where `bracket-depth` stands.
+    /// The source of `bracket-depth`.
     #[serde(default)]
     pub bracket_depth_source: Option<String>,
     /// Nesting of subprogram calls.
@@ -187,12 +187,12 @@ pub struct Limits {
     /// Numbers allowed after `DO` and `END`.
     #[serde(default)]
     pub do_numbers: Option<[u8; 2]>,
-    /// Where the limits stand.
+    /// The source of the limits.
     #[serde(default)]
     pub source: Option<String>,
 }
 
-/// How complete the list of codes is: what may be said of a code that is not in it.
+/// How complete the list of codes is: how certain a finding about a code outside it may be.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct CodeList {
@@ -205,7 +205,7 @@ pub struct CodeList {
     /// Codes that the control has, or that mean something else, only under a setting that chooses another set of G codes.
     #[serde(default)]
     pub by_setting: Vec<String>,
-    /// Where this stands.
+    /// Its source.
     pub source: String,
 }
 
@@ -229,7 +229,7 @@ impl Default for CodeList {
     }
 }
 
-/// What the control does with a block that says a thing twice, or says it to nobody.
+/// What the control does with a block that gives a thing twice, or gives a word that no code reads.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct BlockRules {
@@ -237,11 +237,11 @@ pub struct BlockRules {
     pub two_of_a_group: Handling,
     /// One code written twice.
     pub code_twice: Handling,
-    /// An address that stands twice.
+    /// An address that is given twice.
     pub word_twice: Handling,
     /// A word that neither a code of the block nor the active motion reads.
     pub unread_word: Handling,
-    /// Where this stands.
+    /// Its source.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -275,13 +275,13 @@ pub enum Handling {
     Accepted,
 }
 
-/// How programs of the control are written where nobody wishes otherwise; for the formatter.
+/// How programs of the control are written by default; for the formatter.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct FormatCustoms {
     /// Which letters addresses and keywords have.
     pub letter_case: LetterCase,
-    /// Where this stands.
+    /// Its source.
     pub source: String,
 }
 
@@ -317,7 +317,8 @@ pub struct Hint {
     /// A form of syntax: `o-word`, `named-parameter`, `macro-statement`, `semicolon-comment`, `program-number`, `tape-mark`,
     /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
     /// `turning-cycle-one-block` (`G71 P Q D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
-    /// `five-digit-program` (`O00123`).
+    /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
+    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`).
     #[serde(default)]
     pub form: Option<String>,
     /// Points for this control.
@@ -354,7 +355,7 @@ pub(crate) struct GroupsFile {
     pub(crate) groups: Vec<ModalGroup>,
 }
 
-/// A modal group: of its codes at most one is active, and at most one may stand in a block.
+/// A modal group: of its codes at most one is active, and at most one may be in a block.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ModalGroup {
@@ -374,7 +375,7 @@ pub struct ModalGroup {
     /// Code active at power-on; `None` where it depends on a setting or nothing is.
     #[serde(default)]
     pub default: Option<String>,
-    /// Where the group stands.
+    /// The source of the group.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -408,7 +409,7 @@ pub struct CodeEntry {
     /// True when the code may be followed by words not listed (macro calls, aliases, printing).
     #[serde(default)]
     pub any_words: bool,
-    /// Of each list at least one word must stand in the block.
+    /// Of each list at least one word must be in the block.
     #[serde(default)]
     pub one_of: Vec<Vec<String>>,
     /// Of each list the items exclude each other; an item may be several letters: `["R", "IJK"]`.
@@ -417,7 +418,7 @@ pub struct CodeEntry {
     /// Confidence of `one-of` and `not-together` where it differs from the entry's.
     #[serde(default)]
     pub choice_confidence: Option<Confidence>,
-    /// Letters that must not stand in the block with this code, though another code could use them.
+    /// Letters that must not be in the block with this code, though another code could use them.
     #[serde(default)]
     pub forbidden: Vec<String>,
     /// Codes that must be active (`G90`), or in the block.
@@ -429,7 +430,7 @@ pub struct CodeEntry {
     /// Codes, or groups as `@canned-cycle`, that must not be commanded or active while this code is active.
     #[serde(default)]
     pub forbids: Vec<String>,
-    /// Codes, or groups as `@motion`, that must not stand in the same block.
+    /// Codes, or groups as `@motion`, that must not be in the same block.
     #[serde(default)]
     pub conflicts: Vec<String>,
     /// Codes that this one ends.
@@ -444,7 +445,7 @@ pub struct CodeEntry {
     /// Axis words in the block belong to this code, not to the active motion mode (`G10`, `G28`, `G52`, `G92`).
     #[serde(default)]
     pub takes_axes: bool,
-    /// No other code may stand in the block.
+    /// No other code may be in the block.
     #[serde(default)]
     pub alone: bool,
     /// What comes to its end here.
@@ -464,7 +465,7 @@ pub struct CodeEntry {
     pub setup: Vec<String>,
     /// One block that uses the code well; it is the entry's fixture.
     pub example: String,
-    /// Where the entry stands.
+    /// The source of the entry.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -481,13 +482,13 @@ pub struct WordEntry {
     /// Kind of value.
     #[serde(rename = "type")]
     pub kind: WordKind,
-    /// Must it stand?
+    /// Must it be given?
     #[serde(default)]
     pub need: Need,
     /// For `need = "conditional"`: when, in words.
     #[serde(default)]
     pub when: Option<String>,
-    /// For `need = "conditional"`: words beside which it must stand in the block, with their values: `["L2", "L20"]`.
+    /// For `need = "conditional"`: words beside which it must be in the block, with their values: `["L2", "L20"]`.
     #[serde(default)]
     pub required_with: Vec<String>,
     /// Words of which any makes this one unnecessary: a peck cycle takes `Q`, or `I`, `J` and `K`.
@@ -511,7 +512,7 @@ pub struct WordEntry {
     /// Value when left out, in words.
     #[serde(default)]
     pub default: Option<String>,
-    /// For labels and programs: what the word names stands in another program or memory, so it need not be in this file.
+    /// For labels and programs: what the word names is in another program or memory, so it need not be in this file.
     #[serde(default)]
     pub elsewhere: bool,
     /// For programs: a block of this program, by its sequence number, where it has one of that number.
@@ -525,7 +526,7 @@ pub struct WordEntry {
     pub confidence: Option<Confidence>,
 }
 
-/// Must a word stand in the block?
+/// Must a word be in the block?
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Need {
@@ -540,7 +541,7 @@ pub enum Need {
     Conditional,
 }
 
-/// Kind of value behind an address.
+/// Kind of the value of an address.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum WordKind {
@@ -675,7 +676,7 @@ pub struct LetterEntry {
     /// An axis or its increment: belongs to the active motion mode.
     #[serde(default)]
     pub axis: bool,
-    /// May stand in any block, whatever its codes (`F`, `S`, `T`, `N`, axes).
+    /// May be in any block, whatever its codes (`F`, `S`, `T`, `N`, axes).
     #[serde(default)]
     pub free: bool,
     /// A minus sign is accepted.
@@ -687,7 +688,7 @@ pub struct LetterEntry {
     /// Largest value.
     #[serde(default)]
     pub max: Option<f64>,
-    /// May stand more than once in a block (`G`, `M`, arguments).
+    /// May be more than once in a block (`G`, `M`, arguments).
     #[serde(default)]
     pub repeatable: bool,
     /// A missing decimal point changes the value.
@@ -697,7 +698,7 @@ pub struct LetterEntry {
     /// setting does.
     #[serde(default)]
     pub scale_setting: Option<String>,
-    /// Where the entry stands.
+    /// The source of the entry.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -732,7 +733,7 @@ pub struct VariableEntry {
     /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
     #[serde(default)]
     pub sequence_number: bool,
-    /// Where the entry stands.
+    /// The source of the entry.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -772,7 +773,7 @@ pub struct FunctionEntry {
     pub name: String,
     /// What it gives, with units.
     pub title: String,
-    /// Where the entry stands.
+    /// The source of the entry.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
@@ -799,12 +800,12 @@ pub struct SettingEntry {
     /// Value that gcheck assumes when nothing is configured.
     #[serde(default)]
     pub default: Option<String>,
-    /// The value under which a number without decimal point counts as it stands, for settings that decide this.
+    /// The value under which a number without decimal point counts as it is written, for settings that decide this.
     #[serde(default)]
     pub as_written: Option<String>,
     /// What it changes for a program.
     pub changes: String,
-    /// Where the entry stands.
+    /// The source of the entry.
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,

@@ -5,7 +5,7 @@
 
 use crate::control::Variable;
 use crate::schema::{Confidence, LetterCase, Motion, VariableKind};
-use crate::{BarFeederRules, CodeNumber, Control, Effect, Letter, SystemValue, SystemVariable};
+use crate::{BarFeederRules, CodeNumber, Control, CornerRules, Effect, Letter, SystemValue, SystemVariable};
 
 /// Everything that is wrong with the data of a control; empty for every control of a release.
 pub fn problems(control: &Control) -> Vec<String> {
@@ -18,6 +18,7 @@ pub fn problems(control: &Control) -> Vec<String> {
     found.letters();
     found.rest();
     found.semantics();
+    found.motion();
     found.system_variables();
     found.list
 }
@@ -72,7 +73,7 @@ impl Problems<'_> {
             if let Some(default) = &group.default {
                 match CodeNumber::parse(default).and_then(|n| control.code(n)) {
                     Some(code) if code.group().id == group.id => {}
-                    _ => self.say(&group.id, format!("default `{default}` is no code of the group")),
+                    _ => self.say(&group.id, format!("default `{default}` is not a code of the group")),
                 }
             }
         }
@@ -106,7 +107,7 @@ impl Problems<'_> {
             self.say(code, "title ends with a full stop");
         }
         if !entry.summary.ends_with(['.', '!', '?']) {
-            self.say(code, "summary is no sentence");
+            self.say(code, "summary is not a sentence");
         }
         if entry.example.contains('\n') {
             self.say(code, "example is more than one line; use `setup`");
@@ -114,7 +115,7 @@ impl Problems<'_> {
         let lists = [&entry.requires, &entry.recommends, &entry.forbids, &entry.conflicts, &entry.cancels];
         for item in lists.into_iter().flatten() {
             if !self.resolves(item) {
-                self.say(code, format!("refers to `{item}`, which is no code or group here"));
+                self.say(code, format!("refers to `{item}`, which is not a code or group here"));
             }
         }
         let is_word = |item: &str| {
@@ -123,13 +124,13 @@ impl Problems<'_> {
         };
         for item in &entry.cancelled_by {
             if !self.resolves(item) && !is_word(item) {
-                self.say(code, format!("is cancelled by `{item}`, which is no code, group or word here"));
+                self.say(code, format!("is cancelled by `{item}`, which is not a code, group or word here"));
             }
         }
         let mut seen = crate::LetterSet::EMPTY;
         for word in &entry.words {
             match Letter::parse(&word.letter) {
-                None => self.say(code, format!("`{}` is no address", word.letter)),
+                None => self.say(code, format!("`{}` is not an address", word.letter)),
                 Some(letter) if !seen.insert(letter) => {
                     self.say(code, format!("word `{letter}` is listed twice"));
                 }
@@ -137,7 +138,7 @@ impl Problems<'_> {
             }
             for letter in word.instead.iter().chain(&word.instead_here) {
                 if Letter::parse(letter).is_none_or(|letter| self.control.letter(letter).is_none()) {
-                    self.say(code, format!("`{letter}` instead of `{}` is no address here", word.letter));
+                    self.say(code, format!("`{letter}` instead of `{}` is not an address here", word.letter));
                 }
             }
             for item in &word.required_with {
@@ -239,6 +240,64 @@ impl Problems<'_> {
         Letter::parse(text).is_some_and(|letter| self.control.letter(letter).is_some())
     }
 
+    /// How the control moves axes: sources that exist, and figures that a planner can work with.
+    fn motion(&mut self) {
+        const PLACE: &str = "motion";
+        let control = self.control;
+        let motion = control.motion();
+        self.source(PLACE, &motion.source);
+        for part in motion.source.split(';').map(str::trim) {
+            let known = control.references().iter().any(|r| part.starts_with(r.id.as_str()));
+            if !known && !part.starts_with("general knowledge") {
+                self.say(PLACE, format!("the source `{part}` is no reference of the control"));
+            }
+        }
+        if motion.look_ahead == 0 {
+            self.say(PLACE, "a control knows at least the stretch that it runs");
+        }
+        let mut within = |name: &str, value: f64, range: std::ops::RangeInclusive<f64>| {
+            if !range.contains(&value) {
+                let (least, most) = (range.start(), range.end());
+                self.say(PLACE, format!("`{name}` is {value}, not from {least} to {most}"));
+            }
+        };
+        within("even-below", motion.even_below, 0.0..=1.0);
+        within("halt-time", motion.halt_time, 0.0..=1.0);
+        for corners in [Some(&motion.corners), motion.contour.as_ref()].into_iter().flatten() {
+            match corners {
+                CornerRules::Rounded {
+                    tolerance,
+                    part_of_length,
+                    across,
+                    along,
+                    unrounded,
+                    cycle,
+                    least_cycles,
+                    ..
+                } => {
+                    within("tolerance", tolerance.unwrap_or(1.0), 1e-4..=100.0);
+                    within("part-of-length", *part_of_length, 0.0..=0.5);
+                    within("across", *across, 0.01..=1.0);
+                    within("along", *along, 0.01..=1.0);
+                    within("unrounded", *unrounded, 0.0..=0.9);
+                    within("cycle", *cycle, 1e-5..=0.1);
+                    within("least-cycles", *least_cycles, 0.0..=100.0);
+                }
+                CornerRules::Slowed { change } => within("change", *change, 1.0..=1e5),
+                CornerRules::Filtered {} => {}
+            }
+        }
+        let setting = |corners: &CornerRules| match corners {
+            CornerRules::Rounded { tolerance_setting, .. } => tolerance_setting.clone(),
+            CornerRules::Slowed { .. } | CornerRules::Filtered {} => None,
+        };
+        if let Some(number) = setting(&motion.corners)
+            && control.setting(&number).is_none()
+        {
+            self.say(PLACE, format!("the setting `{number}` is not one of the control"));
+        }
+    }
+
     fn semantics(&mut self) {
         const PLACE: &str = "semantics";
         let control = self.control;
@@ -247,12 +306,12 @@ impl Problems<'_> {
         for part in semantics.source.split(';').map(str::trim) {
             let known = control.references().iter().any(|r| part.starts_with(r.id.as_str()));
             if !known && !part.starts_with("general knowledge") {
-                self.say(PLACE, format!("the source `{part}` is no reference of the control"));
+                self.say(PLACE, format!("the source `{part}` is not a reference of the control"));
             }
         }
         for code in semantics.at_end.iter().chain(&semantics.at_start) {
             if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
-                self.say(PLACE, format!("`{code}` at the start or end is no code here"));
+                self.say(PLACE, format!("`{code}` at the start or end is not a code here"));
             }
         }
         self.refusals();
@@ -262,12 +321,12 @@ impl Problems<'_> {
             let is_local =
                 matches!(control.variable(number), Variable::Known(v) if v.kind == VariableKind::Local);
             if first <= last && !is_local {
-                self.say(PLACE, format!("#{number} is no local variable"));
+                self.say(PLACE, format!("#{number} is not a local variable"));
             }
         }
         for (letter, number) in &semantics.argument_letters {
             if Letter::parse(letter).is_none() {
-                self.say(PLACE, format!("the argument `{letter}` is no address"));
+                self.say(PLACE, format!("the argument `{letter}` is not an address"));
             }
             if !(first..=last).contains(&u32::from(*number)) {
                 self.say(PLACE, format!("the argument `{letter}` fills #{number}, which is not local"));
@@ -276,25 +335,25 @@ impl Problems<'_> {
         let cycles = &semantics.cycles;
         for letter in semantics.call_repeats.iter().chain([&cycles.repeat]) {
             if !self.is_letter(letter.encode_utf8(&mut [0; 4])) {
-                self.say(PLACE, format!("`{letter}` counts repeats but is no address here"));
+                self.say(PLACE, format!("`{letter}` counts repeats but is not an address here"));
             }
         }
         for letter in semantics.dwell.keys().chain(semantics.increments.keys()) {
             if !self.is_letter(letter) {
-                self.say(PLACE, format!("`{letter}` is no address here"));
+                self.say(PLACE, format!("`{letter}` is not an address here"));
             }
         }
         for name in &cycles.across {
             let code = CodeNumber::parse(name).and_then(|number| control.code(number));
             if !code.is_some_and(|code| code.entry().motion == Motion::Cycle) {
-                self.say(PLACE, format!("`{name}` drills across, but is no canned cycle here"));
+                self.say(PLACE, format!("`{name}` drills across, but is not a canned cycle here"));
             }
         }
         for (letter, axis) in &semantics.increments {
             if letter == axis || Letter::parse(axis).is_none_or(|axis| !control.axes().contains(axis)) {
                 self.say(
                     PLACE,
-                    format!("`{letter}` is an increment of `{axis}`, which is no other axis here"),
+                    format!("`{letter}` is an increment of `{axis}`, which is not another axis here"),
                 );
             }
         }
@@ -326,25 +385,25 @@ impl Problems<'_> {
                     entry.words.iter().any(is_word) || entry.forbidden.contains(&letter)
                 };
                 if entry.is_none_or(|entry| !speaks(entry)) {
-                    self.say(PLACE, format!("`{letter}` is no word of a code `{code}` here"));
+                    self.say(PLACE, format!("`{letter}` is not a word of a code `{code}` here"));
                 }
             }
         }
         for code in &refusals.first_only {
             if CodeNumber::parse(code).is_none_or(|n| control.code(n).is_none()) {
-                self.say(PLACE, format!("`{code}` is no code here"));
+                self.say(PLACE, format!("`{code}` is not a code here"));
             }
         }
         for (letter, others) in &refusals.beside {
             for letter in std::iter::once(letter.clone()).chain(others.chars().map(String::from)) {
                 if !self.is_letter(&letter) {
-                    self.say(PLACE, format!("`{letter}` is no address here"));
+                    self.say(PLACE, format!("`{letter}` is not an address here"));
                 }
             }
         }
         for axis in refusals.axes.iter().flat_map(|axes| axes.chars()) {
             if Letter::parse(&axis.to_string()).is_none_or(|axis| !control.axes().contains(axis)) {
-                self.say(PLACE, format!("`{axis}` is no axis here"));
+                self.say(PLACE, format!("`{axis}` is not an axis here"));
             }
         }
     }
@@ -378,7 +437,7 @@ impl Problems<'_> {
             let is_own = matches!(control.variable(number), Variable::Known(entry)
                 if matches!(entry.kind, VariableKind::System | VariableKind::Retained));
             if !is_own {
-                self.say("semantics.bar-feeder", format!("#{number} is no variable of the control's own"));
+                self.say("semantics.bar-feeder", format!("#{number} is not a variable of the control's own"));
             }
         }
     }
@@ -399,7 +458,7 @@ impl Problems<'_> {
             if let Some(name) = &variable.name {
                 let known = control.named_parameter(name).is_some_and(|v| v.kind == VariableKind::System);
                 if !known || variable.count != 1 || variable.rows != 1 {
-                    self.say(&place, "is no predefined parameter, or more than one");
+                    self.say(&place, "is not a predefined parameter, or more than one");
                 }
                 if !seen.insert(name.clone()) {
                     self.say(&place, "is listed twice");
@@ -414,7 +473,7 @@ impl Problems<'_> {
                     Variable::Unlisted => None,
                 };
                 if !matches!(kind, Some(VariableKind::System | VariableKind::Retained)) {
-                    self.say(&place, format!("#{number} is no variable of the control's own"));
+                    self.say(&place, format!("#{number} is not a variable of the control's own"));
                     break;
                 }
                 if !seen.insert(number.to_string()) {
@@ -543,7 +602,7 @@ mod tests {
         assert!(wrong.is_empty(), "{} problems:\n{}", wrong.len(), wrong.join("\n"));
     }
 
-    /// Groups whose codes all do something that the engine follows, or are said to do nothing (`"none"`).
+    /// Groups whose codes all do something that the engine follows, or explicitly do nothing (`"none"`).
     const FOLLOWED: &[&str] = &[
         "motion",
         "canned-cycle",
@@ -598,7 +657,7 @@ mod tests {
             for code in stated_effects(name).keys() {
                 let found = CodeNumber::parse(code).and_then(|number| control.code(number));
                 if found.is_none_or(|found| found.entry().code != *code) {
-                    wrong.insert(format!("{name}: `{code}` is no code, or not written as the code is"));
+                    wrong.insert(format!("{name}: `{code}` is not a code, or not written as the code is"));
                 }
             }
         }

@@ -27,7 +27,7 @@ impl WordKind {
 }
 
 impl WordEntry {
-    /// Must the word stand? `required`, `optional, else 1`.
+    /// Must the word be given? `required`, `optional, else 1`.
     pub fn need_in_words(&self) -> String {
         match self.need {
             Need::Required => "required".to_owned(),

@@ -1,13 +1,13 @@
 //! What is known of each chunk, as salsa keeps it.
 //!
-//! Knows: which facts depend on a chunk alone, and on which settings. Must not know: where in a file a chunk stands, what is
+//! Knows: which facts depend on a chunk alone, and on which settings. Must not know: where in a file a chunk is, what is
 //! made of the facts of all chunks.
 
 use std::fmt;
 use std::sync::Arc;
 
+use gcheck_lint::{ChunkFacts, ChunkFindings, ChunkSource, Environment, Omitted};
 use gcheck_program::Dialect;
-use gcheck_rules::{ChunkFacts, ChunkFindings, ChunkSource, Omitted, Scene};
 use rustc_hash::FxHashMap;
 use salsa::Setter;
 
@@ -75,7 +75,12 @@ fn facts(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFacts> {
 fn findings(db: &dyn salsa::Database, chunk: Chunk) -> Arc<ChunkFindings> {
     let settings = chunk.in_force(db).settings(db);
     let dialect = Dialect::new(&settings.control);
-    Arc::new(ChunkFindings::new(chunk.text(db), u32::MAX, scene(settings, &dialect), &settings.selection))
+    Arc::new(ChunkFindings::new(
+        chunk.text(db),
+        u32::MAX,
+        environment(settings, &dialect),
+        &settings.selection,
+    ))
 }
 
 /// How many findings there are.
@@ -163,18 +168,18 @@ impl Asking<'_> {
         self.chunks.known.get(chunk).map(|(_, chunk)| *chunk).filter(|_| end == u32::MAX)
     }
 
-    /// The one chunk in which the control stops reading is read anew each time.
-    fn cut<T>(&self, chunk: usize, make: impl FnOnce(&str, Scene<'_>, &Settings) -> T) -> T {
+    /// The one chunk in which the control stops reading is read again each time.
+    fn cut<T>(&self, chunk: usize, make: impl FnOnce(&str, Environment<'_>, &Settings) -> T) -> T {
         let settings = self.chunks.in_force.settings(self.storage);
         let dialect = Dialect::new(&settings.control);
         let text = self.chunks.known.get(chunk).map_or("", |(text, _)| text);
-        make(text, scene(settings, &dialect), settings)
+        make(text, environment(settings, &dialect), settings)
     }
 }
 
 /// What rules may ask under these settings.
-pub(crate) fn scene<'s>(settings: &'s Settings, dialect: &'s Dialect<'s>) -> Scene<'s> {
-    Scene {
+pub(crate) fn environment<'s>(settings: &'s Settings, dialect: &'s Dialect<'s>) -> Environment<'s> {
+    Environment {
         dialect,
         machine: &settings.machine,
         programs: &*settings.programs,
@@ -186,15 +191,16 @@ impl ChunkSource for Asking<'_> {
     fn facts(&self, chunk: usize, end: u32) -> Arc<ChunkFacts> {
         match self.chunk(chunk, end) {
             Some(chunk) => facts(self.storage, chunk),
-            None => self.cut(chunk, |text, scene, _| Arc::new(ChunkFacts::new(text, end, scene.dialect))),
+            None => self
+                .cut(chunk, |text, environment, _| Arc::new(ChunkFacts::new(text, end, environment.dialect))),
         }
     }
 
     fn findings(&self, chunk: usize, end: u32) -> Arc<ChunkFindings> {
         match self.chunk(chunk, end) {
             Some(chunk) => findings(self.storage, chunk),
-            None => self.cut(chunk, |text, scene, settings| {
-                Arc::new(ChunkFindings::new(text, end, scene, &settings.selection))
+            None => self.cut(chunk, |text, environment, settings| {
+                Arc::new(ChunkFindings::new(text, end, environment, &settings.selection))
             }),
         }
     }

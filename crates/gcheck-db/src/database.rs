@@ -5,13 +5,14 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use gcheck_diagnostics::{Finding, RuleMeta, Severity};
 use gcheck_engine::{Look, Options, flow};
+use gcheck_lint::{Assumptions, EditedFile, FileFacts, Incremental, Outcome, Work};
 use gcheck_program::Dialect;
-use gcheck_rules::{Edited, Finding, Incremental, Ledger, Outcome, RuleMeta, Severity, Whole, Work};
 use gcheck_syntax::{Document, OutOfRange};
 use rustc_hash::FxHashMap;
 
-use crate::chunks::{Asking, Chunks, Storage, scene};
+use crate::chunks::{Asking, Chunks, Storage, environment};
 use crate::snapshot::LineEnds;
 use crate::states::Keeper;
 use crate::{Settings, Snapshot, StateAt};
@@ -27,22 +28,22 @@ pub struct Cancelled;
 /// What is known of a document.
 #[derive(Debug, Default)]
 pub struct Analysis {
-    /// Findings in text order, as [`gcheck_rules::check`] gives them.
+    /// Findings in text order, as [`gcheck_lint::check`] gives them.
     pub findings: Vec<Finding>,
     /// Findings beyond the limit, by rule and severity.
     pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
     /// Findings silenced by comments.
     pub suppressed: usize,
     /// What the analysis of paths took for granted.
-    pub ledger: Ledger,
+    pub assumptions: Assumptions,
     /// The analysis of paths ended before it had seen all.
     pub out_of_fuel: bool,
 }
 
 impl Analysis {
     fn of(outcome: Outcome) -> Self {
-        let Outcome { findings, omitted, suppressed, ledger, out_of_fuel, lines: _ } = outcome;
-        Self { findings, omitted, suppressed, ledger, out_of_fuel }
+        let Outcome { findings, omitted, suppressed, assumptions, out_of_fuel, lines: _ } = outcome;
+        Self { findings, omitted, suppressed, assumptions, out_of_fuel }
     }
 }
 
@@ -91,7 +92,7 @@ impl Open {
                 self.chunks.follow(storage, self.document.chunks());
                 let source = Asking { storage, chunks: &self.chunks };
                 let dialect = Dialect::new(&self.settings.control);
-                Arc::new(Whole::of_source(self.document.chunks(), &source, &dialect))
+                Arc::new(FileFacts::of_source(self.document.chunks(), &source, &dialect))
             }));
         }
         snapshot
@@ -160,11 +161,11 @@ fn edited<'a>(
     dialect: &'a Dialect<'a>,
     source: &'a Asking<'a>,
     stop: &'a dyn Fn() -> bool,
-) -> Edited<'a> {
-    Edited {
+) -> EditedFile<'a> {
+    EditedFile {
         chunks: document.chunks(),
         source,
-        scene: scene(settings, dialect),
+        environment: environment(settings, dialect),
         selection: &settings.selection,
         suppressions: settings.suppressions,
         execution: settings.execution,
@@ -251,7 +252,7 @@ impl Database {
         self.documents.get_mut(&id).map(Open::snapshot)
     }
 
-    /// The document as it is now, with survey and outline joined from what is kept of its chunks: behind an edit they cost the
+    /// The document as it is now, with survey and outline joined from what is kept of its chunks: after an edit they cost the
     /// chunks that it changed, where a [`Database::snapshot`] reads the whole text when it is asked for them.
     pub fn outlined(&mut self, id: DocumentId) -> Option<Snapshot> {
         let open = self.documents.get_mut(&id)?;

@@ -12,7 +12,7 @@
 //!
 //! let control = gcheck_controls::load("haas-mill").unwrap();
 //! let mut database = Database::new();
-//! let id = database.open("%\nO1\nG90 G54 G0 X1.\nG1 X2.\nM30\n%\n", Settings::new(control));
+//! let id = database.open("%\nO1\nG90 G54 G0 X1.\nG1 X2.\nM30\n%\n", Settings::new(control, gcheck_rules::RULES));
 //! let analysis = database.analysis(id, &|| false).unwrap();
 //! assert!(analysis.findings.iter().any(|finding| finding.rule.id == "feed-missing"));
 //! ```

@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use gcheck_controls::Control;
-use gcheck_rules::{Execution, MachineFacts, NoPrograms, Programs, Selection};
+use gcheck_lint::{Execution, MachineFacts, NoPrograms, Programs, RuleTable, Selection};
 
 /// Programs that calls may bring in, as several threads ask for them.
 pub type SharedPrograms = Arc<dyn Programs + Send + Sync>;
@@ -16,7 +16,7 @@ pub type SharedPrograms = Arc<dyn Programs + Send + Sync>;
 pub struct Settings {
     /// The control.
     pub control: Arc<Control>,
-    /// Nobody chose the control: it was guessed from the program, or is the default.
+    /// The user did not choose the control: it was guessed from the program, or is the default.
     pub control_is_guessed: bool,
     /// The user's machine.
     pub machine: Arc<MachineFacts>,
@@ -26,18 +26,18 @@ pub struct Settings {
     pub suppressions: bool,
     /// How paths are analysed.
     pub execution: Execution,
-    /// Other programs. Who changes what they hold sets the settings again.
+    /// Other programs. When what they hold changes, the settings are set again.
     pub programs: SharedPrograms,
 }
 
 impl Settings {
-    /// A control, and nothing else told.
-    pub fn new(control: Arc<Control>) -> Self {
+    /// A control, the recommended rules of a table, and nothing else configured.
+    pub fn new(control: Arc<Control>, rules: RuleTable) -> Self {
         Self {
             control,
             control_is_guessed: false,
             machine: Arc::default(),
-            selection: Arc::default(),
+            selection: Arc::new(Selection::recommended(rules)),
             suppressions: true,
             execution: Execution::default(),
             programs: Arc::new(NoPrograms),

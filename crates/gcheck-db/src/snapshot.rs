@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use gcheck_controls::Control;
+use gcheck_lint::{ChunkFacts, FileFacts};
 use gcheck_program::{Block, BlockIx, BlockTable, Dialect, Outline, Survey, lower, profile};
-use gcheck_rules::{ChunkFacts, Whole};
 use gcheck_syntax::{Document, Parse, line_len, parse};
 
 use crate::Settings;
@@ -26,7 +26,7 @@ struct Inner {
     starts: Vec<u32>,
     /// Number of the first line of each chunk, and the number of line ends.
     lines: Vec<u32>,
-    whole: OnceLock<Arc<Whole>>,
+    whole: OnceLock<Arc<FileFacts>>,
     /// The chunk that was read last, with its blocks: who asks for one block asks for its neighbours next.
     read: Mutex<Option<(usize, Arc<BlockTable>)>>,
     /// How often a chunk was read.
@@ -53,7 +53,7 @@ pub struct BlockPlace {
     pub number: u32,
     /// The table of its chunk.
     pub table: Arc<BlockTable>,
-    /// Where it stands in the table.
+    /// Where it is in the table.
     pub ix: BlockIx,
     /// Index of its chunk.
     pub chunk: usize,
@@ -103,7 +103,7 @@ impl Snapshot {
     pub(crate) fn new(
         document: Document,
         settings: Settings,
-        whole: Option<Arc<Whole>>,
+        whole: Option<Arc<FileFacts>>,
         line_ends: &mut LineEnds,
     ) -> Self {
         line_ends.follow(document.chunks());
@@ -188,7 +188,7 @@ impl Snapshot {
         self.0.document.text()
     }
 
-    /// Number of lines; the one behind the last line end counts, though it may be empty.
+    /// Number of lines; the one after the last line end counts, though it may be empty.
     pub fn line_count(&self) -> u32 {
         self.0.lines.last().copied().unwrap_or(0) + 1
     }
@@ -208,7 +208,7 @@ impl Snapshot {
     /// Bytes of a line (from 0) without its end; empty, at the end of the text, for a line that is not there.
     pub fn line_range(&self, line: u32) -> Range<u32> {
         let end = self.len();
-        // A last line without an end is of the last chunk, though as many lines end before it as in the text.
+        // A last line without a line end is of the last chunk, though as many lines end before it as in the text.
         let last = self.0.document.chunks().len().saturating_sub(1);
         let index = self.0.lines.partition_point(|first| *first <= line).saturating_sub(1).min(last);
         let Some(chunk) = self.chunk(index) else { return end..end };
@@ -266,7 +266,7 @@ impl Snapshot {
     }
 
     /// Takes survey and outline from somewhere else than the text, unless they are known.
-    pub(crate) fn outline_by(&self, whole: Arc<Whole>) {
+    pub(crate) fn outline_by(&self, whole: Arc<FileFacts>) {
         self.0.whole.get_or_init(|| whole);
     }
 
@@ -281,8 +281,8 @@ impl Snapshot {
         self.0.tables_read.load(Ordering::Relaxed)
     }
 
-    fn whole(&self) -> &Whole {
-        self.0.whole.get_or_init(|| Arc::new(Whole::of_text(self.0.document.chunks(), &self.dialect())))
+    fn whole(&self) -> &FileFacts {
+        self.0.whole.get_or_init(|| Arc::new(FileFacts::of_text(self.0.document.chunks(), &self.dialect())))
     }
 
     /// The last block that begins at a byte or before it, on the byte's line or an earlier one.

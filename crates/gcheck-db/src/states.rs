@@ -14,8 +14,10 @@ pub struct StateAt {
     pub block: u32,
     /// What may be the state before it.
     pub before: State<Abstract>,
-    /// Where its facts were set.
+    /// Where the facts before it were set.
     pub trace: Trace,
+    /// Where the facts after it were set.
+    pub trace_after: Trace,
     /// What may be the state after it; `None` when the program never goes on from here.
     pub after: Option<State<Abstract>>,
     /// Every path comes here.
@@ -69,6 +71,7 @@ impl FlowObserver for Keeper {
                     block,
                     before: cx.state.clone(),
                     trace: cx.trace.clone(),
+                    trace_after: cx.trace.clone(),
                     after: None,
                     on_every_path: cx.solo,
                     visits: 1,
@@ -85,6 +88,7 @@ impl FlowObserver for Keeper {
         if let Some(seen) = self.seen.get_mut(&cx.origin.at.block) {
             let after = seen.after.as_ref().map_or_else(|| cx.state.clone(), |after| after.union(cx.state));
             seen.after = Some(after);
+            seen.trace_after = cx.trace.clone();
         }
     }
 }

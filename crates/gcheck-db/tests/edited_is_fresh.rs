@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use std::fs;
 
 use gcheck_db::{Database, Settings};
+use gcheck_lint::{Environment, Job, NoPrograms, check};
 use gcheck_program::Dialect;
-use gcheck_rules::{Job, NoPrograms, Scene, check};
 use gcheck_syntax::SourceText;
 use gcheck_testkit::{corpus, inputs};
 
@@ -36,7 +36,7 @@ fn assert_fresh(
     let dialect = Dialect::new(&settings.control);
     let fresh = check(&Job {
         source: &source,
-        scene: Scene {
+        environment: Environment {
             dialect: &dialect,
             machine: &settings.machine,
             programs: &NoPrograms,
@@ -51,15 +51,15 @@ fn assert_fresh(
         assert!(own == other, "{told}\n{own:#?}\n{other:#?}");
     }
     assert_eq!(
-        (known.suppressed, &known.ledger, known.out_of_fuel),
-        (fresh.suppressed, &fresh.ledger, fresh.out_of_fuel),
+        (known.suppressed, &known.assumptions, known.out_of_fuel),
+        (fresh.suppressed, &fresh.assumptions, fresh.out_of_fuel),
         "{told}"
     );
 }
 
 /// Edits a program somewhere, several times.
 fn soak(name: &str, control: &str, text: &str, edits: usize) {
-    let mut settings = Settings::new(gcheck_controls::load(control).unwrap());
+    let mut settings = Settings::new(gcheck_controls::load(control).unwrap(), gcheck_rules::RULES);
     settings.execution.fuel = 200_000;
     let mut database = Database::new();
     let mut text = text.to_owned();

@@ -21,7 +21,8 @@ impl Watched {
         let executed: Arc<Mutex<Vec<String>>> = Arc::default();
         let told = Arc::clone(&executed);
         let mut database = Database::telling(move |query| told.lock().unwrap().push(query.to_owned()));
-        let id = database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap()));
+        let id = database
+            .open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap(), gcheck_rules::RULES));
         let mut watched = Self { database, id, text, executed };
         watched.analyse();
         watched
@@ -59,7 +60,8 @@ trait OpenAndAnalyse {
 
 impl OpenAndAnalyse for Database {
     fn open_and_analyse(&mut self, text: &str) -> Arc<gcheck_db::Analysis> {
-        let id = self.open(text, Settings::new(gcheck_controls::load("haas-mill").unwrap()));
+        let id =
+            self.open(text, Settings::new(gcheck_controls::load("haas-mill").unwrap(), gcheck_rules::RULES));
         self.analysis(id, &|| false).unwrap()
     }
 }
@@ -117,7 +119,8 @@ fn a_jump_has_the_control_flow_analysed_again_and_no_chunk_read() {
 fn work_that_was_given_up_is_taken_up_where_it_was() {
     let text = inputs::surfacing(60_000);
     let mut database = Database::new();
-    let id = database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap()));
+    let id =
+        database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap(), gcheck_rules::RULES));
     let asked = std::cell::Cell::new(0);
     let stop = || {
         asked.set(asked.get() + 1);
@@ -148,14 +151,15 @@ fn states_are_those_of_the_place() {
 
 #[test]
 fn the_first_lines_of_a_document_are_checked_ahead_of_the_rest() {
-    // Nobody has said a feed, and in the last lines stands a code that is none.
+    // Nobody has said a feed, and in the last lines is a code that is none.
     let text = inputs::surfacing(60_000).replace(" F2500.", "").replace("\nM30", "\nG999\nM30");
     let executed = Arc::new(Mutex::new(0));
     let told = Arc::clone(&executed);
     let mut database = Database::telling(move |query| {
         *told.lock().unwrap() += usize::from(query.starts_with("findings"));
     });
-    let id = database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap()));
+    let id =
+        database.open(&text, Settings::new(gcheck_controls::load("haas-mill").unwrap(), gcheck_rules::RULES));
     let first = database.first_findings(id, 20_000, &|| false).unwrap().unwrap();
     let states = database.states(id, 20..30, &|| false).unwrap();
     assert_eq!(states.len(), 10);

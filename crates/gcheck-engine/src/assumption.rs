@@ -7,6 +7,25 @@ use gcheck_controls::CodeIx;
 use crate::model::Role;
 use crate::position::Axis;
 
+/// What paths may differ in when they become one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Unsettled {
+    /// Whether a macro is called after every move, and which.
+    ModalCall,
+    /// Whether cutter compensation is on.
+    Compensation,
+    /// Which control points a curve has so far.
+    Curve,
+    /// Which modes were saved, and whether any were.
+    SavedModes,
+    /// Whether a parameter was ever set.
+    Parameter,
+    /// Which program called the one under way.
+    Caller,
+    /// Whether a bar feed follows the program under way.
+    BarFeed,
+}
+
 /// Something taken for granted, or left unknown.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Assumption {
@@ -58,6 +77,8 @@ pub enum Assumption {
     NewBar,
     /// Limits of the bar feeder stop it as general knowledge has it.
     BarLimits,
+    /// Paths met that differ in something which decides what follows: what depends on it is unknown from there on.
+    Unsettled(Unsettled),
     /// Nothing is known of a code's effect.
     Code(CodeIx),
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.

@@ -40,6 +40,17 @@ pub enum Event {
     Units(Units),
     /// Exact path, exact stop or blending; tolerances in millimetres.
     PathMode(PathMode),
+    /// The axes stop at the end of the block's move.
+    ExactStop,
+    /// How exactly corners are taken, in place of the control's settings.
+    Smoothing(Smoothing),
+    /// The control looks ahead on command, or ceases to: with the level of precision that the program asks for.
+    ContourControl {
+        /// On, else off.
+        on: bool,
+        /// As the program gives it.
+        level: Option<u8>,
+    },
 
     /// Work coordinate system number (1 = the first), with its offset and rotation, now in effect.
     WorkOffset {
@@ -300,7 +311,7 @@ pub enum FeedMode {
     InverseTime,
     /// Length a minute.
     PerMinute,
-    /// Length a turn of the spindle.
+    /// Length per turn of the spindle.
     PerRevolution,
 }
 
@@ -337,6 +348,16 @@ pub enum PathMode {
         /// Tolerance of joining nearly straight moves; `None` when not given.
         naive: Option<Mm>,
     },
+}
+
+/// How exactly corners are taken. Without level and tolerance the control's settings count again; with one of them the
+/// other one stays.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Smoothing {
+    /// 1 rough, 2 medium, 3 finish.
+    pub level: Option<u8>,
+    /// Largest distance from the path.
+    pub tolerance: Option<Mm>,
 }
 
 /// The spindle.

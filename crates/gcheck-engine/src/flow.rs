@@ -28,12 +28,14 @@ pub use trace::{Decision, Fact, Facts, Trace};
 use crate::assumption::Assumption;
 use crate::event::Event;
 use crate::fault::Fault;
+use crate::lattice::Lattice;
 use crate::machine::Machine;
 use crate::model::Model;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
-use crate::state::{At, State};
+use crate::state::State;
 use crate::step::{Ending, Executor, Options, Outcome};
 use crate::value::Abstract;
 
@@ -538,7 +540,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             let never_parts = head.forks == self.forks;
             head.forks = self.forks;
             let widen = head.visits > JOINS_BEFORE_WIDENING;
-            let joined = head.state.join(state, widen);
+            let joined = if widen { head.state.widen(state) } else { head.state.join(state) };
             let gives_up = head.visits > MOST_EXACT_TURNS + MOST_VISITS
                 || head.visits <= MOST_EXACT_TURNS && head.visits > MOST_VISITS;
             if joined == head.state || gives_up {
@@ -656,7 +658,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             }
             Some(met) => {
                 met.visits += 1;
-                let joined = met.state.join(&state, met.visits > JOINS_BEFORE_WIDENING);
+                let widen = met.visits > JOINS_BEFORE_WIDENING;
+                let joined = if widen { met.state.widen(&state) } else { met.state.join(&state) };
                 if joined == met.state {
                     return;
                 }

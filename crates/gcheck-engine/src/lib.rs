@@ -9,44 +9,42 @@ mod cylinder;
 mod event;
 mod fault;
 mod flow;
+mod lattice;
 mod machine;
-mod modal;
 mod model;
-mod number;
 mod observer;
+mod origin;
 mod position;
 mod program;
 mod run;
 mod start;
 mod state;
 mod step;
-mod tool_shift;
-mod touch;
+mod tracked;
 mod value;
-mod variables;
 mod words;
 
-pub use assumption::Assumption;
-pub use cylinder::{Cylinder, Diameters, Wrapped};
+pub use assumption::{Assumption, Unsettled};
+pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{
     Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, Leg, MOST_EXACT_TURNS, Reach, Trace,
     flow, flow_from,
 };
-pub use machine::{BarFeeder, Machine, Tool, WorkOffset};
-pub use modal::ModeSet;
+pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
+pub use lattice::Lattice;
+pub use machine::{BarFeeder, Dynamics, Machine, Tool, WorkOffset};
 pub use model::{Model, Role};
-pub use observer::{Nobody, Observer, Origin};
+pub use observer::{Nobody, Observer};
+pub use origin::{At, Origin};
 pub use position::{Axis, Position};
 pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
 pub use run::{RunResult, Stopped, run};
-pub use state::{At, CycleWords, Frame, FrameKind, State, Tables, Transform};
-pub use step::bar::Bar;
-pub use step::compensation::Compensation;
+pub use state::{
+    Bar, CycleWords, Diameters, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift, Touch,
+    Transform, Variables, Way, Ways, Wrapped,
+};
 pub use step::look::{Look, Trial};
 pub use step::{Ending, Options};
-pub use tool_shift::ToolShift;
-pub use touch::{Touch, Way, Ways};
 pub use value::*;
-pub use variables::{NameId, Variables};

@@ -9,6 +9,7 @@ use gcheck_controls::CylinderRules;
 use gcheck_geometry::{Kinematics, Mm, MmPerMin, Rpm, Seconds};
 
 use crate::event::Units;
+use crate::lattice::lattice;
 use crate::position::{Axis, Position};
 
 /// What is known of the machine.
@@ -52,6 +53,43 @@ pub struct Machine {
     pub fresh: bool,
     /// The bar feeder of a lathe.
     pub bar: BarFeeder,
+    /// How quickly axes and spindle change their speed, and what else takes time.
+    pub dynamics: Dynamics,
+}
+
+/// What of a machine decides how long a program takes. What is not given is not known.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Dynamics {
+    /// Acceleration by axis, millimetres or degrees a second squared.
+    pub acceleration: BTreeMap<Axis, f64>,
+    /// Jerk by axis, millimetres or degrees a second cubed.
+    pub jerk: BTreeMap<Axis, f64>,
+    /// Rapid rate of axes that differ from the others, millimetres or degrees a minute.
+    pub rapid: BTreeMap<Axis, f64>,
+    /// What the control takes to prepare a block.
+    pub block_time: Option<Seconds>,
+    /// How many blocks the control looks ahead.
+    pub look_ahead: Option<u32>,
+    /// By how much the speed of an axis may change at a corner.
+    pub corner_change: Option<MmPerMin>,
+    /// What the spindle gains in a second.
+    pub spindle_acceleration: Option<Rpm>,
+    /// What turning the spindle to an angle takes.
+    pub orientation: Option<Seconds>,
+    /// What an auxiliary function takes: coolant, chuck, the shop's own codes.
+    pub auxiliary: Option<Seconds>,
+    /// What the magazine takes to pass one pocket.
+    pub pocket: Option<Seconds>,
+    /// Pockets around the magazine.
+    pub pockets: Option<u32>,
+    /// The magazine turns to the next tool while the machine cuts.
+    pub turns_ahead: bool,
+    /// Position of the feed override switch, percent.
+    pub feed_override: Option<f64>,
+    /// Position of the rapid override switch, percent.
+    pub rapid_override: Option<f64>,
+    /// Rapid rate of the rotary axes, degrees a minute.
+    pub rotary_rapid: Option<f64>,
 }
 
 /// A bar feeder.
@@ -65,18 +103,22 @@ pub struct BarFeeder {
     pub starts_new: bool,
 }
 
-/// A work coordinate system.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WorkOffset {
-    /// Its origin in machine coordinates.
-    pub origin: Position,
-    /// Rotation about Z, degrees.
-    pub rotation: f64,
+lattice! {
+    /// A work coordinate system.
+    #[derive(Debug, Clone, Copy)]
+    pub struct WorkOffset {
+        /// Its origin in machine coordinates.
+        pub origin: Position,
+        /// Rotation about Z, degrees.
+        pub rotation: f64,
+    }
 }
 
 impl WorkOffset {
     /// Nothing is known of it.
-    pub const UNKNOWN: Self = Self { origin: Position::UNKNOWN, rotation: 0.0 };
+    pub const UNKNOWN: Self = Self { origin: Position::UNKNOWN, rotation: f64::NAN };
+    /// Nobody told its origin; it is taken not to be turned.
+    pub const UNTOLD: Self = Self { origin: Position::UNKNOWN, rotation: 0.0 };
     /// At the machine's zero.
     pub const ZERO: Self = Self { origin: Position::ZERO, rotation: 0.0 };
 }

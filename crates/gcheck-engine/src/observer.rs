@@ -2,30 +2,11 @@
 //!
 //! Knows: what is shown, and when. Must not know: what observers do with it.
 
-use gcheck_controls::LetterSet;
-use gcheck_program::BlockFlags;
-
 use crate::event::Event;
 use crate::fault::Fault;
-use crate::state::{At, State};
+use crate::origin::Origin;
+use crate::state::State;
 use crate::value::Domain;
-
-/// Where an event comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Origin {
-    /// The block.
-    pub at: At,
-    /// First byte of the block in its file.
-    pub start: u32,
-    /// Byte behind the block.
-    pub end: u32,
-    /// What the block has.
-    pub flags: BlockFlags,
-    /// Addresses of its words.
-    pub letters: LetterSet,
-    /// Its sequence number.
-    pub n: Option<u32>,
-}
 
 /// Watches an execution.
 pub trait Observer<D: Domain> {

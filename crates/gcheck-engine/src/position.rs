@@ -6,6 +6,9 @@ use std::ops::{Add, Sub};
 
 use gcheck_controls::Letter;
 use gcheck_geometry::{Degrees, Mm};
+use nalgebra::{Rotation2, Vector2};
+
+use crate::lattice::Lattice;
 
 /// An axis of the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -127,16 +130,15 @@ impl Position {
         self.0.iter().all(|value| !value.is_nan())
     }
 
-    /// Coordinates that differ become unknown.
+    /// Turned about Z by degrees; nothing is touched at zero, so that unknown coordinates stay apart.
     #[must_use]
-    pub fn join(&self, other: &Self) -> Self {
-        let mut joined = *self;
-        for axis in Axis::ALL {
-            if self.raw(axis).to_bits() != other.raw(axis).to_bits() {
-                joined.set(axis, f64::NAN);
-            }
+    pub fn turned(self, degrees: f64) -> Self {
+        if degrees == 0.0 {
+            return self;
         }
-        joined
+        let [x, y, z] = self.xyz();
+        let turned = Rotation2::new(degrees.to_radians()) * Vector2::new(x.0, y.0);
+        self.with_xyz([Mm(turned.x), Mm(turned.y), z])
     }
 
     fn zip(&self, other: &Self, with: impl Fn(f64, f64) -> f64) -> Self {
@@ -148,10 +150,29 @@ impl Position {
     }
 }
 
+/// Coordinates each by themselves.
+impl Lattice for Position {
+    fn join(&self, other: &Self) -> Self {
+        Self(self.0.join(&other.0))
+    }
+
+    fn widen(&self, newer: &Self) -> Self {
+        self.join(newer)
+    }
+
+    fn covers(&self, inner: &Self) -> bool {
+        self.0.covers(&inner.0)
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self.0.same(&other.0)
+    }
+}
+
 impl PartialEq for Position {
     /// Bit by bit, so that unknown equals unknown.
     fn eq(&self, other: &Self) -> bool {
-        self.0.iter().zip(&other.0).all(|(a, b)| a.to_bits() == b.to_bits())
+        self.same(other)
     }
 }
 

@@ -10,8 +10,8 @@ use std::rc::Rc;
 use gcheck_program::{Dialect, Loaded, OLabel};
 use rustc_hash::FxHashMap;
 
-use crate::state::At;
-use crate::variables::NameId;
+use crate::origin::At;
+use crate::state::NameId;
 
 /// Programs that stand in other files.
 pub trait Library {

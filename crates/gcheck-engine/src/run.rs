@@ -8,10 +8,11 @@ use crate::assumption::Assumption;
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
-use crate::state::{At, State};
+use crate::state::State;
 use crate::step::{Ending, Executor, Options, Outcome};
 use crate::value::Concrete;
 

@@ -15,6 +15,8 @@ pub(crate) mod look;
 mod message;
 mod modes;
 mod motion;
+#[cfg(test)]
+mod notes;
 mod offsets;
 mod operation;
 pub(crate) mod plain;
@@ -36,17 +38,18 @@ use gcheck_program::{
 };
 use rustc_hash::FxHashMap;
 
-use crate::assumption::Assumption;
+use crate::assumption::{Assumption, Unsettled};
 use crate::cycles::Stroke;
 use crate::event::{Event, Units};
 use crate::fault::{Fault, ValueFault};
+use crate::lattice::Lattice;
 use crate::machine::Machine;
 use crate::model::{Model, Rank, Role};
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::program::{Program, ProgramFile};
-use crate::state::{At, State};
+use crate::state::{NameId, State, Variable};
 use crate::value::{Domain, Truth};
-use crate::variables::NameId;
 use crate::words::BlockWords;
 
 /// Switches of the operator's panel, and how far a run goes.
@@ -160,6 +163,8 @@ enum Flow<D: Domain> {
     Return {
         label: Option<D::Value>,
     },
+    /// To the macro that is called after every move.
+    ModalCall,
     /// Here or on, as an input decides.
     MayJump(At),
     End(Ending),
@@ -394,7 +399,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 | Event::Plane(_)
                 | Event::Units(_)
         );
-        if state.compensation.is_some() && !at_once {
+        if state.compensation.is_followed() && !at_once {
             self.emit_compensated(state, event);
         } else {
             self.observer.event(self.origin, state, &event);
@@ -692,9 +697,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     if matches!(ops.get(index + 1), Some(Op::Call(Function::Exists, _))) =>
                 {
                     let exists = match op {
-                        Op::Named { start, end } => {
-                            Some(self.read_named(place, (*start, *end), state).is_ok())
-                        }
+                        Op::Named { start, end } => self.has_name(self.name(place, (*start, *end)), state),
                         Op::Variable(number) => Some(self.check_number(*number).is_ok()),
                         _ => {
                             let number = self.stack.pop().unwrap_or_else(D::unknown);
@@ -746,8 +749,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.check_number(number)?;
         let [first, last] = semantics.locals;
         if (first..=last).contains(&number) && number > 0 {
-            let locals = state.frames.iter().rev().find_map(|frame| frame.locals.as_ref());
-            let value = locals.and_then(|locals| locals.get(number)).cloned().unwrap_or_else(D::unknown);
+            let value = state
+                .calls
+                .locals()
+                .and_then(|locals| locals.get(number))
+                .cloned()
+                .unwrap_or_else(D::unknown);
             self.tell_vacant(number, &value, state);
             return Ok(value);
         }
@@ -759,11 +766,18 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let is_probed = system.is_some_and(|(variable, _, _)| {
             matches!(variable.holds, SystemValue::ProbePosition | SystemValue::ProbeResult)
         });
-        if !is_probed && state.variables.is_written(number) {
+        let written = if is_probed { Truth::False } else { state.variables.written(number) };
+        if written == Truth::True {
             return Ok(state.variables.get(number));
         }
         if let Some((variable, row, column)) = system {
-            return self.read_system(variable, row, column, state);
+            let value = self.read_system(variable, row, column, state)?;
+            // The program may have written over it.
+            return Ok(if written == Truth::Unknown {
+                value.join(&state.variables.get(number))
+            } else {
+                value
+            });
         }
         let value = state.variables.get(number);
         self.tell_vacant(number, &value, state);
@@ -797,10 +811,31 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     fn read_name(&mut self, name: NameId, state: &State<D>) -> Step<D::Value> {
-        let local = state.frames.last().and_then(|frame| frame.locals.as_ref()).and_then(|l| l.named(name));
-        if let Some(value) = local.or_else(|| state.variables.named(name)) {
-            return Ok(value.clone());
+        let local = state.calls.own_locals().and_then(|locals| locals.named(name));
+        let Some(Variable { value, written }) = local.or_else(|| state.variables.named(name)) else {
+            return self.read_unset_name(name, state);
+        };
+        if written == Truth::True {
+            return Ok(value);
         }
+        self.assumptions.insert(Assumption::Unsettled(Unsettled::Parameter));
+        // On a path that did not set it, the control's own counts, or the path ends here.
+        Ok(self.read_unset_name(name, state).map_or(value.clone(), |own| own.join(&value)))
+    }
+
+    /// Does reading a parameter give a value? `None` where nobody knows.
+    fn has_name(&mut self, name: NameId, state: &State<D>) -> Option<bool> {
+        let local = state.calls.own_locals().and_then(|locals| locals.named(name));
+        let set = local.or_else(|| state.variables.named(name));
+        match set.map_or(Truth::False, |variable| variable.written) {
+            Truth::True => Some(true),
+            Truth::False => Some(self.read_unset_name(name, state).is_ok()),
+            Truth::Unknown => self.read_unset_name(name, state).is_ok().then_some(true),
+        }
+    }
+
+    /// A parameter that the program has not set.
+    fn read_unset_name(&mut self, name: NameId, state: &State<D>) -> Step<D::Value> {
         let text = self.program.name_text(name);
         if let Some(variable) = self.model.named_variable(&text) {
             return self.read_system(variable, 0, 0, state);
@@ -1061,7 +1096,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     return Err(Fault::ReadOnlyVariable(0));
                 }
                 let global = text.starts_with('_');
-                match state.frames.last_mut().and_then(|frame| frame.locals.as_mut()) {
+                match state.calls.own_locals_mut() {
                     Some(locals) if !global => locals.set_named(name, value),
                     _ => state.variables.set_named(name, value),
                 }
@@ -1069,9 +1104,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
             Assignee::Anywhere => {
                 state.variables.forget();
-                if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
-                    locals.forget();
-                }
+                state.calls.forget_locals();
                 Ok(None)
             }
             Assignee::Number(0) => Err(Fault::ReadOnlyVariable(0)),
@@ -1091,8 +1124,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     fn write_plain(&mut self, number: u32, value: D::Value, state: &mut State<D>) {
         let [first, last] = self.model.semantics().locals;
         if (first..=last).contains(&number) {
-            if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
-                locals.set(number, value);
+            match state.calls.locals_mut() {
+                Some(locals) => locals.set(number, value),
+                // Nobody knows whose variable it is.
+                None => state.calls.forget_locals(),
             }
         } else {
             state.variables.set(number, value);

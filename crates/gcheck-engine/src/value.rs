@@ -16,6 +16,7 @@ use gcheck_controls::Semantics;
 use gcheck_program::{BinaryOp, Function};
 
 use crate::fault::ValueFault;
+use crate::lattice::Lattice;
 
 pub use abstract_value::{Abstract, AbstractValue, NumberSet};
 pub use concrete::{Concrete, ConcreteValue};
@@ -37,6 +38,24 @@ impl From<bool> for Truth {
     }
 }
 
+impl Lattice for Truth {
+    fn join(&self, other: &Self) -> Self {
+        if self == other { *self } else { Self::Unknown }
+    }
+
+    fn widen(&self, newer: &Self) -> Self {
+        self.join(newer)
+    }
+
+    fn covers(&self, inner: &Self) -> bool {
+        *self == Self::Unknown || self == inner
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
 impl std::ops::Not for Truth {
     type Output = Self;
 
@@ -55,7 +74,7 @@ impl std::ops::Not for Truth {
 /// intervals and small sets.
 pub trait Domain: Clone + Copy + Debug + Default + PartialEq + 'static {
     /// A value.
-    type Value: Clone + Debug + PartialEq;
+    type Value: Clone + Debug + PartialEq + Lattice;
 
     /// A number. One that is not finite has no place in a domain and is unknown.
     fn number(value: f64) -> Self::Value;
@@ -101,19 +120,12 @@ pub trait Domain: Clone + Copy + Debug + Default + PartialEq + 'static {
     /// Is the value a condition that holds?
     fn truth(value: &Self::Value) -> Truth;
 
-    /// A value that may be either.
-    fn join(left: &Self::Value, right: &Self::Value) -> Self::Value;
-    /// As [`Domain::join`], but such that repeating it comes to an end: a bound that moved goes to the next threshold,
-    /// then to infinity.
-    fn widen(old: &Self::Value, new: &Self::Value) -> Self::Value;
     /// What is left of `value` when comparing it so with a known number held. `None` if nothing is left. An operator that
     /// compares nothing leaves the value as it is.
     fn assume(value: &Self::Value, op: BinaryOp, bound: f64, semantics: &Semantics) -> Option<Self::Value>;
     /// What is left of `value` when it turned out to be nothing, or not to be: `#1 EQ #0`, `#1 NE #0`. `None` if nothing
     /// is left.
     fn assume_vacant(value: &Self::Value, vacant: bool) -> Option<Self::Value>;
-    /// Is everything that `inner` may be also something that `outer` may be?
-    fn contains(outer: &Self::Value, inner: &Self::Value) -> bool;
 }
 
 /// Does the operator compare?

@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
 use gcheck_engine::{
-    Abstract, Assumption, At, Bar, BarFeeder, Concrete, Domain, Event, FlowCx, FlowObserver, Machine, Model,
-    NoLibrary, Observer, Options, Origin, Program, Spindle, State, Truth, flow, run,
+    Abstract, Assumption, At, Bar, BarFeeder, Concrete, Domain, Event, FlowCx, FlowObserver, Lattice,
+    Machine, Model, NoLibrary, Observer, Options, Origin, Program, Spindle, State, Truth, flow, run,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
@@ -123,7 +123,7 @@ fn a_bar_that_is_too_short() {
     );
 }
 
-/// 70 behind the first push; a part and its clamping need exactly 70 when the second one is asked for.
+/// 70 after the first push; a part and its clamping need exactly 70 when the second one is asked for.
 #[test]
 fn a_bar_just_long_enough_is_changed_and_said() {
     let ran = execute("G21\nM5\nG105 J10. K60. I30.\nM30\n", &bars(100.0, 2));
@@ -401,7 +401,7 @@ M99
                     let counted =
                         [3106, 3107, 3108, 3109].into_iter().zip(counters).all(|(number, value)| {
                             let allowed = state.variables().get(number);
-                            value.is_none_or(|value| Abstract::contains(&allowed, &Abstract::number(value)))
+                            value.is_none_or(|value| allowed.covers(&Abstract::number(value)))
                         });
                     same && held && counted
                 };

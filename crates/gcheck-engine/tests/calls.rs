@@ -5,7 +5,7 @@ mod cycle_harness;
 use cycle_harness::{machine, shown_on};
 use expect_test::{Expect, expect};
 
-/// Millimetres; the machine stands at zero.
+/// Millimetres; the machine is at zero.
 fn check(control: &str, text: &str, expected: &Expect) {
     let text = format!("O1\nG21 G90 G54\n{text}\n");
     expected.assert_eq(&shown_on(control, "XYZ", &machine(10.0), &text));

@@ -6,7 +6,7 @@ use cycle_harness::{machine, shown_on};
 use expect_test::{Expect, expect};
 use gcheck_engine::{Axis, Machine, WorkOffset};
 
-/// Millimetres; the part stands at `X0 Y10 A0`, so that the work coordinates tell the drawing from the axis.
+/// Millimetres; the part is at `X0 Y10 A0`, so that the work coordinates tell the drawing from the axis.
 fn check_on(machine: &Machine, text: &str, expected: &Expect) {
     let text = format!("O1\nG21 G90 G54 G0 X0. Y10. A0.\nZ5.\nF200.\n{text}\nM30\n");
     expected.assert_eq(&shown_on("haas-mill", "XYZA", machine, &text));

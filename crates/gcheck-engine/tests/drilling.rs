@@ -6,7 +6,7 @@ use cycle_harness::{machine, shown_on};
 use expect_test::{Expect, expect};
 use gcheck_engine::Machine;
 
-/// Millimetres; the machine stands at zero.
+/// Millimetres; the machine is at zero.
 fn check(control: &str, text: &str, expected: &Expect) {
     let text = format!("O1\nG21 G90 G54 G0 X0. Y0. Z5.\nS3000 M3\nF200.\n{text}\nM30\n");
     expected.assert_eq(&shown_on(control, "XYZ", &machine(10.0), &text));

@@ -199,8 +199,8 @@ fn a_condition_narrows_what_it_asks_for() {
     assert!(low > 5.0 && low < 5.1 && high.is_infinite(), "{low} to {high}");
     // Nothing counts as zero in a comparison, so it may be nothing here, but no number above five.
     let low = value(2);
-    assert!(low.covers(ConcreteValue::Number(5.0)) && low.covers(ConcreteValue::Vacant));
-    assert!(!low.covers(ConcreteValue::Number(6.0)));
+    assert!(low.allows(ConcreteValue::Number(5.0)) && low.allows(ConcreteValue::Vacant));
+    assert!(!low.allows(ConcreteValue::Number(6.0)));
 }
 
 #[test]

@@ -539,8 +539,8 @@ fn difference(model: &Model<'_>, outer: &State<Abstract>, inner: &State<Concrete
         return Some(format!("calls {a:?} / {b:?}"));
     }
     for (a, b) in outer.frames().iter().zip(inner.frames()) {
-        if a.repeats.is_some() && a.repeats != b.repeats {
-            return Some(format!("repeats {:?} / {:?}", a.repeats, b.repeats));
+        if a.repeats().is_some() && a.repeats() != b.repeats() {
+            return Some(format!("repeats {:?} / {:?}", a.repeats(), b.repeats()));
         }
     }
     for role in Role::ALL {
@@ -574,19 +574,19 @@ fn difference(model: &Model<'_>, outer: &State<Abstract>, inner: &State<Concrete
         ("d", outer.d(), inner.d()),
     ];
     for (name, a, b) in values {
-        if !a.covers(*b) {
+        if !a.allows(*b) {
             return Some(format!("{name} {a:?} / {b:?}"));
         }
     }
     for number in INPUTS.into_iter().chain(COMMON) {
         let (a, b) = (outer.variables().get(number), inner.variables().get(number));
-        if !a.covers(b) {
+        if !a.allows(b) {
             return Some(format!("#{number} {a:?} / {b:?}"));
         }
     }
     for number in (1..=5).chain([21, 22]) {
         if let (Some(a), Some(b)) = (outer.local(number), inner.local(number))
-            && !a.covers(*b)
+            && !a.allows(*b)
         {
             return Some(format!("#{number} {a:?} / {b:?}"));
         }

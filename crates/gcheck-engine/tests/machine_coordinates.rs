@@ -1,4 +1,4 @@
-//! Where the axes stand in machine coordinates, and when nobody can say.
+//! Where the axes are in machine coordinates, and when nobody can say.
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
@@ -12,7 +12,7 @@ use gcheck_engine::{
 use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
 
-/// Work and machine coordinates behind each block of the text.
+/// Work and machine coordinates after each block of the text.
 struct Recorder<'a> {
     text: &'a str,
     model: &'a Model<'a>,

@@ -1,4 +1,4 @@
-//! Probing moves and measurements: what is known behind a touch that nobody can foretell, and what stays known.
+//! Probing moves and measurements: what is known after a touch that nobody can foretell, and what stays known.
 
 mod cycle_harness;
 

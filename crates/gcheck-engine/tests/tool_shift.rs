@@ -59,7 +59,7 @@ fn head(first: RotaryAxis, second: RotaryAxis) -> Kinematics {
     }
 }
 
-/// The moves, how the run ended, and where the machine stands then.
+/// The moves, how the run ended, and where the machine is then.
 fn run_on(machine: &Machine, text: &str) -> (Vec<[Position; 3]>, RunResult, Position) {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
@@ -85,7 +85,7 @@ fn xyz(position: &Position) -> String {
     [Axis::X, Axis::Y, Axis::Z].map(|axis| number(position.raw(axis))).join(" ")
 }
 
-/// A line a move: the programmed point and where the axes stand, then where the program ends.
+/// A line a move: the programmed point and where the axes are, then where the program ends.
 fn check(machine: &Machine, text: &str, expected: &Expect) {
     let (moves, result, stands) = run_on(machine, text);
     let mut shown = String::new();
@@ -425,7 +425,7 @@ proptest! {
         prop_assert_eq!(along("G143"), along("G43"));
     }
 
-    /// The axes stand beside the posted point by the length, however the head turns; with no length they stand at it.
+    /// The axes are beside the posted point by the length, however the head turns; with no length they are at it.
     #[test]
     fn tilting_keeps_the_length(
         angles in prop::array::uniform2(-3600_i32..3600), length in 0_i32..300, order in any::<bool>(),

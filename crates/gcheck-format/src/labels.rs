@@ -1,7 +1,7 @@
 //! Sequence numbers, the words that name them, and which block each word means.
 //!
-//! Knows: which words of a control name blocks (data), the programs of a file and who calls whom in it. Must not know: how
-//! numbers change. What is not certain is said so, and then nothing that hangs on it is touched.
+//! Knows: which words of a control name blocks (data), the programs of a file and who calls whom in it. Must not know:
+//! how numbers change. An uncertain name is marked as such, and then nothing that depends on it changes.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -17,13 +17,13 @@ const MOST_CALLERS: usize = 64;
 /// A sequence number at the head of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Label {
-    /// Its value; `None` for one that is no whole number.
+    /// Its value; `None` for one that is not a whole number.
     pub(crate) number: Option<u32>,
     /// Bytes of the file: the word.
     pub(crate) range: Range<u32>,
     /// Bytes of the file: its digits.
     pub(crate) digits: Range<u32>,
-    /// The program that it stands in: its first block.
+    /// The program that it is in: its first block.
     pub(crate) program: u32,
 }
 
@@ -34,7 +34,7 @@ pub(crate) struct Reference {
     pub(crate) target: Target,
     /// Bytes of the file: the word or statement.
     pub(crate) range: Range<u32>,
-    /// The program that it stands in: its first block.
+    /// The program that it is in: its first block.
     pub(crate) program: u32,
 }
 
@@ -53,7 +53,7 @@ pub(crate) enum Target {
     Computed,
     /// No block: it reads the number of one.
     Reads,
-    /// No block: it is a number that does not stand in front of its block, or a second one.
+    /// No block: it is a number that is not in front of its block, or a second one.
     Stray,
     /// The block has a mistake in form, so that what it names is not certain.
     Unclear,
@@ -78,7 +78,7 @@ pub(crate) struct Labels {
     callers: BTreeMap<u32, Vec<u32>>,
     /// Programs, by their first blocks, with a code that ends a main program.
     mains: Vec<u32>,
-    /// A program is called that does not stand in the file, or nobody knows which.
+    /// A program is called that is not in the file, or nobody knows which.
     calls_others: bool,
     /// Which program is called is computed, or several codes of a block may call it.
     has_computed_call: bool,
@@ -94,7 +94,7 @@ struct Found {
     /// Calls with the number of the program.
     calls: Vec<(u32, Option<u32>)>,
     ends: Vec<u32>,
-    /// The last block whose code reads `N` as something else for the blocks behind it, with that code.
+    /// The last block whose code reads `N` as something else for the blocks after it, with that code.
     data: Option<(u32, CodeIx)>,
     blocks: u32,
 }
@@ -365,7 +365,7 @@ impl Place<'_> {
         self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
     }
 
-    /// The digits of a number that is written as plainly as can be, perhaps in brackets and with a point behind it: bytes of
+    /// The digits of a number that is written as plainly as can be, perhaps in brackets and with a point after it: bytes of
     /// the chunk in, bytes of the file out.
     fn digits(&self, range: &Range<u32>) -> Option<Range<u32>> {
         let text = self.slice(range);
@@ -422,7 +422,7 @@ fn dialect_refers(dialect: &Dialect<'_>, code: CodeIx) -> bool {
 struct Addresses<'t> {
     /// By address: its first word.
     first: [Option<&'t Word>; Letter::COUNT],
-    /// Addresses that stand twice, or that several codes of the block may read.
+    /// Addresses that are twice, or that several codes of the block may read.
     shared: LetterSet,
 }
 

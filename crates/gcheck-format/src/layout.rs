@@ -1,16 +1,16 @@
 //! A program line by line: what the grammar says of each, blank lines, which lines may change.
 //!
 //! Knows: the grammar's events, lines, the part of the file that the control reads. Must not know: how a line is written
-//! anew (see [`crate::line`]). A line is looked at alone, but for blank lines in front of it and the nesting of loops around
+//! again (see [`crate::line`]). A line is looked at alone, but for blank lines in front of it and the nesting of loops around
 //! it: an edit of one block moves no other.
 
 use std::ops::Range;
 
 use gcheck_controls::{Control, SystemValue};
+use gcheck_diagnostics::Edit;
 use gcheck_program::{Dialect, code_region};
 use gcheck_syntax::{Sink, SourceText, SyntaxError, SyntaxKind, line_len, parse_into};
 
-use crate::Edit;
 use crate::labels::Labels;
 use crate::line::{Part, Writer};
 use crate::nesting::Nesting;
@@ -46,7 +46,7 @@ pub fn formatted(source: &SourceText, dialect: &Dialect<'_>, style: &Style) -> O
     Some(out)
 }
 
-/// Puts the bytes that are no UTF-8 in the places of their stand-ins, of which formatting moves some and loses none.
+/// Puts the bytes that are not UTF-8 in the places of their stand-ins, of which formatting moves some and loses none.
 fn restore(out: &mut [u8], source: &SourceText) {
     if source.replaced().is_empty() {
         return;
@@ -149,7 +149,7 @@ fn head_of_blank_lines(text: &str, at: usize) -> usize {
     let before = text.as_bytes().get(..at).unwrap_or_default();
     let blank = |byte: &u8| matches!(byte, b' ' | b'\t' | b'\r' | b'\n' | 0x0B | 0x0C);
     let last = before.iter().rposition(|byte| !blank(byte)).map_or(0, |at| at + 1);
-    // Behind the line that holds it.
+    // After the line that holds it.
     let rest = before.get(last..).unwrap_or_default();
     if last == 0 { 0 } else { last + line_len(rest).min(rest.len()) }
 }
@@ -190,7 +190,7 @@ struct Layout<'t, 's, F> {
     nesting: Nesting,
     /// Blank lines directly in front.
     blanks: u32,
-    /// One blank line at least is to stay here: in front of all code, and behind a directive, whose line below it is.
+    /// One blank line at least is to stay here: in front of all code, and after a directive, whose line below it is.
     keeps_blank: bool,
 }
 

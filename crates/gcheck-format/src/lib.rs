@@ -5,11 +5,12 @@
 //!
 //! What a control reads stays what it is: blanks, the case of letters, zeros that count nothing and sequence numbers change,
 //! and of sequence numbers everything that names them with them. Left byte for byte are comments, texts that a program
-//! prints, names, line ends, blocks with mistakes in form, and what stands outside the part of the file that the control
+//! prints, names, line ends, blocks with mistakes in form, and what is outside the part of the file that the control
 //! reads.
 //!
 //! ```
-//! use gcheck_format::{Numbering, Style, apply, format, renumber};
+//! use gcheck_diagnostics::apply;
+//! use gcheck_format::{Numbering, Style, format, renumber};
 //! use gcheck_program::Dialect;
 //!
 //! let control = gcheck_controls::load("haas-mill").unwrap();
@@ -23,7 +24,6 @@
 //! assert_eq!(apply(text, &edits), "n10 g1x1.  y2.\nN20 GOTO 10\n");
 //! ```
 
-mod edit;
 mod labels;
 mod layout;
 mod line;
@@ -33,7 +33,6 @@ mod renumber;
 mod same;
 mod style;
 
-pub use edit::{Edit, apply, apply_to_bytes};
 pub use layout::{format, formatted};
 pub use renumber::{Numbering, Refusal, RenumberRefused, renumber};
 pub use style::{Indentation, LeadingZeros, LetterCase, SequenceNumbers, Style, TrailingZeros, WordSpacing};

@@ -1,4 +1,4 @@
-//! One line written anew: gaps between its items, letters, zeros, its sequence number.
+//! One line written again: gaps between its items, letters, zeros, its sequence number.
 //!
 //! Knows: the tokens of a line and where items of a block begin. Must not know: other lines. A line whose form is not certain
 //! to be read as before stays as it is.
@@ -40,7 +40,7 @@ pub(crate) fn written_case(style: &Style, dialect: &Dialect<'_>) -> LetterCase {
 /// Blanks at the head of a line at most.
 const DEEPEST: usize = 100;
 
-/// Writes lines anew, one after the other.
+/// Writes lines again, one after the other.
 pub(crate) struct Writer<'s> {
     style: &'s Style,
     case: LetterCase,
@@ -53,7 +53,7 @@ pub(crate) struct Writer<'s> {
     items: Vec<Item>,
     /// The line as it becomes.
     line: String,
-    /// Bytes of the text that change, and those of the new line that stand there then.
+    /// Bytes of the text that change, and those of the new line that are there then.
     edits: Vec<(Range<u32>, Range<usize>)>,
 }
 
@@ -142,7 +142,7 @@ impl<'s> Writer<'s> {
             [mark, rest @ ..] if mark.kind == K::BOM => rest,
             parts => parts,
         };
-        // What stands beside a tape mark is a name, or nobody knows what.
+        // What is beside a tape mark is a name, or nobody knows what.
         if parts.iter().any(|part| matches!(part.kind, K::PERCENT | K::BOM)) {
             return;
         }
@@ -162,7 +162,7 @@ impl<'s> Writer<'s> {
         };
         if !parts.iter().all(is_plain) {
             let kept = match dropped {
-                // A line never becomes a number behind its start: what is left out here is one item and its gap.
+                // A line never becomes a number after its start: what is left out here is one item and its gap.
                 Some(ix) => self.without(text, &range, ix),
                 None => slice(text, &range).to_owned(),
             };
@@ -202,7 +202,7 @@ impl<'s> Writer<'s> {
         let labels = self.labels.as_ref()?;
         let ix = self.items.iter().position(|item| item.kind != ItemKind::BlockDelete)?;
         let number = self.items.get(ix).filter(|item| item.kind == ItemKind::SequenceNumber)?;
-        // A number alone is a block, and a comment behind one speaks for its own line. Of two numbers one may be the label.
+        // A number alone is a block, and a comment after one speaks for its own line. Of two numbers one may be the label.
         let next = self.items.get(ix + 1)?;
         let is_number = |item: &&Item| item.kind == ItemKind::SequenceNumber;
         let has_code = self.items.iter().filter(is_number).count() == 1
@@ -210,7 +210,7 @@ impl<'s> Writer<'s> {
         (has_code && labels.is_unnamed(base + number.range.start)).then_some(ix)
     }
 
-    /// The line without an item and the gap behind it.
+    /// The line without an item and the gap after it.
     fn without(&self, text: &str, range: &Range<u32>, ix: usize) -> String {
         let start = self.items.get(ix).map_or(range.start, |item| item.range.start);
         let end = self.items.get(ix + 1).map_or(range.start, |item| item.range.start);
@@ -234,7 +234,7 @@ impl<'s> Writer<'s> {
         let mut before = None;
         let mut has_code = false;
         for (ix, item) in items.iter().enumerate() {
-            // Behind a number that goes, the blanks in front of it are the gap.
+            // After a number that goes, the blanks in front of it are the gap.
             if dropped.is_none_or(|dropped| dropped + 1 != ix) {
                 let is_remark = ix >= words_end && has_code;
                 let blanks = match before {
@@ -333,7 +333,7 @@ impl<'s> Writer<'s> {
         }
         let old = slice(text, &part.range);
         match part.kind {
-            // The first piece of a number with blanks inside is no number yet.
+            // The first piece of a number with blanks inside is not a number yet.
             K::WORD if part.inner != K::ADDRESS => {
                 self.replace(text, part.range.clone(), |writer| writer.word(old));
             }
@@ -419,7 +419,7 @@ impl<'s> Writer<'s> {
     }
 }
 
-/// May zeros behind the point of such a word go? Not where the number is a name.
+/// May zeros after the point of such a word go? Not where the number is a name.
 fn takes_fractions(letter: Letter, dialect: &Dialect<'_>) -> bool {
     let kind = dialect.control().letter(letter).map(|entry| entry.kind);
     !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')

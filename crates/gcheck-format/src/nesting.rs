@@ -1,4 +1,4 @@
-//! How deep in loops, branches and subroutines a line stands.
+//! How deep in loops, branches and subroutines a line is.
 //!
 //! Knows: which statements open a body and which close one, as far as one line tells. Must not know: blanks. Bodies that are
 //! not closed end with their program.
@@ -28,12 +28,12 @@ enum Body {
 }
 
 impl Nesting {
-    /// How deep the next line stands, were it a plain one.
+    /// How deep the next line is, were it a plain one.
     pub(crate) fn depth(&self) -> usize {
         self.open.len().min(MOST)
     }
 
-    /// How deep a line stands; what it opens and closes counts for the lines behind it.
+    /// How deep a line is; what it opens and closes counts for the lines after it.
     pub(crate) fn pass(&mut self, parts: &[Part], text: &str) -> usize {
         let first = parts.iter().find(|part| part.kind != K::WHITESPACE);
         if first.is_some_and(|part| is_program_head(part, text)) {

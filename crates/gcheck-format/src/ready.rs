@@ -14,7 +14,7 @@ pub(crate) struct Ready {
     address: [bool; 256],
     /// One blank between words, or none.
     blank: bool,
-    /// Zeros behind a point are not looked for here.
+    /// Zeros after a point are not looked for here.
     trims: bool,
 }
 
@@ -45,7 +45,7 @@ impl Ready {
         }
     }
 
-    /// Where the first line behind `from`, the head of a line, begins that is to be looked at.
+    /// Where the first line after `from`, the head of a line, begins that is to be looked at.
     pub(crate) fn lines(&self, text: &[u8], from: usize) -> usize {
         let mut start = from;
         while let Some(next) = self.line(text, start) {

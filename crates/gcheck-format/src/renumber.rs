@@ -1,6 +1,6 @@
 //! Sequence numbers in even steps, and with them every word that names one.
 //!
-//! Knows: where numbers stand and what names them (see [`crate::labels`]), which numbers a control takes. Must not know: who
+//! Knows: where numbers are and what names them (see [`crate::labels`]), which numbers a control takes. Must not know: who
 //! asked. It is done as a whole or refused: a jump to the wrong block is worse than a crooked number.
 
 use std::collections::{HashMap, HashSet};
@@ -8,9 +8,9 @@ use std::fmt;
 use std::ops::Range;
 
 use gcheck_controls::{Control, Letter};
+use gcheck_diagnostics::Edit;
 use gcheck_program::Dialect;
 
-use crate::Edit;
 use crate::labels::{Labels, Number, Reference, Target};
 
 /// The largest number where nobody says which a control takes: five digits are customary.
@@ -28,16 +28,16 @@ pub struct Numbering {
 /// Why a program is not renumbered; [`fmt::Display`] says it in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RenumberRefused {
-    /// Bytes of the text: what stands in the way.
+    /// Bytes of the text: what is in the way.
     pub range: Range<u32>,
     /// What it is.
     pub reason: Refusal,
 }
 
-/// What stands in the way of renumbering.
+/// What is in the way of renumbering.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Refusal {
-    /// The step is zero, or the start is no number that the control takes.
+    /// The step is zero, or the start is not a number that the control takes.
     NoNumbering {
         /// The least number that the control takes.
         least: u32,
@@ -50,13 +50,13 @@ pub enum Refusal {
     NoSuchBlock(u32),
     /// A target of this number exists more than once in its program.
     SeveralBlocks(u32),
-    /// The target may stand in another program, of this file or another one.
+    /// The target may be in another program, of this file or another one.
     OtherProgram,
     /// This number names a program, and a block of its own program would get it.
     TakenByProgram(u32),
     /// A variable is read that holds the number of a block.
     ReadsNumber,
-    /// A number does not stand in front of its block, or is its second one.
+    /// A number is not in front of its block, or is its second one.
     StrayNumber,
     /// A block with a mistake in form has a jump.
     Unclear,
@@ -98,7 +98,7 @@ impl fmt::Display for Refusal {
             }
             Self::ReadsNumber => f.write_str("this reads the number of a block, which would be another one"),
             Self::StrayNumber => f.write_str(
-                "this number does not stand in front of its block, so it is not certain that a jump leads to it",
+                "this number is not in front of its block, so it is not certain that a jump leads to it",
             ),
             Self::Unclear => {
                 f.write_str("this block has a mistake in form, so which block it names is not certain")
@@ -110,7 +110,7 @@ impl fmt::Display for Refusal {
     }
 }
 
-/// The edits that number the blocks that have an `N` number anew, in text order, and all words that name them with them. Each
+/// The edits that renumber the blocks that have an `N` number, in text order, and all words that name them. Each
 /// program of the file begins at the start again.
 ///
 /// # Errors

@@ -1,6 +1,6 @@
 //! Whether two writings of a line are read as the same blocks.
 //!
-//! Knows: the grammar, and which differences of writing mean nothing. Must not know: why a line is written anew. Lines of
+//! Knows: the grammar, and which differences of writing mean nothing. Must not know: why a line is written again. Lines of
 //! words alone need no such proof; all others have it before they change.
 
 use std::ops::Range;
@@ -93,7 +93,7 @@ impl Sink for Meaning<'_> {
     fn checkpoint(&self) {}
 
     fn start_node_at(&mut self, (): (), kind: K) {
-        // Where the node began is known from where the mark stands behind its first part: the grammar is the same for both.
+        // Where the node began is known from where the mark is after its first part: the grammar is the same for both.
         self.bytes.extend_from_slice(&[START, kind as u8]);
         self.open.push(kind);
     }

@@ -18,11 +18,11 @@ pub struct Style {
     pub trailing_zeros: TrailingZeros,
     /// `N` numbers that nothing names.
     pub sequence_numbers: SequenceNumbers,
-    /// The column, counted from 1, in which the words behind an `N` number begin, where the number leaves room. 0 keeps the
+    /// The column, counted from 1, in which the words after an `N` number begin, where the number leaves room. 0 keeps the
     /// word spacing there.
     pub word_column: u8,
-    /// The column, counted from 1, in which a comment behind the words of a block begins, at least one blank behind them; 1
-    /// puts one blank in front of it. 0 keeps the blanks that are there.
+    /// The column, counted from 1, in which a comment after the words of a block begins, at least one blank after them;
+    /// 1 puts one blank in front of it. 0 keeps the blanks that are there.
     pub comment_column: u8,
     /// The most blank lines that may follow each other.
     pub blank_lines: u32,

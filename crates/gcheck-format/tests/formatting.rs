@@ -3,9 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use expect_test::{Expect, expect};
+use gcheck_diagnostics::{Edit, apply};
 use gcheck_format::{
-    Edit, Indentation, LeadingZeros, LetterCase, SequenceNumbers, Style, TrailingZeros, WordSpacing, apply,
-    format, formatted,
+    Indentation, LeadingZeros, LetterCase, SequenceNumbers, Style, TrailingZeros, WordSpacing, format,
+    formatted,
 };
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;

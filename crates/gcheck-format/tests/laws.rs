@@ -6,9 +6,10 @@
 use std::fmt::Write as _;
 
 use gcheck_controls::Letter;
+use gcheck_diagnostics::{Edit, apply};
 use gcheck_format::{
-    Edit, Indentation, LeadingZeros, LetterCase, Numbering, SequenceNumbers, Style, TrailingZeros,
-    WordSpacing, apply, format, formatted, renumber,
+    Indentation, LeadingZeros, LetterCase, Numbering, SequenceNumbers, Style, TrailingZeros, WordSpacing,
+    format, formatted, renumber,
 };
 use gcheck_program::{BlockTable, Dialect, ExprIx, Loaded, OLabel, Op, StatementKind, Target, Value, lower};
 use gcheck_syntax::{SourceText, SyntaxKind, parse};
@@ -277,7 +278,7 @@ fn for_every_word_that_names_a_block() {
     }
 }
 
-/// A line may be as long as a file, and whatever stands in it is laid out in a moment.
+/// A line may be as long as a file, and whatever is in it is laid out in a moment.
 #[test]
 fn for_lines_as_long_as_a_file() {
     for piece in [

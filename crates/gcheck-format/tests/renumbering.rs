@@ -1,9 +1,10 @@
-//! What renumbering writes anew, and what it refuses.
+//! What renumbering writes again, and what it refuses.
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use expect_test::{Expect, expect};
-use gcheck_format::{Numbering, apply, renumber};
+use gcheck_diagnostics::apply;
+use gcheck_format::{Numbering, renumber};
 use gcheck_program::Dialect;
 
 fn renumbered(control: &str, text: &str, start: u32, step: u32) -> String {
@@ -204,8 +205,7 @@ fn numbers_that_are_read_or_do_not_stand_in_front_are_refused() {
     let read = "this reads the number of a block, which would be another one";
     refuses("fanuc-mill", "N1 #1=[#4114+1]\n", "[#4114+1]", read);
     refuses("haas-mill", "N1 G0 X[#4114]\n", "[#4114]", read);
-    let stray =
-        "this number does not stand in front of its block, so it is not certain that a jump leads to it";
+    let stray = "this number is not in front of its block, so it is not certain that a jump leads to it";
     refuses("haas-mill", "N1 GOTO 1\nN2 N5 G0\n", "N5", stray);
     refuses("haas-mill", "N1 GOTO 1\nG0 N5\n", "N5", stray);
 }
@@ -241,7 +241,7 @@ fn numbers_stay_within_those_of_the_control() {
             refused at `N2`: this block would be N4294967296; the control takes numbers up to 99999
         "#]],
         ),
-        // A number that stands there the control takes.
+        // A number that is there the control takes.
         (
             "fanuc-mill",
             "N1 G0\nN400000 G0\n",

@@ -3,8 +3,8 @@
 //! Knows how an arc follows from its ends and a centre or a radius, and what cannot be one.
 //! Must not know how a program gives them, nor which tolerance a control applies: [`ArcTolerance`] is data.
 //!
-//! Unknown numbers are no fault: an arc made from one is unknown in what depends on it
-//! ([`Arc::is_known`]), and every answer about that is unknown too.
+//! An unknown number is not a fault: an arc made from one is unknown in what depends on it ([`Arc::is_known`]), and
+//! every answer about that is unknown too.
 
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 
@@ -61,7 +61,7 @@ pub struct ArcTolerance {
     pub radius_slack: Mm,
     /// Centre form: a smaller radius is none.
     pub zero: Mm,
-    /// Start and end are one point of the plane when they are no further apart.
+    /// Start and end are one point of the plane when they are not further apart.
     pub coincident: Mm,
 }
 
@@ -222,8 +222,8 @@ impl Arc {
         if half_chord > size + tolerance.radius_slack {
             return Err(ArcError::RadiusTooSmall { half_chord, radius: size });
         }
-        // How far the centre stands off the chord; to the left of the chord for a short counter-clockwise arc.
-        // An unknown radius must stay unknown, so no `f64::max`.
+        // How far the centre is from the chord; to the left of the chord for a short counter-clockwise arc. An unknown
+        // radius must stay unknown, so no `f64::max`.
         let square = (size.0 - half_chord.0) * (size.0 + half_chord.0);
         let stand_off = if square < 0.0 { 0.0 } else { square.sqrt() };
         let left = if radius.0 < 0.0 { -direction.sign() } else { direction.sign() } * stand_off

@@ -4,7 +4,7 @@
 //! Must not know codes, words, modal state or any control.
 //!
 //! A [`Compensator`] takes the programmed path segment by segment and gives the path of the tool's centre to a callback.
-//! It holds back what the next segment may still change: where a segment ends is known only when the segment behind the
+//! It holds back what the next segment may still change: where a segment ends is known only when the segment after the
 //! corner is.
 //! Everything that must keep its place among the moves goes through [`Compensator::pass`] and waits in the same queue.
 //!
@@ -27,7 +27,7 @@
 //!
 //! # Style `TangentEntry`
 //!
-//! Found by running programs through LinuxCNC's stand-alone interpreter (2.9) and confirmed by comparing thousands of
+//! Found by running programs through LinuxCNC's standalone interpreter (2.9) and confirmed by comparing thousands of
 //! random paths with it: points agree to 1e-4 mm, order, block and refusals are the same.
 //!
 //! | situation | path of the centre |
@@ -43,7 +43,7 @@
 //! | arc whose ends lie at different distances from its centre | the distance of its end counts; a line before it is taken as meeting it there |
 //! | arc on the inside with a radius not greater than the tool's | arc too small |
 //! | motion of the third axis alone, or none | a line that stays beside the corner; an inside corner moves its end, too |
-//! | program stop | gives out everything; the corner behind it can no longer move the end before it |
+//! | program stop | gives out everything; the corner after it can no longer move the end before it |
 //! | end of compensation, of the program | the last segment ends beside its own end; the motion after it starts there and must not be an arc |
 //! | compensation again before any motion | the entry counts from the programmed position, and must not be an arc |
 //! | radius zero | the programmed path, at once |
@@ -54,11 +54,11 @@
 //! Whether it does is looked at when its end is fixed: at an inside corner, at an outside corner before a line, at a
 //! program stop and at the end.
 //! It is not looked at before a smooth joint or an outside corner before an arc, nor for an entry, nor for a segment
-//! that starts at an inside corner right behind a program stop.
+//! that starts at an inside corner right after a program stop.
 //! A line runs backwards when its offset points against it at all; an arc, when it sweeps over 0.025 rad more than
 //! programmed.
 //!
-//! Corner elements are given out with the block behind the corner, segments with the block that fixes their end.
+//! Corner elements are given out with the block after the corner, segments with the block that fixes their end.
 //!
 //! One difference is on purpose.
 //! An entry by an arc with a nose orientation is preceded by a line to the shifted start.
@@ -79,7 +79,7 @@
 //! | no meeting point, a segment that runs backwards, an arc too small | gouge |
 //! | end of compensation | the last segment ends beside its own end |
 //!
-//! Inserted lines are feeds or rapids as the segment behind the corner is.
+//! Inserted lines are feeds or rapids as the segment after the corner is.
 //! Where a real control limits how many blocks without motion in the plane it reads past, this style has no limit.
 
 mod path;
@@ -262,7 +262,7 @@ pub enum OffsetEvent<M, E> {
         segment: OffsetSegment,
         /// What came with the segment before it: its end values of other axes still hold. Absent before the entry.
         before: Option<M>,
-        /// What came with the segment behind it, which caused it; feed is that segment's.
+        /// What came with the segment after it, which caused it; feed is that segment's.
         after: M,
     },
     /// What [`Compensator::pass`] was given.
@@ -308,7 +308,7 @@ pub enum CompensationError {
     },
     /// The entry is an arc, and the style does not allow it.
     EntryIsArc,
-    /// The motion behind the end of compensation is an arc.
+    /// The motion after the end of compensation is an arc.
     ExitIsArc,
     /// An arc with no radius, or an entry arc without an offset arc to the same end.
     ZeroLength,
@@ -368,10 +368,10 @@ impl fmt::Display for CompensationError {
 
 impl std::error::Error for CompensationError {}
 
-/// What [`Compensator::stop`] leaves behind.
+/// What [`Compensator::stop`] leaves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CompensationExit {
-    /// Where the controlled point stands; the next motion starts here.
+    /// Where the controlled point is; the next motion starts here.
     pub position: PathPoint,
     /// The last programmed point; coordinates that the next motion leaves out are these.
     pub programmed: PathPoint,
@@ -383,7 +383,7 @@ pub struct CompensationExit {
 ///
 /// After an error, compensation is off, what was held back is gone, and [`Compensator::position`] is where the path
 /// ended.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Compensator<M, E = M> {
     config: CompensationConfig,
     state: State,
@@ -393,7 +393,7 @@ pub struct Compensator<M, E = M> {
     last_payload: Option<M>,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct State {
     phase: Phase,
     /// On the left: 1, on the right: -1.
@@ -422,7 +422,7 @@ enum Phase {
 }
 
 /// The segment in the plane given last.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct Last {
     /// What its offset lies on.
     curve: Curve,
@@ -432,17 +432,17 @@ struct Last {
     corner: Vector,
     /// It is the entry, whose end the next segment's start decides.
     open_entry: bool,
-    /// A program stop came behind it.
+    /// A program stop came after it.
     stopped: bool,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 enum Queued<M, E> {
     Move(Waiting<M>),
     Event(E),
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 struct Waiting<M> {
     /// End of the tool's centre.
     end: PathPoint,
@@ -452,7 +452,7 @@ struct Waiting<M> {
 }
 
 /// What a waiting segment was before offsetting, as far as running backwards is concerned.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Programmed {
     /// May run anywhere: the entry, or no motion in the plane.
     Free,
@@ -493,8 +493,8 @@ impl<M: Clone, E> Compensator<M, E> {
 
     /// Switches compensation on; `position` is the programmed position.
     ///
-    /// The controlled point stands there, too, unless compensation has just been stopped and nothing has moved since
-    /// ([`Compensator::exit_motion`] has not been called): then it stands where it was left.
+    /// The controlled point is there, too, unless compensation has just been stopped and nothing has moved since
+    /// ([`Compensator::exit_motion`] has not been called): then it is where it was left.
     ///
     /// # Errors
     ///
@@ -587,7 +587,7 @@ impl<M: Clone, E> Compensator<M, E> {
         }
     }
 
-    /// Gives out what is held back, as a program stop does; the corner behind it can no longer move the end before it.
+    /// Gives out what is held back, as a program stop does; the corner after it can no longer move the end before it.
     ///
     /// # Errors
     ///
@@ -623,7 +623,7 @@ impl<M: Clone, E> Compensator<M, E> {
         Ok(CompensationExit { position: self.state.controlled, programmed: self.state.programmed })
     }
 
-    /// Tells of the first motion behind [`Compensator::stop`]; later calls do nothing.
+    /// Tells of the first motion after [`Compensator::stop`]; later calls do nothing.
     ///
     /// # Errors
     ///

@@ -13,7 +13,7 @@ use crate::units::{Degrees, Mm};
 /// Relative size below which a difference of two lengths is rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// An affine transform of X, Y and Z: a linear part and a shift behind it.
+/// An affine transform of X, Y and Z: a linear part and a shift after it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     linear: Matrix3<f64>,

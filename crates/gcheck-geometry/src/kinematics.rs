@@ -89,7 +89,7 @@ impl Kinematics {
         [x + along_x, y + along_y, z + along_z]
     }
 
-    /// Where the linear axes must stand so that the tip of a tool of `length` is at `tip`.
+    /// Where the linear axes must be so that the tip of a tool of `length` is at `tip`.
     ///
     /// Machine positions are counted for the gauge line at zero angles, and tilting turns it about the pivot.
     /// None where the head tilts and the pivot length is not known.
@@ -104,7 +104,7 @@ impl Kinematics {
         Some([x, y, z - pivot])
     }
 
-    /// Where the tip of a tool of `length` is while the linear axes stand at `axes`;
+    /// Where the tip of a tool of `length` is while the linear axes are at `axes`;
     /// undoes [`axes_for_tip`](Self::axes_for_tip), and is none where that is.
     #[must_use]
     pub fn tip_for_axes(&self, axes: [Mm; 3], length: Mm, angles: [Degrees; 3]) -> Option<[Mm; 3]> {

@@ -270,7 +270,7 @@ fn flatten(points: Vec<[f64; 3]>, tolerance: Mm) -> Vec<Point> {
         let (start, end) = (unweighted(*start), unweighted(*end));
         let chord = Edge::line(start, end);
         let off = points.iter().map(|point| chord.distance_to(unweighted(*point)));
-        // A distance that is not a finite number cannot be mended by halving: such a curve is one chord.
+        // A distance that is not a finite number cannot be fixed by halving: such a curve is one chord.
         let bulges = tolerance > Mm::ZERO
             && off.clone().all(f64::is_finite)
             && off.clone().any(|off| Mm(off) > tolerance);

@@ -1,6 +1,6 @@
 //! The three main planes in which arcs are turned and paths are offset.
 //!
-//! Knows which axes span a plane and which stands on it. Must not know which code selects it.
+//! Knows which axes span a plane and which one is perpendicular to it. Must not know which code selects it.
 
 /// A plane spanned by two linear axes.
 ///

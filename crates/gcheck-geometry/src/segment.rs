@@ -520,7 +520,7 @@ mod tests {
         assert_eq!(at(-1.5, 3.9), Location::Outside);
         assert_eq!(at(12.0, 2.0), Location::OnEdge);
         assert_eq!(at(5.0, 4.0), Location::OnEdge);
-        // On the chord of an end, which is no edge.
+        // On the chord of an end, which is not an edge.
         assert_eq!(at(10.0, 1.0), Location::Inside);
         assert_eq!(at(0.0, 1.0), Location::Inside);
         assert!((signed_area(&slot) - (40.0 + 4.0 * PI)).abs() < 1e-9);

@@ -22,7 +22,7 @@ macro_rules! quantity {
         impl $name {
             /// Nothing of it.
             pub const ZERO: Self = Self(0.0);
-            /// A value that nobody knows; see the module's description.
+            /// An unknown value; see the module's description.
             pub const UNKNOWN: Self = Self(f64::NAN);
 
             /// The bare number, in the unit of the type.
@@ -64,7 +64,7 @@ macro_rules! quantity {
                 if self.is_known() && other.is_known() { Self(self.0.max(other.0)) } else { Self::UNKNOWN }
             }
 
-            /// Whether two values are no further apart than `tolerance`; false when any of them is unknown.
+            /// Whether two values are not further apart than `tolerance`; false when any of them is unknown.
             #[inline]
             pub fn is_near(self, other: Self, tolerance: Self) -> bool {
                 // Equal infinities are near although their difference is not a number.

@@ -2,6 +2,7 @@
 //!
 //! Knows: which changes are offered where. Must not know: how editors ask, how each change is made.
 
+mod action;
 mod arcs;
 mod cycles;
 mod fixes;
@@ -12,54 +13,12 @@ mod suppress;
 use std::ops::Range;
 
 use gcheck_db::{Analysis, Cancelled, Database, DocumentId};
-use gcheck_rules::Edit;
+
+pub use action::{ActionKind, CodeAction};
 
 /// Bytes of a file for which changes of the whole file are offered at every place; of a larger one only when all of it is
 /// selected, because editors ask at every move of the cursor.
 const LARGE: u32 = 256 << 10;
-
-/// Something that can be done.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CodeAction {
-    /// What it does, imperative.
-    pub title: String,
-    /// What kind of change it is.
-    pub kind: ActionKind,
-    /// Edits of the document, which do not overlap; empty for [`ActionKind::Explain`].
-    pub edits: Vec<Edit>,
-    /// The rule whose finding it answers.
-    pub rule: Option<&'static str>,
-    /// Bytes of the finding that it answers.
-    pub finding: Option<Range<u32>>,
-    /// The first choice for its finding.
-    pub is_preferred: bool,
-    /// An address to open, of [`ActionKind::Explain`].
-    pub link: Option<String>,
-}
-
-/// Kinds of actions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum ActionKind {
-    /// Mends a finding, or all findings of its rule.
-    Fix,
-    /// Mends everything in the file whose fix changes no move.
-    FixAll,
-    /// Silences a finding by a comment.
-    Suppress,
-    /// Opens a page.
-    Explain,
-    /// Changes how something is written at the place.
-    Rewrite,
-    /// Changes the whole file.
-    Source,
-}
-
-impl CodeAction {
-    /// A change that answers no finding.
-    fn change(title: impl Into<String>, kind: ActionKind, edits: Vec<Edit>) -> Self {
-        Self { title: title.into(), kind, edits, rule: None, finding: None, is_preferred: false, link: None }
-    }
-}
 
 /// What can be done in a range, as findings of `analysis` and the text suggest.
 ///
@@ -135,23 +94,23 @@ mod tests {
             text,
             &[ActionKind::Fix, ActionKind::FixAll],
             &expect![[r#"
-            # Fix: write a decimal point behind `X5` (may change moves)
-            %
-            O1
-            G21 G90 G54 G0 X1.
-            G1 X5. F100.
-            G1 X6
-            M30
-            %
-            # Fix: mend all 2 of `missing-decimal-point` in this file
-            %
-            O1
-            G21 G90 G54 G0 X1.
-            G1 X5. F100.
-            G1 X6.
-            M30
-            %
-        "#]],
+                # Fix: Write a decimal point after `X5` (may change moves)
+                %
+                O1
+                G21 G90 G54 G0 X1.
+                G1 X5. F100.
+                G1 X6
+                M30
+                %
+                # Fix: Fix all 2 `missing-decimal-point` findings in this file
+                %
+                O1
+                G21 G90 G54 G0 X1.
+                G1 X5. F100.
+                G1 X6.
+                M30
+                %
+            "#]],
         );
     }
 
@@ -163,24 +122,24 @@ mod tests {
             text,
             &[ActionKind::Suppress, ActionKind::Explain],
             &expect![[r#"
-            # Suppress: silence `feed-missing` on this line
-            %
-            O1
-            G21 G90 G54 G0 X1.
-            G1 X5. (gcheck: ignore feed-missing - say why)
-            M30
-            %
-            # Suppress: silence `feed-missing` in this file
-            %
-            O1
-            (gcheck: ignore-file feed-missing - say why)
-            G21 G90 G54 G0 X1.
-            G1 X5.
-            M30
-            %
-            # Explain: explain `feed-missing`
-            https://github.com/gcheck/gcheck/blob/main/docs/rules/feed-missing.md
-        "#]],
+                # Suppress: Ignore `feed-missing` on this line
+                %
+                O1
+                G21 G90 G54 G0 X1.
+                G1 X5. (gcheck: ignore feed-missing - say why)
+                M30
+                %
+                # Suppress: Ignore `feed-missing` in this file
+                %
+                O1
+                (gcheck: ignore-file feed-missing - say why)
+                G21 G90 G54 G0 X1.
+                G1 X5.
+                M30
+                %
+                # Explain: Explain `feed-missing`
+                https://github.com/gcheck/gcheck/blob/main/docs/rules/feed-missing.md
+            "#]],
         );
         let text = "G21 G90 G54 G0 X1\nG1 X5$0 ; cut\nM2\n";
         check(
@@ -188,17 +147,17 @@ mod tests {
             text,
             &[ActionKind::Suppress],
             &expect![[r#"
-            # Suppress: silence `feed-missing` on this line
-            G21 G90 G54 G0 X1
-            (gcheck: ignore feed-missing - say why)
-            G1 X5 ; cut
-            M2
-            # Suppress: silence `feed-missing` in this file
-            (gcheck: ignore-file feed-missing - say why)
-            G21 G90 G54 G0 X1
-            G1 X5 ; cut
-            M2
-        "#]],
+                # Suppress: Ignore `feed-missing` on this line
+                G21 G90 G54 G0 X1
+                (gcheck: ignore feed-missing - say why)
+                G1 X5 ; cut
+                M2
+                # Suppress: Ignore `feed-missing` in this file
+                (gcheck: ignore-file feed-missing - say why)
+                G21 G90 G54 G0 X1
+                G1 X5 ; cut
+                M2
+            "#]],
         );
     }
 
@@ -210,14 +169,14 @@ mod tests {
             text,
             &[ActionKind::Source],
             &expect![[r#"
-                # Source: write 1 number with decimal points, as the control counts them
+                # Source: Write 1 number with decimal points, as the control counts them
                 O1
                 G21 G90 G54 G0 X1. Y0
                 G4 P500
                 G1 Z-1. F200
                 G65 P9010 A1
                 M30
-                # Source: write decimal points behind 1 number without one (changes what they count)
+                # Source: Write decimal points after 1 number without one (changes what they count)
                 O1
                 G21 G90 G54 G0 X1000. Y0
                 G4 P500
@@ -235,46 +194,46 @@ mod tests {
             "O1\nG21 G90 G54 G0 X0. Y0.\nG2 X10. Y10. R$010. F100.\nM30\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: write this arc with its centre
-            O1
-            G21 G90 G54 G0 X0. Y0.
-            G2 X10. Y10. I10. J0. F100.
-            M30
-            # Rewrite: put block skip on this block
-            O1
-            G21 G90 G54 G0 X0. Y0.
-            /G2 X10. Y10. R10. F100.
-            M30
-        "#]],
+                # Rewrite: Write this arc with its centre
+                O1
+                G21 G90 G54 G0 X0. Y0.
+                G2 X10. Y10. I10. J0. F100.
+                M30
+                # Rewrite: Add block delete to this block
+                O1
+                G21 G90 G54 G0 X0. Y0.
+                /G2 X10. Y10. R10. F100.
+                M30
+            "#]],
         );
         check(
             "haas-mill",
             "O1\nG21 G90 G54 G0 X0. Y0.\nG2 X10. Y10. I$010. J0. F100.\nM30\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: write this arc with its radius
-            O1
-            G21 G90 G54 G0 X0. Y0.
-            G2 X10. Y10. R10. F100.
-            M30
-            # Rewrite: put block skip on this block
-            O1
-            G21 G90 G54 G0 X0. Y0.
-            /G2 X10. Y10. I10. J0. F100.
-            M30
-        "#]],
+                # Rewrite: Write this arc with its radius
+                O1
+                G21 G90 G54 G0 X0. Y0.
+                G2 X10. Y10. R10. F100.
+                M30
+                # Rewrite: Add block delete to this block
+                O1
+                G21 G90 G54 G0 X0. Y0.
+                /G2 X10. Y10. I10. J0. F100.
+                M30
+            "#]],
         );
         check(
             "haas-lathe",
             "O1\nG20 G54 G18 G0 X1. Z0.\nG3 X1.5 Z-.25 R.2$05 F.01\nM30\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-                # Rewrite: write this arc with its centre
+                # Rewrite: Write this arc with its centre
                 O1
                 G20 G54 G18 G0 X1. Z0.
                 G3 X1.5 Z-.25 I0. K-0.25 F.01
                 M30
-                # Rewrite: put block skip on this block
+                # Rewrite: Add block delete to this block
                 O1
                 G20 G54 G18 G0 X1. Z0.
                 /G3 X1.5 Z-.25 R.25 F.01
@@ -286,15 +245,15 @@ mod tests {
             "G21 G90 G90.1 G0 X0 Y0\nG3 X10 Y10 I$00 J10 F100\nM2\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: write this arc with its radius
-            G21 G90 G90.1 G0 X0 Y0
-            G3 X10 Y10 R10. F100
-            M2
-            # Rewrite: put block skip on this block
-            G21 G90 G90.1 G0 X0 Y0
-            /G3 X10 Y10 I0 J10 F100
-            M2
-        "#]],
+                # Rewrite: Write this arc with its radius
+                G21 G90 G90.1 G0 X0 Y0
+                G3 X10 Y10 R10. F100
+                M2
+                # Rewrite: Add block delete to this block
+                G21 G90 G90.1 G0 X0 Y0
+                /G3 X10 Y10 I0 J10 F100
+                M2
+            "#]],
         );
     }
 
@@ -305,12 +264,12 @@ mod tests {
             "O1\nG21 G90 G54 G0 X0. Y0.\nG2 I$010. F100.\nM30\n",
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: put block skip on this block
-            O1
-            G21 G90 G54 G0 X0. Y0.
-            /G2 I10. F100.
-            M30
-        "#]],
+                # Rewrite: Add block delete to this block
+                O1
+                G21 G90 G54 G0 X0. Y0.
+                /G2 I10. F100.
+                M30
+            "#]],
         );
     }
 
@@ -322,40 +281,40 @@ mod tests {
             text,
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: write this cycle as 19 plain moves
-            O1
-            G21 G90 G54 G0 X0. Y0. Z10.
-            N5 G99 G0 X1. Y2.
-            G0 Z2.
-            G1 Z-1. F100.
-            G0 Z2.
-            G0 Z1.54
-            G1 Z-4.
-            G0 Z2.
-            G0 Z-1.46
-            G1 Z-6.
-            G0 Z2.
-            G0 X5.
-            G1 Z-1.
-            G0 Z2.
-            G0 Z1.54
-            G1 Z-4.
-            G0 Z2.
-            G0 Z-1.46
-            G1 Z-6.
-            G0 Z2.
-            G80
-            G0 Z50.
-            M30
-            # Rewrite: put block skip on this block
-            O1
-            G21 G90 G54 G0 X0. Y0. Z10.
-            /N5 G99 G83 X1. Y2. Z-6. R2. Q3. F100.
-            X5.
-            G80
-            G0 Z50.
-            M30
-        "#]],
+                # Rewrite: Write this cycle as 19 plain moves
+                O1
+                G21 G90 G54 G0 X0. Y0. Z10.
+                N5 G99 G0 X1. Y2.
+                G0 Z2.
+                G1 Z-1. F100.
+                G0 Z2.
+                G0 Z1.54
+                G1 Z-4.
+                G0 Z2.
+                G0 Z-1.46
+                G1 Z-6.
+                G0 Z2.
+                G0 X5.
+                G1 Z-1.
+                G0 Z2.
+                G0 Z1.54
+                G1 Z-4.
+                G0 Z2.
+                G0 Z-1.46
+                G1 Z-6.
+                G0 Z2.
+                G80
+                G0 Z50.
+                M30
+                # Rewrite: Add block delete to this block
+                O1
+                G21 G90 G54 G0 X0. Y0. Z10.
+                /N5 G99 G83 X1. Y2. Z-6. R2. Q3. F100.
+                X5.
+                G80
+                G0 Z50.
+                M30
+            "#]],
         );
         let text = "G21 G90 G0 X0 Y0 Z10\nG98 G82 X1 Y2 Z-6 R2 P0.5 F100$0\nG80\nG0 Z50\nM2\n";
         check(
@@ -363,7 +322,7 @@ mod tests {
             text,
             &[ActionKind::Rewrite],
             &expect![[r#"
-                # Rewrite: write this cycle as 5 plain moves
+                # Rewrite: Write this cycle as 5 plain moves
                 G21 G90 G0 X0 Y0 Z10
                 G98 G0 X1. Y2.
                 G0 Z2.
@@ -373,7 +332,7 @@ mod tests {
                 G80
                 G0 Z50
                 M2
-                # Rewrite: put block skip on this block
+                # Rewrite: Add block delete to this block
                 G21 G90 G0 X0 Y0 Z10
                 /G98 G82 X1 Y2 Z-6 R2 P0.5 F100
                 G80
@@ -421,7 +380,7 @@ mod tests {
             let mut fixture = Fixture::new(control, text);
             let actions = offered_at_cursor(&mut fixture);
             let before = fixture.snapshot().text();
-            let action = actions.iter().find(|action| action.title.starts_with("write this"));
+            let action = actions.iter().find(|action| action.title.starts_with("Write this"));
             let after = applied(&before, &action.unwrap_or_else(|| panic!("nothing offered: {text}")).edits);
             assert_eq!(moves(control, &before), moves(control, &after), "{before}\nbecame\n{after}");
         }
@@ -436,14 +395,14 @@ mod tests {
             text,
             &[ActionKind::Rewrite],
             &expect![[r#"
-            # Rewrite: put block skip on this block
-            O1
-            G21 G90 G54 S500 M3 G0 X0. Y0. Z10.
-            /G84 X1. Y2. Z-6. R2. F500.
-            G80
-            G0 Z50.
-            M30
-        "#]],
+                # Rewrite: Add block delete to this block
+                O1
+                G21 G90 G54 S500 M3 G0 X0. Y0. Z10.
+                /G84 X1. Y2. Z-6. R2. F500.
+                G80
+                G0 Z50.
+                M30
+            "#]],
         );
     }
 
@@ -453,7 +412,7 @@ mod tests {
         let mut fixture = Fixture::new("haas-mill", text);
         let mut toggled = |range: Range<u32>, text: &str| {
             let mut actions = offered(&mut fixture, range).into_iter();
-            let action = actions.find(|action| action.title.contains("block skip")).unwrap();
+            let action = actions.find(|action| action.title.contains("block delete")).unwrap();
             applied(text, &action.edits)
         };
         assert_eq!(toggled(4..25, text), "O1\n/N10 G0 X1.\n\n/N20 X2.\n(NOTE)\nM30\n");
@@ -468,13 +427,13 @@ mod tests {
             text,
             &[ActionKind::Source],
             &expect![[r#"
-            # Source: number blocks in tens, with what jumps to them
-            O1
-            N10 G0 X1.
-            N20 X2.
-            GOTO 10
-            M30
-        "#]],
+                # Source: Renumber blocks in tens, with the jumps to them
+                O1
+                N10 G0 X1.
+                N20 X2.
+                GOTO 10
+                M30
+            "#]],
         );
     }
 }

@@ -1,6 +1,6 @@
 //! Figures above each tool section: time, extents.
 //!
-//! Knows: what of a run's statistics stands above a section. Must not know: how figures are computed.
+//! Knows: what of a run's statistics is above a section. Must not know: how figures are computed.
 
 use std::ops::Range;
 
@@ -44,7 +44,7 @@ pub struct SectionFigures {
 /// A line above a place.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CodeLens {
-    /// Bytes of the line that it stands above.
+    /// Bytes of the line that it is above.
     pub range: Range<u32>,
     /// Its text.
     pub title: String,

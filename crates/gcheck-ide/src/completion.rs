@@ -1,15 +1,19 @@
 //! What may be typed at a place.
 //!
-//! Knows: which kinds of things can stand where. Must not know: how editors match and sort beyond what an item says.
+//! Knows: which kinds of things can be written where, which of them fit best. Must not know: how editors show a list.
+//!
+//! A list must not harm who types on: where the word before the cursor is complete, the first entry is that word as it is
+//! written, so that an editor that takes the first entry at Enter changes nothing; after a number there is no list; a list
+//! that could offer the typed word alone is empty.
 
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, Control, Letter, Motion, WordKind};
+use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Letter, Motion, Need, Variable, WordKind};
 use gcheck_db::{Cancelled, Database, DocumentId, Snapshot};
+use gcheck_diagnostics::Edit;
 use gcheck_engine::{Abstract, Look, Role, State};
 use gcheck_program::{OKeyword, remark};
-use gcheck_rules::Edit;
 use gcheck_syntax::SyntaxKind;
 
 use crate::document_symbols::o_name;
@@ -20,8 +24,8 @@ use crate::things::{parameter_names, program_around};
 use crate::typing::Typing;
 use crate::{Workspace, describe};
 
-/// Characters that open the list without being asked.
-pub const TRIGGERS: &[&str] = &["G", "M", "#", "<", "[", "(", ":", "=", " "];
+/// Characters that open the list without being asked. No blank: after one, everything is possible.
+pub const TRIGGERS: &[&str] = &["G", "M", "#", "<", ":", "="];
 
 /// Items of one kind that are offered.
 const MOST: usize = 1_000;
@@ -33,20 +37,16 @@ const LARGE: u32 = 1 << 20;
 pub struct Completion {
     /// Shown in the list.
     pub label: String,
-    /// Shown behind the label, in a few words.
-    pub detail: String,
-    /// Markdown.
-    pub documentation: Option<String>,
-    /// What it is.
+    /// What it is, beside the label, in a few words.
+    pub description: String,
+    /// What kind of thing it is.
     pub kind: CompletionKind,
-    /// What is written, in the place of what stands there.
+    /// What is written, in the place of what is typed already.
     pub edit: Edit,
     /// The text of the edit is a snippet: `$1`, `${2:0.1}` and `$0` are places for the cursor; `$`, `}` and `\` are escaped.
     pub is_snippet: bool,
-    /// What editors compare with what was typed.
+    /// What editors compare with what is typed; it begins so.
     pub filter: String,
-    /// Items are shown in the order of this text.
-    pub sort: String,
 }
 
 /// What a completion is.
@@ -74,7 +74,8 @@ pub enum CompletionKind {
     Control,
 }
 
-/// What may be typed at `offset`, the most fitting first.
+/// What may be typed at `offset`, the most fitting first. `trigger` is the character that opened the list by being typed,
+/// `None` where somebody asks for it.
 ///
 /// # Errors
 /// [`Cancelled`] when `stop` said yes.
@@ -83,6 +84,7 @@ pub fn completion(
     workspace: &Workspace,
     document: DocumentId,
     offset: u32,
+    trigger: Option<char>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Vec<Completion>, Cancelled> {
     let snapshot = database.outlined(document).ok_or(Cancelled)?;
@@ -90,13 +92,18 @@ pub fn completion(
     let mut items = Items { typing: &typing, from: typing.offset, list: Vec::new() };
     if let Some(comment) = typing.comment() {
         items.directives(comment);
-        return Ok(items.list);
+        return Ok(items.finish());
     }
     let (prefix, from) = typing.prefix();
     items.from = from;
     let first = prefix.chars().next().map(|c| c.to_ascii_uppercase());
+    let is_number = |rest: Option<&str>| {
+        rest.is_some_and(|rest| rest.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
+    };
     let last = typing.last_before(from).map(|piece| piece.kind);
     match first {
+        // It opens the list in comments of ours alone.
+        None if matches!(trigger, Some('=' | ':')) => {}
         Some('#') => {
             items.variables();
             items.parameters();
@@ -105,15 +112,15 @@ pub fn completion(
                 items.values(state, look);
             })?;
         }
-        _ if typing.in_brackets() || last == Some(SyntaxKind::EQUALS) => {
-            items.functions();
-            items.variables();
-            items.parameters();
-        }
         _ if last == Some(SyntaxKind::GOTO_KW) => items.labels(),
-        Some('G' | 'M')
-            if prefix.get(1..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit() || b == b'.')) =>
-        {
+        _ if typing.in_brackets() || last == Some(SyntaxKind::EQUALS) => {
+            if !is_number(Some(prefix)) || prefix.is_empty() {
+                items.functions();
+                items.variables();
+                items.parameters();
+            }
+        }
+        Some('G' | 'M') if is_number(prefix.get(1..)) => {
             let mut active = Active::default();
             with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
                 active = Active::of(state, look);
@@ -122,12 +129,12 @@ pub fn completion(
             items.keywords();
         }
         Some('O') => items.o_words(workspace),
-        Some('T') if prefix.get(1..).is_some_and(|rest| rest.bytes().all(|b| b.is_ascii_digit())) => {
-            items.tools();
-        }
+        Some('T') if is_number(prefix.get(1..)) => items.tools(),
         Some(letter) if items.named(workspace, prefix, letter) => {}
+        // A number is being typed, or is complete: nobody knows which.
+        Some(_) if prefix.bytes().any(|byte| byte.is_ascii_digit()) => {}
         Some(_) => {
-            items.words();
+            items.words(&Active::default());
             items.keywords();
         }
         None => {
@@ -135,16 +142,57 @@ pub fn completion(
             with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
                 active = Active::of(state, look);
             })?;
-            items.words();
+            items.words(&active);
             items.codes(&active, None);
             items.keywords();
         }
     }
-    Ok(items.list)
+    Ok(items.finish())
+}
+
+/// All about an entry of a list, as Markdown, by its kind and label; `None` where the list says it all.
+pub fn completion_details(snapshot: &Snapshot, kind: CompletionKind, label: &str) -> Option<String> {
+    let control = snapshot.control();
+    match kind {
+        CompletionKind::Code | CompletionKind::Snippet => {
+            let code = control.code(CodeNumber::parse(label.trim_end_matches(" …"))?)?;
+            Some(describe::code(control, code))
+        }
+        CompletionKind::Variable => {
+            let name = label.strip_prefix('#')?;
+            let entry = match name.strip_prefix('<').and_then(|name| name.strip_suffix('>')) {
+                Some(name) => control.named_parameter(name)?,
+                None => match control.variable(name.parse().ok()?) {
+                    Variable::Known(entry) => entry,
+                    Variable::Unlisted => return None,
+                },
+            };
+            Some(describe::variable(entry))
+        }
+        CompletionKind::Function => {
+            let function = control.functions().iter().find(|function| function.name == label)?;
+            Some(format!(
+                "**{}** {}\n\n*{}{}*",
+                function.name,
+                function.title,
+                function.source,
+                function.confidence.remark()
+            ))
+        }
+        CompletionKind::Rule => {
+            let rule = snapshot.settings().selection.table().by_id(label)?;
+            Some(format!("{}\n\n[{}]({})", rule.meta.summary, rule.meta.id, rule.meta.page()))
+        }
+        CompletionKind::Word
+        | CompletionKind::Keyword
+        | CompletionKind::Label
+        | CompletionKind::Program
+        | CompletionKind::Control => None,
+    }
 }
 
 /// Shows the state that holds where the block at the cursor is typed.
-fn with_state(
+pub(crate) fn with_state(
     database: &mut Database,
     snapshot: &Snapshot,
     document: DocumentId,
@@ -164,15 +212,23 @@ fn with_state(
 #[derive(Default)]
 struct Active {
     codes: Vec<CodeIx>,
+    /// The cycle in effect, else the motion: what words of a block without a code belong to.
+    reader: Option<CodeIx>,
+    has_cycle: bool,
 }
 
 impl Active {
     fn of(state: &State<Abstract>, look: &Look<'_, '_>) -> Self {
         let all = Role::ALL.into_iter().flat_map(|role| state.mode(role).alternatives().to_vec());
-        Self { codes: all.filter(|code| look.model().control().code_at(*code).is_some()).collect() }
+        let cycle = state.active_cycle(look.model()).filter(|code| code.is_some());
+        Self {
+            codes: all.filter(|code| look.model().control().code_at(*code).is_some()).collect(),
+            reader: cycle.or_else(|| state.mode(Role::Motion).only()),
+            has_cycle: cycle.is_some(),
+        }
     }
 
-    /// Why a code cannot stand here, as far as the codes in effect say it.
+    /// Why a code cannot be written here, as far as the codes in effect say it.
     fn objection(&self, control: &Control, code: Code<'_>) -> Option<String> {
         let entry = code.entry();
         let names = |list: &[String], other: Code<'_>| {
@@ -186,23 +242,35 @@ impl Active {
         if let Some(other) = active()
             .find(|other| names(&other.entry().forbids, code) && !entry.cancels.contains(&other.entry().code))
         {
-            return Some(format!("not while `{}` is active", other.entry().code));
+            return Some(format!("not in {}", other.entry().code));
         }
         if self.codes.is_empty() {
             return None;
         }
         let missing =
             entry.requires.iter().find(|needed| !active().any(|other| other.entry().code == **needed));
-        missing.map(|needed| format!("needs `{needed}`"))
+        missing.map(|needed| format!("needs {needed}"))
     }
 }
 
+/// The entries of a list while it is made.
 struct Items<'t, 's> {
     typing: &'t Typing<'s>,
     /// Where what is replaced begins.
     from: u32,
-    list: Vec<Completion>,
+    /// With a number by which they are sorted.
+    list: Vec<(u32, Completion)>,
 }
+
+/// Entries that fit best: words of the cycle in hand.
+const WORDS: u32 = 0;
+/// What ends the cycle in hand.
+const ENDS: u32 = 90_000;
+/// Codes that the program uses already.
+const USED: u32 = 100_000;
+const UNUSED: u32 = 200_000;
+/// Codes that cannot be written here.
+const OBJECTED: u32 = 300_000;
 
 impl Items<'_, '_> {
     fn control(&self) -> &Control {
@@ -213,20 +281,55 @@ impl Items<'_, '_> {
         self.from..self.typing.offset
     }
 
-    fn add(&mut self, kind: CompletionKind, label: &str, detail: &str, rank: u32) -> &mut Completion {
+    /// What is typed already of what is replaced.
+    fn typed(&self) -> &str {
+        let from = self.from.saturating_sub(self.typing.start) as usize;
+        self.typing.before.get(from..).unwrap_or_default()
+    }
+
+    fn add(&mut self, kind: CompletionKind, label: &str, description: &str, rank: u32) -> &mut Completion {
         let edit = Edit { range: self.replaced(), text: label.to_owned() };
-        self.list.push(Completion {
+        let item = Completion {
             label: label.to_owned(),
-            detail: detail.to_owned(),
-            documentation: None,
+            description: description.to_owned(),
             kind,
             edit,
             is_snippet: false,
             filter: label.to_owned(),
-            sort: format!("{rank:08}{label}"),
-        });
+        };
+        self.list.push((rank, item));
         #[expect(clippy::expect_used, reason = "one was pushed right above")]
-        self.list.last_mut().expect("pushed above")
+        let (_, item) = self.list.last_mut().expect("pushed above");
+        item
+    }
+
+    /// What is typed is a complete word, whatever it may still become: it is offered as it is, unless it is.
+    fn add_typed(&mut self, kind: CompletionKind, description: &str) {
+        let typed = self.typed().to_owned();
+        if !self.list.iter().any(|(_, item)| item.edit.text == typed) {
+            self.add(kind, &typed, description, 0);
+        }
+    }
+
+    /// The list in its order: what is typed first, where it is complete; entries that do not begin so are left out.
+    fn finish(self) -> Vec<Completion> {
+        let typed = self.typed().to_ascii_lowercase();
+        let is_typed = |item: &Completion| item.edit.text.to_ascii_lowercase() == typed;
+        let mut list = self.list;
+        list.retain(|(_, item)| {
+            item.filter.get(..typed.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(&typed))
+        });
+        list.sort_by(|(rank, item), (other_rank, other)| {
+            let key = |rank: u32, item: &Completion| (!is_typed(item), rank);
+            key(*rank, item).cmp(&key(*other_rank, other)).then_with(|| item.label.cmp(&other.label))
+        });
+        // Nothing is left to be chosen.
+        if let [(_, only)] = list.as_slice()
+            && is_typed(only)
+        {
+            return Vec::new();
+        }
+        list.into_iter().map(|(_, item)| item).collect()
     }
 
     // ---- our own directives ----
@@ -246,65 +349,70 @@ impl Items<'_, '_> {
             return;
         }
         let Some((verb, rest)) = directive.split_once([' ', '\t']) else {
-            for (verb, detail) in [
+            for (verb, description) in [
                 ("ignore", "silence a rule on this line, or on the next"),
                 ("ignore-file", "silence a rule in this file"),
                 ("off", "silence a rule from here on"),
                 ("on", "end of `off`"),
                 ("control=", "the control that reads this program"),
             ] {
-                self.add(CompletionKind::Keyword, verb, detail, 0);
+                self.add(CompletionKind::Keyword, verb, description, 0);
             }
             return;
         };
-        // Behind the dash stands a reason in words.
+        // After the dash there is a reason in words.
         if !matches!(verb, "ignore" | "ignore-file" | "off" | "on") || rest.contains(" - ") {
             return;
         }
-        for rule in gcheck_rules::all() {
+        for rule in self.typing.snapshot.settings().selection.table().iter() {
             self.add(CompletionKind::Rule, rule.meta.id, rule.meta.summary, 0);
         }
     }
 
     // ---- codes and words ----
 
-    /// G and M codes, those that can stand here first, and cycles with their words.
+    /// G and M codes, those that can be written here first, and cycles with their words.
     fn codes(&mut self, active: &Active, letter: Option<char>) {
         let survey = self.typing.snapshot.survey();
         let style = Spelling::of(self.typing, letter);
         let in_block = self.typing.codes();
         let control = self.typing.snapshot.control();
+        let typed = self.typed().to_owned();
+        let typed_code = CodeNumber::parse(&typed);
         for code in control.codes() {
             let number = code.number();
             if letter.is_some_and(|letter| number.letter() != letter as u8) {
                 continue;
             }
             let entry = code.entry();
+            let text = if typed_code == Some(number) { typed.clone() } else { style.code(&entry.code) };
+            if !text.get(..typed.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(&typed)) {
+                continue;
+            }
             let objection = active.objection(control, code).or_else(|| {
                 let (_, other) = in_block.iter().find(|(_, other)| {
                     other.group_ix() == code.group_ix() && other.group().exclusive
                         || entry.conflicts.contains(&other.entry().code)
                 })?;
-                Some(format!("not beside `{}`", other.entry().code))
+                Some(format!("not beside {}", other.entry().code))
             });
             let is_used =
                 survey.codes.iter().any(|(used, at)| *used == number && at.end != self.typing.offset);
             let rank = match (&objection, is_used) {
-                (None, true) => 100_000,
-                (None, false) => 200_000,
-                (Some(_), _) => 300_000,
+                _ if active.has_cycle && code.effect() == Effect::CycleCancel => ENDS,
+                (None, true) => USED,
+                (None, false) => UNUSED,
+                (Some(_), _) => OBJECTED,
             };
             let rank = rank + u32::from(number.tenths()) + if number.letter() == b'M' { 10_000 } else { 0 };
-            let text = style.code(&entry.code);
-            let detail = match &objection {
-                Some(objection) => format!("{} ({objection})", entry.title),
+            let description = match &objection {
+                Some(objection) => format!("{objection}: {}", entry.title),
                 None => entry.title.clone(),
             };
-            let item = self.add(CompletionKind::Code, &text, &detail, rank);
-            item.documentation = Some(describe::code(control, code));
-            // `G1` finds `G01`.
-            item.filter.clone_from(&text);
-            if matches!(code.motion(), Motion::Cycle | Motion::Operation) && in_block.is_empty() {
+            self.add(CompletionKind::Code, &text, &description, rank);
+            // A letter alone may become so much that the cycles wait for the next.
+            let is_cycle = matches!(code.motion(), Motion::Cycle | Motion::Operation);
+            if is_cycle && typed.len() > 1 && in_block.is_empty() {
                 self.cycle(code, &style, rank);
             }
         }
@@ -336,21 +444,25 @@ impl Items<'_, '_> {
             return;
         }
         let label = format!("{} …", style.code(&entry.code));
-        let item =
-            self.add(CompletionKind::Snippet, &label, &format!("{} with its words", entry.title), rank + 1);
+        let description = format!("{} with its words", entry.title);
+        let item = self.add(CompletionKind::Snippet, &label, &description, rank + 1);
         item.edit.text = text;
         item.is_snippet = true;
         item.filter = style.code(&entry.code);
-        item.documentation = Some(entry.summary.clone());
     }
 
-    /// Words that the codes of the block read and that are not there yet.
-    fn words(&mut self) {
+    /// Words that the codes of the block read and that are not there yet; without codes, those of the cycle or motion in effect.
+    fn words(&mut self, active: &Active) {
         let present = self.typing.letters();
         let style = Spelling::of(self.typing, self.typing.prefix().0.chars().next());
+        let control = self.typing.snapshot.control();
+        let mut codes: Vec<Code<'_>> = self.typing.codes().into_iter().rev().map(|(_, code)| code).collect();
+        if codes.is_empty() {
+            codes.extend(active.reader.and_then(|code| control.code_at(code)));
+        }
         let mut offered: Vec<Letter> = Vec::new();
-        let mut rank = 0;
-        for (_, code) in self.typing.codes().into_iter().rev() {
+        let mut rank = WORDS;
+        for code in codes {
             for word in &code.entry().words {
                 let Some(letter) = Letter::parse(&word.letter) else { continue };
                 if present.contains(&letter) || offered.contains(&letter) {
@@ -359,13 +471,14 @@ impl Items<'_, '_> {
                 offered.push(letter);
                 rank += 1;
                 let needed = match word.need {
-                    gcheck_controls::Need::Required => 0,
-                    gcheck_controls::Need::Modal => 1_000,
-                    _ => 2_000,
+                    Need::Required => 0,
+                    Need::Modal => 1_000,
+                    Need::Optional | Need::Conditional => 2_000,
                 };
                 let text = if style.lower { word.letter.to_ascii_lowercase() } else { word.letter.clone() };
-                let detail = format!("{} ({})", word.is, describe::needs(word));
-                self.add(CompletionKind::Word, &text, &detail, needed + rank);
+                let need = if needed == 0 { String::new() } else { format!("{}, ", word.need_in_words()) };
+                let description = format!("{} ({need}{})", word.is, word.values_in_words());
+                self.add(CompletionKind::Word, &text, &description, needed + rank);
             }
         }
     }
@@ -421,8 +534,8 @@ impl Items<'_, '_> {
                 known.push(number);
                 let line = file.snapshot.line_text(file.snapshot.line_at(program.range.start)).into_owned();
                 let comment = remark(&line).map(|remark| format!("{remark}, ")).unwrap_or_default();
-                let detail = format!("{comment}{}", file.name);
-                self.add(CompletionKind::Program, &number.to_string(), &detail, number.min(9_999_999));
+                let description = format!("{comment}{}", file.name);
+                self.add(CompletionKind::Program, &number.to_string(), &description, number.min(9_999_999));
             }
         }
     }
@@ -440,8 +553,12 @@ impl Items<'_, '_> {
                     continue;
                 }
                 known.push(sub.label.clone());
-                let label = format!("{} call", o_name(&sub.label));
-                self.add(CompletionKind::Program, &label, &file.name, 0);
+                let name = o_name(&sub.label);
+                // A name may be followed by other words than `call`.
+                if name.eq_ignore_ascii_case(self.typed()) {
+                    self.add_typed(CompletionKind::Program, "subroutine");
+                }
+                self.add(CompletionKind::Program, &format!("{name} call"), &file.name, 0);
             }
         }
     }
@@ -453,7 +570,10 @@ impl Items<'_, '_> {
         }
         let mut known = Vec::new();
         for tool in parts(snapshot).tools {
-            let Some(number) = tool.tool.filter(|number| !known.contains(number)) else { continue };
+            let is_typed = tool.word.end == self.typing.offset;
+            let Some(number) = tool.tool.filter(|number| !is_typed && !known.contains(number)) else {
+                continue;
+            };
             known.push(number);
             let text = if tool.is_named {
                 snapshot.slice(tool.word.clone()).trim().to_owned()
@@ -462,6 +582,9 @@ impl Items<'_, '_> {
             };
             self.add(CompletionKind::Word, &text, &tool.name, number.min(9_999_999));
         }
+        if self.typed().len() > 1 {
+            self.add_typed(CompletionKind::Word, "");
+        }
     }
 
     /// Numbered variables that the program sets, then the control's own.
@@ -469,6 +592,10 @@ impl Items<'_, '_> {
         let snapshot = self.typing.snapshot;
         let control = snapshot.control();
         for (number, range) in snapshot.survey().assigned.iter().take(MOST) {
+            // The one that is being typed is not a news.
+            if range.end == self.typing.offset {
+                continue;
+            }
             let line = snapshot.line_text(snapshot.line_at(range.start)).into_owned();
             self.add(CompletionKind::Variable, &format!("#{number}"), line.trim(), (*number).min(999_999));
         }
@@ -478,11 +605,22 @@ impl Items<'_, '_> {
             if last - first > 64 {
                 continue;
             }
-            let label = format!("#{first}");
             let range = if last > first { format!(" (to #{last})") } else { String::new() };
-            let detail = format!("{}{range}", entry.title);
-            let item = self.add(CompletionKind::Variable, &label, &detail, 1_000_000 + first.min(999_999));
-            item.documentation = Some(describe::variable(entry));
+            let description = format!("{}{range}", entry.title);
+            self.add(
+                CompletionKind::Variable,
+                &format!("#{first}"),
+                &description,
+                1_000_000 + first.min(999_999),
+            );
+        }
+        let number = self.typed().strip_prefix('#').and_then(|number| number.parse().ok());
+        if let Some(number) = number {
+            let title = match control.variable(number) {
+                Variable::Known(entry) => entry.title.clone(),
+                Variable::Unlisted => String::new(),
+            };
+            self.add_typed(CompletionKind::Variable, &title);
         }
     }
 
@@ -499,14 +637,13 @@ impl Items<'_, '_> {
         }
         for entry in snapshot.control().variables() {
             let Some(name) = &entry.name else { continue };
-            let item = self.add(CompletionKind::Variable, &format!("#<{name}>"), &entry.title, 2_000_000);
-            item.documentation = Some(describe::variable(entry));
+            self.add(CompletionKind::Variable, &format!("#<{name}>"), &entry.title, 2_000_000);
         }
     }
 
     /// What the variables on the list hold here.
     fn values(&mut self, state: &State<Abstract>, look: &mut Look<'_, '_>) {
-        for item in &mut self.list {
+        for (_, item) in &mut self.list {
             let number = item.label.strip_prefix('#').and_then(|number| number.parse().ok());
             let name = item.label.strip_prefix("#<").and_then(|name| name.strip_suffix('>'));
             let held = match (number, name) {
@@ -515,7 +652,7 @@ impl Items<'_, '_> {
                 (None, None) => None,
             };
             if let Some(held) = held.filter(|held| *held != gcheck_engine::AbstractValue::Unknown) {
-                item.detail = format!("= {}; {}", value(&held), item.detail);
+                item.description = format!("= {}; {}", value(&held), item.description);
             }
         }
     }
@@ -525,9 +662,12 @@ impl Items<'_, '_> {
     fn functions(&mut self) {
         let control = self.typing.snapshot.control();
         for function in control.functions() {
+            let is_typed = function.name.eq_ignore_ascii_case(self.typed());
             let item = self.add(CompletionKind::Function, &function.name, &function.title, 3_000_000);
-            item.edit.text = format!("{}[$0]", function.name);
-            item.is_snippet = true;
+            if !is_typed {
+                item.edit.text = format!("{}[$0]", function.name);
+                item.is_snippet = true;
+            }
         }
     }
 
@@ -538,16 +678,20 @@ impl Items<'_, '_> {
         if !begins || !syntax.macro_statements {
             return;
         }
-        for (label, text, detail) in [
+        for (label, text, description) in [
             ("IF … GOTO", "IF [$1] GOTO $0", "jump when a condition holds"),
             ("IF … THEN", "IF [$1] THEN $0", "one statement when a condition holds"),
             ("WHILE … DO", "WHILE [$1] DO${2:1}\n$0\nEND${2:1}", "loop while a condition holds"),
-            ("GOTO", "GOTO $0", "jump to a sequence number"),
+            ("GOTO …", "GOTO $0", "jump to a sequence number"),
         ] {
-            let item = self.add(CompletionKind::Keyword, label, detail, 900_000);
+            let keyword = label.split(' ').next().unwrap_or(label);
+            if keyword.eq_ignore_ascii_case(self.typed()) {
+                self.add_typed(CompletionKind::Keyword, "");
+            }
+            let item = self.add(CompletionKind::Keyword, label, description, 900_000);
             text.clone_into(&mut item.edit.text);
             item.is_snippet = true;
-            label.split(' ').next().unwrap_or(label).clone_into(&mut item.filter);
+            keyword.clone_into(&mut item.filter);
         }
     }
 }
@@ -596,12 +740,15 @@ mod tests {
     /// The first items, and what the document's line becomes with each.
     fn check(control: &str, text: &str, most: usize, expected: &Expect) {
         let mut fixture = Fixture::new(control, text);
-        let mut items =
-            completion(&mut fixture.database, &fixture.workspace, fixture.document, fixture.offset, &|| {
-                false
-            })
-            .unwrap();
-        items.sort_by(|a, b| a.sort.cmp(&b.sort));
+        let items = completion(
+            &mut fixture.database,
+            &fixture.workspace,
+            fixture.document,
+            fixture.offset,
+            None,
+            &|| false,
+        )
+        .unwrap();
         let line = |item: &super::Completion| {
             let start = &fixture.snapshot().line_range(fixture.snapshot().line_at(fixture.offset)).start;
             let kept = fixture.snapshot().slice(*start..item.edit.range.start).into_owned();
@@ -609,7 +756,7 @@ mod tests {
                 "{:?} {} | {} | {kept}{}\n",
                 item.kind,
                 item.label,
-                item.detail,
+                item.description,
                 item.edit.text.replace('\n', "⏎")
             )
         };
@@ -623,19 +770,13 @@ mod tests {
             "%\nO1\nG00 G90 X1.\nG83 Z-1. R1. Q1. F9.\nG0$0\nM30\n",
             12,
             &expect![[r#"
-            Code G00 | rapid positioning | G00
-            Code G83 | peck drilling | G83
-            Snippet G83 … | peck drilling with its words | G98 G83 X${1:1.} Y${2:1.} Z${3:-2.} R${4:0.1} Q${5:0.25} F${6:8.}
-            Code G90 | absolute | G90
-            Code G01 | straight cut at feed | G01
-            Code G02 | clockwise arc at feed | G02
-            Code G03 | counter-clockwise arc at feed | G03
-            Code G04 | dwell | G04
-            Code G09 | exact stop, this block | G09
-            Code G10 | set offsets from the program | G10
-            Code G12 | circular pocket, clockwise | G12
-            Snippet G12 … | circular pocket, clockwise with its words | G12 I${1:0.3} K${2:1.5} Q${3:0.25} Z${4:-0.4} D${5:1} F${6:15.}
-        "#]],
+                Code G0 | rapid positioning | G0
+                Code G01 | straight cut at feed | G01
+                Code G02 | clockwise arc at feed | G02
+                Code G03 | counter-clockwise arc at feed | G03
+                Code G04 | dwell | G04
+                Code G09 | exact stop, this block | G09
+            "#]],
         );
         check(
             "haas-mill",
@@ -655,10 +796,10 @@ mod tests {
             "g0 x1\ng8$0\n",
             4,
             &expect![[r#"
-                Code g0 | rapid move | g0
-                Code g1 | straight feed move | g1
-                Code g2 | clockwise arc | g2
-                Code g3 | counter-clockwise arc | g3
+                Code g8 | radius mode | g8
+                Code g80 | cancel the motion mode | g80
+                Code g81 | drilling | g81
+                Snippet g81 … | drilling with its words | g81 x${1:10.} y${2:10.} z${3:-8.} r${4:2.} f${5:100.}
             "#]],
         );
     }
@@ -681,6 +822,92 @@ mod tests {
     }
 
     #[test]
+    fn words_of_the_cycle_in_effect_come_first() {
+        check(
+            "haas-mill",
+            "O1\nG83 X1. Z-1. R.1 Q.1 F9.\nX2. $0\n",
+            6,
+            &expect![[r#"
+                Word Z | bottom of the hole (here or earlier, length) | X2. Z
+                Word R | R plane, where feeding begins (here or earlier, length) | X2. R
+                Word F | feed rate (here or earlier, feed rate) | X2. F
+                Word Q | depth of one peck (here or earlier, length, above 0) | X2. Q
+                Word Y | hole position (optional, length) | X2. Y
+                Word A | rotary position of the hole (optional, degrees) | X2. A
+            "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG83 X1. Z-1. R.1 Q.1 F9.\nG$0\n",
+            2,
+            &expect![[r#"
+            Code G80 | canned cycle off | G80
+            Code G83 | peck drilling | G83
+        "#]],
+        );
+    }
+
+    #[test]
+    fn what_is_complete_comes_first_as_it_is_written() {
+        check(
+            "haas-mill",
+            "O1\nG00 X1.\nG1$0\n",
+            3,
+            &expect![[r#"
+            Code G1 | straight cut at feed | G1
+            Code G10 | set offsets from the program | G10
+            Code G12 | circular pocket, clockwise | G12
+        "#]],
+        );
+        check("haas-mill", "O1\nG00 X1.\nG43$0\n", 3, &expect![[""]]);
+        check(
+            "haas-mill",
+            "O1\n#100=1.\n#1000=2.\nX#10$0\n",
+            3,
+            &expect![[r#"
+            Variable #10 | = nothing (never set); local variables, filled by the words of G65 | X#10
+            Variable #100 | = 1; #100=1. | X#100
+            Variable #1000 | #1000=2. | X#1000
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nIF$0\n",
+            3,
+            &expect![[r#"
+            Keyword IF |  | IF
+            Keyword IF … GOTO | jump when a condition holds | IF [$1] GOTO $0
+            Keyword IF … THEN | one statement when a condition holds | IF [$1] THEN $0
+        "#]],
+        );
+        check("haas-mill", "O1\n#1=[SIN$0\n", 3, &expect![[""]]);
+        check(
+            "haas-mill",
+            "O1\nT10 M6\nT1$0\n",
+            3,
+            &expect![[r#"
+            Word T1 |  | T1
+            Word T10 |  | T10
+        "#]],
+        );
+    }
+
+    #[test]
+    fn no_list_where_nothing_is_left_to_choose() {
+        for text in ["O1\nM99$0\n", "O1\nG83 X$0\n", "O1\nG0 X1$0\n", "O1\nX1.$0\n", "(NOTE G$0)\n"] {
+            check("haas-mill", text, 5, &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_sign_of_ours_opens_no_other_list() {
+        let mut fixture = Fixture::new("haas-mill", "O1\n#101=$0\n");
+        let (workspace, id, at) = (&fixture.workspace, fixture.document, fixture.offset);
+        let found = completion(&mut fixture.database, workspace, id, at, Some('='), &|| false).unwrap();
+        assert_eq!(found, []);
+    }
+
+    #[test]
     fn variables_with_their_values() {
         check(
             "haas-mill",
@@ -698,20 +925,20 @@ mod tests {
             "#<depth> = 2\n#<wide> = 3\nG0 X[#<$0]\n",
             3,
             &expect![[r#"
-            Variable #<depth> | = 2; named parameter | G0 X[#<depth>
-            Variable #<wide> | = 3; named parameter | G0 X[#<wide>
-            Variable #1 | = 0; arguments of a subroutine; local to it (shared with the caller of M98) (to #30) | G0 X[#1
-        "#]],
+                Variable #<depth> | = 2; named parameter | G0 X[#<depth>
+                Variable #<wide> | = 3; named parameter | G0 X[#<wide>
+                Variable #<_a> | present A in the active work system | G0 X[#<_a>
+            "#]],
         );
         check(
             "haas-mill",
             "O1\n#101=$0\n",
             3,
             &expect![[r#"
-            Variable #101 | #101= | #101=#101
-            Variable #0 | null: never has a value; a word given #0 is dropped from the block | #101=#0
-            Variable #1 | local variables, filled by the words of G65 (to #33) | #101=#1
-        "#]],
+                Variable #0 | null: never has a value; a word given #0 is dropped from the block | #101=#0
+                Variable #1 | local variables, filled by the words of G65 (to #33) | #101=#1
+                Variable #100 | common variables (to #149) | #101=#100
+            "#]],
         );
     }
 
@@ -780,9 +1007,8 @@ mod tests {
             "(gcheck: ignore feed-m$0)\n",
             2,
             &expect![[r#"
-            Rule address-without-value | address without a value | (gcheck: ignore address-without-value
-            Rule alarm-reached | program always ends with an alarm of its own | (gcheck: ignore alarm-reached
-        "#]],
+                Rule feed-missing | cut without a feed | (gcheck: ignore feed-missing
+            "#]],
         );
         check(
             "haas-mill",
@@ -804,11 +1030,9 @@ mod tests {
             "O1\nI$0\n",
             4,
             &expect![[r#"
-            Keyword GOTO | jump to a sequence number | GOTO $0
-            Keyword IF … GOTO | jump when a condition holds | IF [$1] GOTO $0
-            Keyword IF … THEN | one statement when a condition holds | IF [$1] THEN $0
-            Keyword WHILE … DO | loop while a condition holds | WHILE [$1] DO${2:1}⏎$0⏎END${2:1}
-        "#]],
+                Keyword IF … GOTO | jump when a condition holds | IF [$1] GOTO $0
+                Keyword IF … THEN | one statement when a condition holds | IF [$1] THEN $0
+            "#]],
         );
     }
 }

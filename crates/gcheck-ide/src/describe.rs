@@ -64,7 +64,7 @@ pub(crate) fn details(control: &Control, code: Code<'_>) -> String {
     text
 }
 
-/// Must a word stand, and what may it be?
+/// Is a word required, and what may it be?
 pub(crate) fn needs(word: &WordEntry) -> String {
     format!("{}, {}", word.need_in_words(), word.values_in_words())
 }

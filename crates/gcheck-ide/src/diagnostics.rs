@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_db::Analysis;
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 
 /// Most diagnostics of a document; the rest are counted.
 pub const MAX_DIAGNOSTICS: usize = 1_000;
@@ -32,7 +32,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Bytes of the file.
     pub range: Range<u32>,
-    /// The title, and behind it what this spot contributes, notes and help, one a line.
+    /// The title, and after it what this spot contributes, notes and help, one a line.
     pub message: String,
     /// Other places involved.
     pub related: Vec<Related>,
@@ -130,7 +130,7 @@ fn message(finding: &Finding) -> String {
     message
 }
 
-/// What is said of a finding below its places.
+/// The notes of a finding, below its places.
 pub(crate) fn remarks(finding: &Finding) -> Vec<String> {
     let notes = finding.notes.iter().map(|note| format!("note: {note}"));
     let alarm = finding.alarm.iter().map(|alarm| format!("note: the control raises alarm {alarm}"));

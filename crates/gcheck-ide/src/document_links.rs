@@ -1,4 +1,4 @@
-//! Calls of programs that stand in other files, as links.
+//! Calls of programs that are in other files, as links.
 //!
 //! Knows: which call goes to another file. Must not know: addresses of files.
 

@@ -38,7 +38,7 @@ pub enum SymbolKind {
     Subroutine,
     /// What one tool does.
     Tool,
-    /// An operation, by the comment that stands alone before it.
+    /// An operation, by the comment that is alone before it.
     Operation,
     /// A sequence number that something jumps to.
     Label,
@@ -97,7 +97,7 @@ fn programs(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
             continue;
         }
         let around = program_around(snapshot, program.range.start);
-        // What stands in front of the first number is no part of its name.
+        // What is in front of the first number is not part of its name.
         let range = program.range.start..around.end.min(end);
         let line = snapshot.line_text(snapshot.line_at(program.range.start)).into_owned();
         let detail = remark(&line).unwrap_or_default().to_owned();
@@ -141,7 +141,7 @@ fn labels(snapshot: &Snapshot, all: &mut Vec<Symbol>) {
     }
 }
 
-/// Behind the return of a block that is called.
+/// After the return of a block that is called.
 pub(crate) fn return_behind(snapshot: &Snapshot, from: u32, end: u32) -> u32 {
     let ends = &snapshot.survey().ends;
     let next = ends.get(ends.partition_point(|mark| mark.range.start < from)..).unwrap_or_default();

@@ -20,7 +20,7 @@ pub(crate) const fn decimals(units: Units) -> usize {
     }
 }
 
-/// Name of the unit behind a length.
+/// Name of the unit after a length.
 pub(crate) const fn unit(units: Units) -> &'static str {
     match units {
         Units::Inch => "inch",

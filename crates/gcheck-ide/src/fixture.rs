@@ -23,7 +23,7 @@ pub(crate) struct Fixture {
 impl Fixture {
     /// One file, or several of which each begins with a line `//- NAME`.
     pub(crate) fn new(control: &str, text: &str) -> Self {
-        Self::with(text, &Settings::new(gcheck_controls::load(control).unwrap()))
+        Self::with(text, &Settings::new(gcheck_controls::load(control).unwrap(), gcheck_rules::RULES))
     }
 
     pub(crate) fn with(text: &str, settings: &Settings) -> Self {

@@ -5,8 +5,8 @@
 use std::ops::Range;
 
 use gcheck_db::Snapshot;
+use gcheck_diagnostics::Edit;
 use gcheck_format::Style;
-use gcheck_rules::Edit;
 
 /// Characters that finish a line.
 pub const FORMAT_TRIGGERS: &[&str] = &["\n"];
@@ -28,7 +28,7 @@ pub fn format_in(snapshot: &Snapshot, style: &Style, range: Option<Range<u32>>) 
     format_lines(snapshot, style, lines)
 }
 
-/// Edits that format what was finished by typing a character of [`FORMAT_TRIGGERS`]; `offset` stands behind it.
+/// Edits that format what was finished by typing a character of [`FORMAT_TRIGGERS`]; `offset` is after it.
 pub fn format_on_type(snapshot: &Snapshot, offset: u32) -> Vec<Edit> {
     format_on_type_in(snapshot, &Style::of(snapshot.control()), offset)
 }
@@ -42,13 +42,7 @@ pub fn format_on_type_in(snapshot: &Snapshot, style: &Style, offset: u32) -> Vec
 }
 
 fn format_lines(snapshot: &Snapshot, style: &Style, lines: Option<Range<u32>>) -> Vec<Edit> {
-    let edits = gcheck_format::format(&snapshot.text(), &snapshot.dialect(), style, lines);
-    edits.into_iter().map(own_edit).collect()
-}
-
-/// An edit of the formatter as one of ours.
-pub(crate) fn own_edit(edit: gcheck_format::Edit) -> Edit {
-    Edit { range: edit.range, text: edit.text }
+    gcheck_format::format(&snapshot.text(), &snapshot.dialect(), style, lines)
 }
 
 #[cfg(test)]

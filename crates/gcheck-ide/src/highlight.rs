@@ -1,4 +1,4 @@
-//! The other places of a file that name what the cursor stands at.
+//! The other places of a file that name what the cursor is at.
 //!
 //! Knows: one file at a time. Must not know: other files.
 
@@ -18,7 +18,7 @@ pub struct Highlight {
     pub kind: ReferenceKind,
 }
 
-/// Places of the file that name what stands at `offset`, in text order.
+/// Places of the file that name what is at `offset`, in text order.
 pub fn highlights(snapshot: &Snapshot, offset: u32) -> Vec<Highlight> {
     let Some(naming) = thing_at(snapshot, offset) else { return Vec::new() };
     let places = namings_in(snapshot, &naming.thing).into_iter();

@@ -1,30 +1,30 @@
-//! What is shown for the word under the pointer.
+//! What is shown for the word under the pointer: a few lines, the state first.
 //!
 //! Knows: which parts of an answer a place has, and their order. Must not know: how editors draw Markdown.
+//!
+//! Findings are left to the editor, which shows them at the same place; all that manuals say of a code is a page of its own.
 
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use gcheck_controls::{Code, CodeIx, Control, Letter, Variable, WordEntry, WordKind};
-use gcheck_db::{Analysis, BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
+use gcheck_controls::{Code, CodeIx, Control, Letter, Need, Variable, WordEntry, WordKind};
+use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
 use gcheck_engine::{Abstract, AbstractValue, At, Axis, Look, Position, Role, State};
 use gcheck_program::{Value, Word, remark};
-use gcheck_rules::Finding;
 use gcheck_syntax::SyntaxKind;
 
 use crate::ReferenceKind;
 use crate::describe;
-use crate::diagnostics::remarks;
 use crate::figures::{coordinate, plain, unit, value};
 use crate::pieces::{pieces_of_line, touches};
-use crate::reading::Reading;
+use crate::reading::{Item, Reading};
 use crate::state_at::look_at;
 use crate::things::{Thing, namings_in, thing_at};
 
-/// Findings that are shown together.
-const MOST_FINDINGS: usize = 5;
 /// Places that set a variable which are shown.
 const MOST_ASSIGNMENTS: usize = 5;
+/// Ways to a block that are shown.
+const MOST_DECISIONS: usize = 3;
 
 /// What is shown for a place.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -33,10 +33,12 @@ pub struct Hover {
     pub range: Range<u32>,
     /// Markdown.
     pub markdown: String,
+    /// The code that `gcheck explain` tells more of.
+    pub code: Option<String>,
 }
 
-/// What is to be said of the place at `offset`: the code, word, number, variable or label there, the state before and after
-/// its block, and findings that hold there as far as `analysis` has them.
+/// What is to be said of the place at `offset`: the code, word, number, variable or label there, and the state before and
+/// after its block.
 ///
 /// # Errors
 /// [`Cancelled`] when `stop` said yes.
@@ -44,7 +46,6 @@ pub fn hover(
     database: &mut Database,
     document: DocumentId,
     offset: u32,
-    analysis: Option<&Analysis>,
     stop: &dyn Fn() -> bool,
 ) -> Result<Option<Hover>, Cancelled> {
     let snapshot = database.outlined(document).ok_or(Cancelled)?;
@@ -52,27 +53,28 @@ pub fn hover(
         return Ok(None);
     };
     let subject = subject(&snapshot, &place, offset);
-    let all = analysis.map(|analysis| analysis.findings.as_slice()).unwrap_or_default();
-    let findings: Vec<&Finding> =
-        all.iter().filter(|finding| touches(&finding.range, offset)).take(MOST_FINDINGS).collect();
     let mut parts = None;
     look_at(database, document, place.number, stop, &mut |state, look| {
         let cx = Cx { snapshot: &snapshot, place: &place, state: Some(state) };
-        parts = Some(cx.parts(&subject, Some(look), &findings));
+        parts = Some(cx.parts(&subject, Some(look)));
     })?;
     let mut parts = parts.unwrap_or_else(|| {
         let cx = Cx { snapshot: &snapshot, place: &place, state: None };
-        cx.parts(&subject, None, &findings)
+        cx.parts(&subject, None)
     });
     parts.retain(|part| !part.trim().is_empty());
     if parts.is_empty() {
         return Ok(None);
     }
     let parts: Vec<&str> = parts.iter().map(|part| part.trim_end()).collect();
-    Ok(Some(Hover { range: subject.range(), markdown: parts.join("\n\n---\n\n") }))
+    let code = match subject {
+        Subject::Code(_, ix) => snapshot.control().code_at(ix).map(|code| code.entry().code.clone()),
+        _ => None,
+    };
+    Ok(Some(Hover { range: subject.range(), markdown: parts.join("\n\n---\n\n"), code }))
 }
 
-/// What stands at a place.
+/// What is at a place.
 enum Subject {
     /// A G or M word that names a code.
     Code(Range<u32>, CodeIx),
@@ -82,7 +84,7 @@ enum Subject {
     Thing(Range<u32>, Thing),
     /// A function of expressions.
     Function(Range<u32>, String),
-    /// Nothing of its own: findings may hold there.
+    /// Nothing that can be told of.
     Nothing(Range<u32>),
 }
 
@@ -100,7 +102,7 @@ impl Subject {
 
 fn subject(snapshot: &Snapshot, place: &BlockPlace, offset: u32) -> Subject {
     let pieces = pieces_of_line(snapshot, offset);
-    // Where two pieces meet, the one behind the cursor is pointed at, unless it is a blank.
+    // Where two pieces meet, the one after the cursor is pointed at, unless it is a blank.
     let at = pieces
         .iter()
         .find(|piece| {
@@ -153,24 +155,16 @@ impl Cx<'_> {
         self.snapshot.control()
     }
 
-    fn parts(
-        &self,
-        subject: &Subject,
-        mut look: Option<&mut Look<'_, '_>>,
-        findings: &[&Finding],
-    ) -> Vec<String> {
-        let mut parts: Vec<String> = findings.iter().map(|finding| self.finding(finding)).collect();
+    fn parts(&self, subject: &Subject, mut look: Option<&mut Look<'_, '_>>) -> Vec<String> {
+        let mut parts: Vec<String> = Vec::new();
         match subject {
             Subject::Code(_, ix) => {
-                // What the state is here no manual tells, so it stands above what manuals do.
-                let around = look.as_deref().map(|look| self.around(look));
-                if let Some(code) = self.control().code_at(*ix) {
-                    let title = describe::title(code);
-                    parts.push(around.map_or(title.clone(), |around| format!("{title}\n\n{around}")));
-                    parts.push(describe::details(self.control(), code));
-                } else {
-                    parts.extend(around);
-                }
+                let code = self.control().code_at(*ix);
+                let title = code.map(describe::title);
+                let around = look.as_deref().map(|look| self.around(look)).or_else(|| self.way());
+                let head: Vec<String> = title.into_iter().chain(around).collect();
+                parts.push(head.join("\n\n"));
+                parts.extend(code.map(in_short));
             }
             Subject::Word(_, word) => parts.push(self.word(word, look)),
             Subject::Thing(_, thing) => parts.push(self.thing(thing, look.take())),
@@ -186,41 +180,11 @@ impl Cx<'_> {
         parts
     }
 
-    /// A finding, and how the program comes here.
-    fn finding(&self, finding: &Finding) -> String {
-        let mut text = format!(
-            "**{}** {} [`{}`]({})",
-            finding.severity,
-            finding.message,
-            finding.rule.id,
-            finding.rule.page()
-        );
-        let line = |range: &Range<u32>| self.snapshot.line_at(range.start) + 1;
-        for label in &finding.labels {
-            let place = match &label.file {
-                Some(file) => file.to_string(),
-                None => format!("line {}", line(&label.range)),
-            };
-            let _ = write!(text, "\n- {place}: {}", label.message);
-        }
-        for remark in remarks(finding) {
-            let _ = write!(text, "\n- {}", remark.replace('\n', "\n  "));
-        }
-        if let Some(way) = self.way() {
-            let _ = write!(text, "\n- {way}");
-        }
-        text
-    }
-
-    /// How the program comes to the block.
+    /// How the program comes to the block, where not every path does once.
     fn way(&self) -> Option<String> {
         let Some(state) = self.state else { return Some("no path comes here".to_owned()) };
         if state.on_every_path {
-            return Some(if state.visits > 1 {
-                format!("every path comes here, {} times", state.visits)
-            } else {
-                "every path comes here".to_owned()
-            });
+            return (state.visits > 1).then(|| format!("comes here {} times", state.visits));
         }
         let place = |at: At| {
             let place = self.snapshot.place(at.block).filter(|_| at.file == 0)?;
@@ -230,40 +194,71 @@ impl Cx<'_> {
             .trace
             .decisions()
             .iter()
+            .rev()
             .filter_map(|decision| {
                 Some(format!("line {} goes on at line {}", place(decision.at)?, place(decision.to)?))
             })
+            .take(MOST_DECISIONS)
             .collect();
-        (!decisions.is_empty()).then(|| format!("some paths come here: {}", decisions.join(", ")))
+        Some(if decisions.is_empty() {
+            "some paths come here".to_owned()
+        } else {
+            format!("some paths come here: {}", decisions.into_iter().rev().collect::<Vec<_>>().join(", "))
+        })
     }
 
-    /// The state before the block, and what of it the block changes.
+    /// Where the machine is before and after the block, what the block changes, and what else is in effect.
     fn around(&self, look: &Look<'_, '_>) -> String {
         let Some(state) = self.state else { return String::new() };
         let reading = Reading::new(self.snapshot, look.model());
-        let before = reading.line(&state.before);
-        let mut text = format!("before: {}", list(&before));
-        let point = reading.point(&state.before, state.before.actual());
-        if !point.is_empty() {
-            let _ = write!(text, ", at `{point}`");
-        }
-        let Some(after) = &state.after else {
-            return text + "\n\nafter: the program does not go on behind this block";
+        let from = reading.point(&state.before, state.before.actual());
+        let mut lines: Vec<String> = Vec::new();
+        let in_effect: Vec<String> = match &state.after {
+            None => {
+                lines.extend((!from.is_empty()).then(|| format!("at `{from}`")));
+                lines.push("the program does not go on after this block".to_owned());
+                reading.items(&state.before).into_iter().map(|(_, item)| item).collect()
+            }
+            Some(after) => {
+                let to = reading.point(after, after.actual());
+                lines.extend(match (from.as_str(), to.as_str()) {
+                    ("", "") => None,
+                    (_, "") => Some(format!("at `{from}`, then not known")),
+                    _ => changed(&from, &to).or_else(|| Some(format!("at `{to}`"))),
+                });
+                let (before, after) = (reading.items(&state.before), reading.items(after));
+                let held = |items: &[(Item, String)], item: Item| {
+                    items.iter().find(|(of, _)| *of == item).map(|(_, text)| text.clone()).unwrap_or_default()
+                };
+                // A motion that a cycle took the place of is not over.
+                let is_hidden = |item: Item| {
+                    item == Item::Mode(Role::Motion)
+                        && after.iter().any(|(of, _)| *of == Item::Mode(Role::Cycle))
+                };
+                let all = before.iter().chain(&after).map(|(item, _)| *item);
+                let mut seen: Vec<Item> = Vec::new();
+                for item in all.filter(|item| !is_hidden(*item)) {
+                    if !seen.contains(&item) {
+                        seen.push(item);
+                    }
+                }
+                let changes: Vec<String> = seen
+                    .iter()
+                    .filter_map(|item| changed(&held(&before, *item), &held(&after, *item)))
+                    .collect();
+                lines.push(if changes.is_empty() {
+                    "changes no mode".to_owned()
+                } else {
+                    changes.join(", ")
+                });
+                after.into_iter().filter(|item| before.contains(item)).map(|(_, item)| item).collect()
+            }
         };
-        let mut changes: Vec<String> =
-            reading.line(after).into_iter().filter(|item| !before.contains(item)).collect();
-        let ended = ended(&reading, &state.before, after);
-        changes.extend(ended);
-        let to = reading.point(after, after.actual());
-        let _ = write!(
-            text,
-            "\n\nafter: {}",
-            if changes.is_empty() { "as before".to_owned() } else { list(&changes) }
-        );
-        if to != point && !to.is_empty() {
-            let _ = write!(text, ", at `{to}`");
+        if !in_effect.is_empty() {
+            lines.push(format!("in effect: {}", list(&in_effect)));
         }
-        text
+        lines.extend(self.way());
+        lines.join("\n\n")
     }
 
     /// The code that gives a word its meaning: one of the block, else the cycle or motion in effect.
@@ -271,7 +266,7 @@ impl Cx<'_> {
         let control = self.snapshot.control();
         let words = || self.place.table.words(self.place.block()).iter();
         let in_block = words().filter_map(|word| control.code_at(word.code));
-        // Behind a call words are arguments, whatever motion is in effect.
+        // After a call words are arguments, whatever motion is in effect.
         let look = look.filter(|_| !in_block.clone().any(|code| code.entry().any_words));
         let in_effect = look.zip(self.state).into_iter().flat_map(|(look, state)| {
             let cycle = state.before.active_cycle(look.model());
@@ -281,7 +276,7 @@ impl Cx<'_> {
         in_block.chain(in_effect).find_map(|code| Some((code, describe::word_of(code, word.letter)?)))
     }
 
-    /// A word that is no code: its meaning, what its number counts, where the axis stands.
+    /// A word that is not a code: its meaning, what its number counts, where the axis is.
     fn word(&self, word: &Word, mut look: Option<&mut Look<'_, '_>>) -> String {
         let control = self.snapshot.control();
         let general = control.letter(word.letter);
@@ -316,7 +311,9 @@ impl Cx<'_> {
             (None, _, None) => format!("**{}** no address of {}", word.letter, control.title()),
         };
         let kind = reader.as_ref().map(|(_, entry)| entry.kind).or(general.map(|entry| entry.kind));
-        if let Some(counted) = self.counted(word, kind, look.as_deref_mut()) {
+        // What an argument counts is for the macro to say.
+        let counted = if calls.is_some() { None } else { self.counted(word, kind, look.as_deref_mut()) };
+        if let Some(counted) = counted {
             let _ = write!(text, "\n\n{counted}");
         }
         let target = match kind {
@@ -403,7 +400,7 @@ impl Cx<'_> {
         }
     }
 
-    /// Where an axis stands before and after the block.
+    /// Where an axis is before and after the block.
     fn coordinate(&self, axis: Axis, look: &Look<'_, '_>) -> String {
         let Some(state) = self.state else { return String::new() };
         let reading = Reading::new(self.snapshot, look.model());
@@ -454,8 +451,10 @@ impl Cx<'_> {
                         format!("not among the variables listed for {}", self.control().title())
                     }
                 };
-                let held =
-                    look.zip(self.state).and_then(|(look, state)| look.variable(*number, &state.before));
+                let held = look.zip(self.state).map(|(look, state)| Held {
+                    before: look.variable(*number, &state.before),
+                    after: state.after.as_ref().and_then(|after| look.variable(*number, after)),
+                });
                 self.variable(&format!("#{number}"), &entry, held.as_ref(), thing)
             }
             Thing::Parameter { name, part } => {
@@ -464,7 +463,10 @@ impl Cx<'_> {
                     None if part.is_some() => "named parameter, local".to_owned(),
                     None => "named parameter, global".to_owned(),
                 };
-                let held = look.zip(self.state).and_then(|(look, state)| look.parameter(name, &state.before));
+                let held = look.zip(self.state).map(|(look, state)| Held {
+                    before: look.parameter(name, &state.before),
+                    after: state.after.as_ref().and_then(|after| look.parameter(name, after)),
+                });
                 self.variable(&format!("#<{name}>"), &entry, held.as_ref(), thing)
             }
             Thing::Label { .. } | Thing::Program(_) | Thing::Subroutine(_) | Thing::Branch { .. } => {
@@ -473,10 +475,17 @@ impl Cx<'_> {
         }
     }
 
-    fn variable(&self, name: &str, entry: &str, held: Option<&AbstractValue>, thing: &Thing) -> String {
+    fn variable(&self, name: &str, entry: &str, held: Option<&Held>, thing: &Thing) -> String {
         let mut text = format!("**{name}** {entry}");
-        if let Some(held) = held {
-            let _ = write!(text, "\n\nhere: {}", value(held));
+        match held {
+            Some(Held { before, after: Some(after) }) if before.as_ref() != Some(after) => {
+                let before = before.as_ref().map_or_else(|| "not known".to_owned(), value);
+                let _ = write!(text, "\n\nafter this block: {} (before it: {before})", value(after));
+            }
+            Some(Held { before: Some(before), .. }) => {
+                let _ = write!(text, "\n\nhere: {}", value(before));
+            }
+            _ => {}
         }
         // Large files are not searched while somebody waits for a hover.
         if self.snapshot.len() > LARGE {
@@ -498,7 +507,7 @@ impl Cx<'_> {
         text
     }
 
-    /// Where a label, program or subroutine stands, and how many places of the file name it.
+    /// Where a label, program or subroutine is, and how many places of the file name it.
     fn named_places(&self, thing: &Thing) -> String {
         let namings = namings_in(self.snapshot, thing);
         let head = namings.iter().find(|naming| naming.kind == ReferenceKind::Write);
@@ -541,14 +550,41 @@ fn list(items: &[String]) -> String {
     items.iter().map(|item| format!("`{item}`")).collect::<Vec<_>>().join(" ")
 }
 
-/// Modes that were on before and are no longer.
-fn ended(reading: &Reading<'_>, before: &State<Abstract>, after: &State<Abstract>) -> Vec<String> {
-    let left = reading.codes(after);
-    let was = reading.codes(before).into_iter();
-    // A motion that a cycle took the place of is not over.
-    was.filter(|(role, _)| *role != Role::Motion && !left.iter().any(|(other, _)| other == role))
-        .map(|(_, code)| format!("{code} off"))
-        .collect()
+/// What a variable holds around a block, where it can be said.
+struct Held {
+    before: Option<AbstractValue>,
+    after: Option<AbstractValue>,
+}
+
+/// What becomes of a text: `` `G0` → `G1` ``; `None` where it stays.
+fn changed(before: &str, after: &str) -> Option<String> {
+    match (before, after) {
+        _ if before == after => None,
+        ("", _) => Some(format!("`{after}`")),
+        (_, "") => Some(format!("`{before}` off")),
+        _ => Some(format!("`{before}` → `{after}`")),
+    }
+}
+
+/// What a code does, how long, and which words it reads.
+fn in_short(code: Code<'_>) -> String {
+    let entry = code.entry();
+    let lasts = if code.group().modal { "stays in effect" } else { "for its own block" };
+    let mut text = format!("{} *({}, {lasts})*", entry.summary, code.group().title);
+    let names = |of: &dyn Fn(&WordEntry) -> bool| {
+        entry.words.iter().filter(|word| of(word)).map(|word| word.letter.clone()).collect::<Vec<_>>()
+    };
+    let needed = names(&|word| matches!(word.need, Need::Required | Need::Modal));
+    let others = names(&|word| matches!(word.need, Need::Optional | Need::Conditional));
+    let words: Vec<String> = [("needs", needed), ("may have", others)]
+        .into_iter()
+        .filter(|(_, letters)| !letters.is_empty())
+        .map(|(verb, letters)| format!("{verb} {}", list(&letters)))
+        .collect();
+    if !words.is_empty() {
+        let _ = write!(text, "\n\n{}", words.join(", "));
+    }
+    text
 }
 
 #[cfg(test)]
@@ -560,15 +596,120 @@ mod tests {
 
     fn check(control: &str, text: &str, expected: &Expect) {
         let mut fixture = Fixture::new(control, text);
-        let analysis = fixture.analysis();
-        let found =
-            hover(&mut fixture.database, fixture.document, fixture.offset, Some(&analysis), &|| false)
-                .unwrap();
+        let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
         let shown = found.map_or_else(
             || "nothing\n".to_owned(),
             |found| format!("[{}]\n{}\n", fixture.snapshot().slice(found.range), found.markdown),
         );
         expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn a_variable_where_it_is_set() {
+        check(
+            "haas-mill",
+            "O1\n#100$0=2.\n#100=#100+1.\nM30\n",
+            &expect![[r#"
+            [100]
+            **#100** common variables (kept over power off)
+
+            after this block: 2 (before it: not known)
+            - set in line 3: `#100=#100+1.`
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\n#100=2.\n#10$00=#100+1.\nM30\n",
+            &expect![[r#"
+            [#100]
+            **#100** common variables (kept over power off)
+
+            after this block: 3 (before it: 2)
+            - set in line 2: `#100=2.`
+        "#]],
+        );
+        check(
+            "linuxcnc",
+            "#<dep$0th> = 2\nM2\n",
+            &expect![[r#"
+            [#<depth>]
+            **#<depth>** named parameter, local
+
+            after this block: 2 (before it: not known)
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_code_that_ends_something_or_nothing() {
+        check(
+            "haas-mill",
+            "O1\nG54 G0 X1. Z1.\nG81 Z-1. R.1 F9.\nG8$00\nM30\n",
+            &expect![[r#"
+            [G80]
+            **G80** canned cycle off
+
+            at `X1 Z1`
+
+            `G81` off, `G0`
+
+            in effect: `G17` `G90` `G94` `G20` `G98` `G54` `G64` `F9 inch/min` `spindle stopped`
+
+            ---
+
+            Ends the active canned cycle and forgets its dwell. *(canned cycle, stays in effect)*
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG54 G0 X1. Z1.\nG$080\nM30\n",
+            &expect![[r#"
+            [G80]
+            **G80** canned cycle off
+
+            at `X1 Z1`
+
+            changes no mode
+
+            in effect: `G0` `G17` `G90` `G94` `G20` `G98` `G54` `G64` `spindle stopped`
+
+            ---
+
+            Ends the active canned cycle and forgets its dwell. *(canned cycle, stays in effect)*
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nG54 G0 X1.\nM3$00\n",
+            &expect![[r#"
+                [M30]
+                **M30** program end and rewind
+
+                at `X1`, then not known
+
+                changes no mode
+
+                in effect: `G0` `G17` `G90` `G94` `G20` `G98` `G54` `G64` `spindle stopped`
+
+                ---
+
+                Ends the program and goes back to its head. *(program stop and end, for its own block)*
+            "#]],
+        );
+        check(
+            "haas-mill",
+            "O1\nGOTO 10\nG$054\nN10 M30\n",
+            &expect![[r#"
+            [G54]
+            **G54** work offset 1
+
+            no path comes here
+
+            ---
+
+            Positions are counted from work offset 1, kept in #5221 to #5226. *(work offset, stays in effect)*
+        "#]],
+        );
     }
 
     #[test]
@@ -580,62 +721,17 @@ mod tests {
                 [G83]
                 **G83** peck drilling
 
-                before: `G0` `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `spindle stopped` `H1`, at `X1 Y2 Z5`
+                at `X1 Y2 Z5`
 
-                after: `G83` `F100 mm/min`
+                `G83`, `F100 mm/min`
+
+                in effect: `G17` `G90` `G94` `G21` `G43` `G98` `G54` `G64` `spindle stopped` `H1`
 
                 ---
 
-                Drills in pecks and goes up to R after each to clear the chips.
+                Drills in pecks and goes up to R after each to clear the chips. *(canned cycle, stays in effect)*
 
-                - canned cycle (group 09): stays in effect
-                - better with `G17`
-                - ends `G73`, `G74`, `G76`, `G77`, `G81`, `G82`, `G84`, `G85`, `G86`, `G87`, `G88`, `G89`
-                - ended by `G80`, `G0`, `G1`
-
-                | word | meaning | |
-                |---|---|---|
-                | `X` | hole position | optional, length |
-                | `Y` | hole position | optional, length |
-                | `A` | rotary position of the hole | optional, degrees |
-                | `B` | rotary position of the hole | optional, degrees |
-                | `C` | rotary position of the hole | optional, degrees |
-                | `Z` | bottom of the hole | here or earlier, length |
-                | `R` | R plane, where feeding begins | here or earlier, length |
-                | `F` | feed rate | here or earlier, feed rate |
-                | `L` | number of repeats; 0 only stores the cycle | optional, else 1, whole number, from 0 |
-                | `Q` | depth of one peck | here or earlier, length, above 0 |
-                | `I` | first peck | optional, length, above 0 |
-                | `J` | how much each further peck is smaller | optional, length, above 0 |
-                | `K` | smallest peck | optional, length, above 0 |
-                | `P` | dwell at the bottom | optional, seconds with a decimal point, milliseconds without, from 0 |
-                | `E` | speed at which the spindle turns backwards after each hole to throw chips off, NGC | optional, spindle speed, above 0 |
-
-                Deep-hole drilling: after each peck the drill goes all the way up to R, then rapids back to just above the last depth (Setting 22).
-
-                - `Q` for equal pecks, **or** `I` first peck, less `J` each time, at least `K`. Do not mix the two. All positive.
-                - Setting 52 lifts the clearing height above R.
-                - `P` dwells at the bottom.
-
-                **Common mistake:** a negative or missing Q. Q is a distance, not a position.
-
-                Alarm 305: Q is not positive (unverified)
-
-                Alarm 306: I, J, K or Q is not positive (unverified)
-
-                Alarm 348: G93 is active (unverified)
-
-                Alarm 372: tool change with a cycle active (unverified)
-
-                ```gcode
-                T1 M6
-                G90 G54 G0 X0. Y0.
-                S3000 M3
-                G43 H1 Z1. M8
-                G98 G83 X1. Y1. Z-2. R0.1 Q0.25 F8.
-                ```
-
-                *Haas mill (classic control and NGC): HM17 p.296; Haas 96-8000 June 1999 (easymanua.ls page 182); Haas 96-8000 June 1999 (easymanua.ls page 191)*
+                needs `Z` `R` `F` `Q`, may have `X` `Y` `A` `B` `C` `L` `I` `J` `K` `P` `E`
             "#]],
         );
     }
@@ -678,23 +774,15 @@ mod tests {
             "fanuc-mill",
             "O1\nG21 G90 G54 G0 X$01000\nM30\n",
             &expect![[r#"
-            [X1000]
-            **warning** decimal point missing: `X1000` [`missing-decimal-point`](https://github.com/gcheck/gcheck/blob/main/docs/rules/missing-decimal-point.md)
-            - note: a number without decimal point counts smallest steps on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
-            - note: assuming setting 3401#0 (numbers without decimal point) is least increment
-            - help: write the decimal point
-            - every path comes here
+                [X1000]
+                **X** end point in X (`G0`), optional, length
 
-            ---
+                `X1000` is 1 mm: without a decimal point it counts least increments
 
-            **X** end point in X (`G0`), optional, length
-
-            `X1000` is 1 mm: without a decimal point it counts least increments
-
-            | X | before | after |
-            |---|---|---|
-            | work | not known | 1 |
-        "#]],
+                | X | before | after |
+                |---|---|---|
+                | work | not known | 1 |
+            "#]],
         );
         check(
             "linuxcnc",
@@ -803,34 +891,33 @@ mod tests {
             &expect![[r#"
                 [A1.5]
                 **A** argument `#1` of the program that `G65` calls
-
-                `A1.5` is 1.5 degrees
             "#]],
         );
     }
 
     #[test]
-    fn a_finding_says_how_the_program_comes_there() {
+    fn a_code_on_some_paths_says_how_the_program_comes_there() {
         check(
             "haas-mill",
-            "%\nO1\nG20 G90 G54 G0 X1.\nIF [#500 EQ 1] GOTO 10\nG1 X2$0.\nN10 M30\n%\n",
+            "%\nO1\nG20 G90 G54 G0 X1.\nIF [#500 EQ 1] GOTO 10\nG$01 X2.\nN10 M30\n%\n",
             &expect![[r#"
-            [X2.]
-            **error** cut without a feed (`F`) [`feed-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/feed-missing.md)
-            - note: a cutting move needs a feed; every control of this family stops with an alarm without one
-            - help: give `F` in this block or before it
-            - some paths come here: line 4 goes on at line 5
+                [G1]
+                **G1** straight cut at feed
 
-            ---
+                at `X1`
 
-            **X** X target (`G1`), optional, length
+                the program does not go on after this block
 
-            `X2.` is 2 inch
+                in effect: `G0` `G17` `G90` `G94` `G20` `G98` `G54` `G64` `spindle stopped`
 
-            | X | before | after |
-            |---|---|---|
-            | work | 1 | not known |
-        "#]],
+                some paths come here: line 4 goes on at line 5
+
+                ---
+
+                Moves the named axes on a straight line at the programmed feed. *(motion, stays in effect)*
+
+                needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,C` `,R`
+            "#]],
         );
     }
 
@@ -840,29 +927,18 @@ mod tests {
             "haas-mill",
             "#1=AT$0AN[1.]/[2.]\n",
             &expect![[r#"
-            [ATAN]
-            **warning** program has no end [`program-end-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/program-end-missing.md)
-            - note: at the end of the text the control stops with an alarm or with everything still on  [general knowledge]
-            - help: end the program with `M30`, a subprogram with `M99`; see that the file is complete
-            - every path comes here
+                [ATAN]
+                **ATAN** arc tangent of one number, in degrees; ATAN[y]/[x] is a division here, not the angle of a point
 
-            ---
-
-            **ATAN** arc tangent of one number, in degrees; ATAN[y]/[x] is a division here, not the angle of a point
-
-            *HM17 6.14.10*
-        "#]],
+                *HM17 6.14.10*
+            "#]],
         );
         check(
             "haas-mill",
             "G0 (CLE$0AR) X1.\n",
             &expect![[r#"
-            [(CLEAR)]
-            **warning** program has no end [`program-end-missing`](https://github.com/gcheck/gcheck/blob/main/docs/rules/program-end-missing.md)
-            - note: at the end of the text the control stops with an alarm or with everything still on  [general knowledge]
-            - help: end the program with `M30`, a subprogram with `M99`; see that the file is complete
-            - every path comes here
-        "#]],
+                nothing
+            "#]],
         );
         check(
             "haas-mill",

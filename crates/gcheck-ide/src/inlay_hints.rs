@@ -48,7 +48,7 @@ impl Default for InlayOptions {
 /// A hint beside the text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InlayHint {
-    /// Byte of the file in front of which it stands.
+    /// Byte of the file in front of which it is.
     pub offset: u32,
     /// Its text.
     pub label: String,
@@ -168,7 +168,7 @@ impl Hints<'_> {
         for statement in table.statements(place.ix) {
             if let StatementKind::Assign { value: Some(value), .. } = &statement.kind {
                 assignments += 1;
-                // What stands behind an assignment may rest on it.
+                // What is after an assignment may rest on it.
                 if assignments == 1 && table.constant(*value).is_none() {
                     wanted.push(place.in_file(table.expr(*value).range.clone()));
                 }

@@ -11,6 +11,7 @@
 //!
 //! No feature fails: an offset beyond the text, inside a character or in a broken program has no answer, or a poorer one.
 
+mod arguments;
 mod call_hierarchy;
 mod code_actions;
 mod code_lens;
@@ -20,6 +21,7 @@ mod describe;
 mod diagnostics;
 mod document_links;
 mod document_symbols;
+mod explain;
 mod figures;
 #[cfg(test)]
 mod fixture;
@@ -48,27 +50,31 @@ mod workspace_symbols;
 pub use call_hierarchy::{CallItem, Incoming, Outgoing, call_items, incoming_calls, outgoing_calls};
 pub use code_actions::{ActionKind, CodeAction, code_actions};
 pub use code_lens::{CodeLens, RunFigures, SectionFigures, code_lenses, figures};
-pub use completion::{Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion};
+pub use completion::{
+    Completion, CompletionKind, TRIGGERS as COMPLETION_TRIGGERS, completion, completion_details,
+};
 pub use definition::{Target, definition};
 pub use diagnostics::{
     Diagnostic, Diagnostics, MAX_DIAGNOSTICS, Omitted, Related, diagnostics, unreachable_ranges,
 };
 pub use document_links::{DocumentLink, document_links};
 pub use document_symbols::{Symbol, SymbolKind, document_symbols};
+pub use explain::explain;
 pub use folding::{Fold, FoldKind, folding_ranges};
 pub use formatting::{FORMAT_TRIGGERS, format, format_in, format_on_type, format_on_type_in};
+pub use gcheck_diagnostics::Edit;
 pub use gcheck_format::Style;
-pub use gcheck_rules::Edit;
 pub use highlight::{Highlight, highlights};
 pub use hover::{Hover, hover};
 pub use inlay_hints::{InlayHint, InlayKind, InlayOptions, inlay_hints};
-pub use references::{Reference, ReferenceKind, references};
+pub use references::{Reference, references};
 pub use rename::{RenameRefused, RenameTarget, prepare_rename, rename};
 pub use selection::selection_ranges;
 pub use semantic_tokens::{SemanticToken, TOKEN_MODIFIERS, TOKEN_TYPES, semantic_tokens};
 pub use signature_help::{Parameter, Signature, TRIGGERS as SIGNATURE_TRIGGERS, signature_help};
 pub use state_at::{AxisPlaces, ModeView, StateSide, StateView, VariableView, state_at};
 pub use syntax_tree::syntax_tree;
+pub use things::ReferenceKind;
 pub use toolpath::{MAX_SEGMENTS, Toolpath, toolpath};
 pub use workspace::{FileEdits, Place, Workspace, WorkspaceFile};
 pub use workspace_symbols::{MAX_SYMBOLS, WorkspaceSymbol, workspace_symbols};

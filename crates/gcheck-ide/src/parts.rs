@@ -81,7 +81,7 @@ pub(crate) fn parts_around(snapshot: &Snapshot, offset: u32) -> Vec<Range<u32>> 
     while first > 0 && may_go_on_above(snapshot, first) {
         first -= 1;
     }
-    // … to the one behind, or the next program.
+    // … to the one after, or the next program.
     let limit = program_around(snapshot, offset).end.min(end);
     let is_before = |chunk: usize| snapshot.chunk(chunk).is_some_and(|chunk| chunk.base < limit);
     let mut last = own;
@@ -256,7 +256,7 @@ impl Finder<'_> {
         let rules = &control.semantics().tools;
         let effects =
             || words.iter().filter_map(|word| control.code_at(word.code)).map(gcheck_controls::Code::effect);
-        // The arguments of a macro call are no tools.
+        // The arguments of a macro call are not tools.
         if effects().any(|effect| matches!(effect, Effect::MacroCall | Effect::MacroModal)) {
             return;
         }

@@ -16,7 +16,7 @@ pub(crate) struct Piece {
     pub(crate) range: Range<u32>,
 }
 
-/// The tokens of whole lines that stand at `base` in the file.
+/// The tokens of whole lines that are at `base` in the file.
 pub(crate) fn pieces(snapshot: &Snapshot, lines: &str, base: u32) -> Vec<Piece> {
     let mut sink = Pieces { base, list: Vec::with_capacity(lines.len() / 6) };
     parse_into(lines, profile(snapshot.control()), &mut sink);
@@ -29,7 +29,7 @@ pub(crate) fn pieces_of_line(snapshot: &Snapshot, offset: u32) -> Vec<Piece> {
     pieces(snapshot, &snapshot.slice(line.clone()), line.start)
 }
 
-/// Does the range hold the offset, its end included, as a cursor behind a word still stands at it?
+/// Does the range contain the offset, its end included? A cursor after a word is still at the word.
 pub(crate) fn touches(range: &Range<u32>, offset: u32) -> bool {
     range.start <= offset && offset <= range.end
 }

@@ -16,7 +16,7 @@ pub(crate) struct Reading<'a> {
     pub(crate) model: &'a Model<'a>,
 }
 
-/// Where the axes stand, in three ways.
+/// Where the axes are, in three ways.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Places {
     /// Programmed coordinates.
@@ -130,11 +130,11 @@ impl<'a> Reading<'a> {
     }
 
     /// `T1`, `H1`, `D1`, as far as they are known and not zero.
-    pub(crate) fn numbers(state: &State<Abstract>) -> Vec<String> {
+    fn numbers(state: &State<Abstract>) -> Vec<(Item, String)> {
         let mut texts = Vec::new();
         for (letter, value) in [('T', state.tool()), ('H', state.h()), ('D', state.d())] {
             if let Some(number) = Abstract::known(value).filter(|number| *number != 0.0) {
-                texts.push(format!("{letter}{}", plain(number, 0)));
+                texts.push((Item::Number(letter), format!("{letter}{}", plain(number, 0))));
             }
         }
         texts
@@ -163,7 +163,7 @@ impl<'a> Reading<'a> {
         Axis::ALL.into_iter().filter(|axis| control.axes().contains(axis.letter())).filter(is_used).collect()
     }
 
-    /// Where the axes stand.
+    /// Where the axes are.
     pub(crate) fn places(&self, state: &State<Abstract>) -> Places {
         let work = *state.actual();
         Places {
@@ -199,20 +199,33 @@ impl<'a> Reading<'a> {
         texts.join(" ")
     }
 
-    /// The state in one line, for the half of it that people look at first.
-    pub(crate) fn line(&self, state: &State<Abstract>) -> Vec<String> {
-        let mut items: Vec<String> = self.codes(state).into_iter().map(|(_, code)| code).collect();
-        items.extend(self.feed(state));
-        items.extend(self.speed(state));
-        items.push(Self::spindle(state).to_owned());
+    /// What is in effect, in the order in which people look at it.
+    pub(crate) fn items(&self, state: &State<Abstract>) -> Vec<(Item, String)> {
+        let mut items: Vec<(Item, String)> =
+            self.codes(state).into_iter().map(|(role, code)| (Item::Mode(role), code)).collect();
+        items.extend(self.feed(state).map(|feed| (Item::Feed, feed)));
+        items.extend(self.speed(state).map(|speed| (Item::Speed, speed)));
+        items.push((Item::Spindle, Self::spindle(state).to_owned()));
         items.extend(Self::numbers(state));
         match state.coolant() {
-            (Truth::True, _) => items.push("coolant on".to_owned()),
-            (_, Truth::True) => items.push("mist on".to_owned()),
+            (Truth::True, _) => items.push((Item::Coolant, "coolant on".to_owned())),
+            (_, Truth::True) => items.push((Item::Coolant, "mist on".to_owned())),
             _ => {}
         }
         items
     }
+}
+
+/// A part of the state that people read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Item {
+    Mode(Role),
+    Feed,
+    Speed,
+    Spindle,
+    /// `T`, `H` or `D`.
+    Number(char),
+    Coolant,
 }
 
 /// A number that is known, or the range that it lies in.

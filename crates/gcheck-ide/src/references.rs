@@ -4,7 +4,7 @@
 
 use gcheck_db::DocumentId;
 
-use crate::things::{namings, thing_at};
+use crate::things::{ReferenceKind, namings, thing_at};
 use crate::{Place, Workspace};
 
 /// A place that names a thing.
@@ -14,15 +14,6 @@ pub struct Reference {
     pub place: Place,
     /// What the place does with it.
     pub kind: ReferenceKind,
-}
-
-/// What a place does with what it names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum ReferenceKind {
-    /// Defines it: the label itself, the head of a program, an assignment.
-    Write,
-    /// Uses it.
-    Read,
 }
 
 /// All places that name the thing at `offset`, by file and text order; those that define it only with `declarations`.

@@ -6,8 +6,8 @@ use std::ops::Range;
 
 use gcheck_controls::{Effect, Ends, ReturnTo, VariableKind, WordKind};
 use gcheck_db::{DocumentId, Snapshot};
+use gcheck_diagnostics::Edit;
 use gcheck_program::OLabel;
-use gcheck_rules::Edit;
 
 use crate::things::{
     Naming, Thing, computed_call, files_of, has_indirect_variables, is_elsewhere, kind_of, namings,
@@ -20,7 +20,7 @@ use crate::{FileEdits, ReferenceKind, Workspace, WorkspaceFile};
 pub struct RenameTarget {
     /// Bytes of the name at the cursor.
     pub range: Range<u32>,
-    /// The name as it stands.
+    /// The name as it is written.
     pub name: String,
 }
 
@@ -47,8 +47,8 @@ pub fn prepare_rename(workspace: &Workspace, document: DocumentId, offset: u32) 
 /// The edits that give the thing at `offset` a new name: a number with or without its address, or a name.
 ///
 /// # Errors
-/// [`RenameRefused`] as for [`prepare_rename`], and when the name is taken, is no such name, or is beyond the control's
-/// limit.
+/// [`RenameRefused`] as for [`prepare_rename`], and when the name is taken, is not such a name, or is beyond the
+/// control's limit.
 pub fn rename(
     workspace: &Workspace,
     document: DocumentId,
@@ -102,14 +102,14 @@ impl NewName {
             let number = digits.bytes().all(|b| b.is_ascii_digit()).then(|| digits.parse().ok()).flatten();
             return match number {
                 Some(number) => Ok(Self::Number(number)),
-                None => refuse(format!("`{text}` is no whole number")),
+                None => refuse(format!("`{text}` is not a whole number")),
             };
         }
         let bare = text.strip_prefix(sigil).filter(|rest| rest.trim_start().starts_with('<')).unwrap_or(text);
         let bare = bare.trim().trim_start_matches('<').trim_end_matches('>').trim();
         let is_name = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.' | ' ');
         if bare.is_empty() || !bare.chars().all(is_name) {
-            return refuse(format!("`{text}` is no name: letters, digits, `_`, `-` and `.` are"));
+            return refuse(format!("`{text}` is not a name: use letters, digits, `_`, `-` and `.`"));
         }
         Ok(Self::Name(bare.to_owned()))
     }
@@ -142,11 +142,11 @@ fn check_thing(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing) -> Ch
             let heads = heads.iter().filter(|(_, naming)| naming.kind == ReferenceKind::Write).count();
             let name = shown(thing);
             match heads {
-                0 => return refuse(format!("{name} stands in no file of this workspace")),
+                0 => return refuse(format!("{name} is not in a file of this workspace")),
                 1 => {}
                 _ => {
                     return refuse(format!(
-                        "{name} stands more than once: which one is called is not certain"
+                        "{name} exists more than once: it is not certain which one is called"
                     ));
                 }
             }
@@ -179,9 +179,9 @@ fn check_label(workspace: &Workspace, file: &WorkspaceFile, number: u32, program
     }
     let labels = survey.labels.iter().filter(|label| label.number == number && inside(&label.range)).count();
     match labels {
-        0 => return refuse(format!("N{number} does not stand in this program")),
+        0 => return refuse(format!("N{number} is not in this program")),
         1 => {}
-        _ => return refuse(format!("N{number} stands more than once in this program")),
+        _ => return refuse(format!("N{number} is in this program more than once")),
     }
     let returns_to_caller = file.snapshot.control().semantics().return_to == ReturnTo::Caller;
     for other in workspace.files.iter().filter(|_| returns_to_caller) {
@@ -326,13 +326,13 @@ fn check_new(workspace: &Workspace, file: &WorkspaceFile, thing: &Thing, new: &N
             }
             Thing::Parameter { name, part: part.clone() }
         }
-        _ => return refuse("that is no such name"),
+        _ => return refuse("that is not such a name"),
     };
     if renamed == *thing {
         return Ok(());
     }
     let taken_by_label = |label: &OLabel| {
-        // Subroutines and branches share their labels with what stands around them.
+        // Subroutines and branches share their labels with what is around them.
         file.snapshot.survey().o_words.iter().any(|word| word.label == *label)
     };
     let is_taken = match &renamed {
@@ -420,7 +420,7 @@ mod tests {
             text,
             "x",
             &expect![[r#"
-            refused: `x` is no whole number
+            refused: `x` is not a whole number
         "#]],
         );
         check(
@@ -448,7 +448,7 @@ mod tests {
             "O1\nN10$0 G0 X0.\nN10 X1.\nM30\n",
             "20",
             &expect![[r#"
-            refused: N10 stands more than once in this program
+            refused: N10 is in this program more than once
         "#]],
         );
         let files = "//- a.nc\nO1\nM98 P2\nN10$0 G0 X0.\nM30\n//- b.nc\nO2\nM99 P10\n";
@@ -504,7 +504,7 @@ mod tests {
             "O1\nM98 P77$0\nM30\n",
             "78",
             &expect![[r#"
-            refused: O77 stands in no file of this workspace
+            refused: O77 is not in a file of this workspace
         "#]],
         );
         check(

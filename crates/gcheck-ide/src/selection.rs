@@ -1,6 +1,6 @@
 //! What a growing selection takes in: word, block, section, program.
 //!
-//! Knows: what stands around what. Must not know: cursors.
+//! Knows: what is around what. Must not know: cursors.
 
 use std::ops::Range;
 

@@ -77,7 +77,7 @@ const DEFINITION: u32 = 1 << 2;
 const READONLY: u32 = 1 << 3;
 
 /// The pieces of a range, or of the whole document, in text order and without overlap. Pieces in `unreachable`
-/// ([`crate::unreachable_ranges`]), and what stands behind the end of the tape, are marked so.
+/// ([`crate::unreachable_ranges`]), and what is after the end of the tape, are marked so.
 pub fn semantic_tokens(
     snapshot: &Snapshot,
     range: Option<Range<u32>>,
@@ -125,7 +125,7 @@ impl Painter<'_> {
     fn line(&mut self, line: &[Piece]) {
         let Some(first) = line.first() else { return };
         if first.range.start >= self.end {
-            // Nobody reads what stands behind the tape but people.
+            // Nobody reads what is after the tape but people.
             let last = line
                 .iter()
                 .rfind(|piece| !matches!(piece.kind, SyntaxKind::NEWLINE | SyntaxKind::WHITESPACE));

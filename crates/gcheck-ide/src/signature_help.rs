@@ -1,13 +1,18 @@
 //! The words of the code that is being typed, and the arguments of a macro call.
 //!
-//! Knows: which word the cursor stands at. Must not know: states.
+//! Knows: which words a block still needs, which one the cursor is at. Must not know: how a code moves the machine.
+//!
+//! Help that stays covers the lines around, so it is there only while the block needs a word that is not yet typed.
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, Control, Effect, Letter, Need};
-use gcheck_db::DocumentId;
+use gcheck_controls::{Code, Control, Effect, Letter, Need, WordEntry};
+use gcheck_db::{Cancelled, Database, DocumentId};
+use gcheck_engine::{Abstract, Domain as _, Look, State};
 use gcheck_syntax::SyntaxKind;
 
+use crate::arguments::{Argument, arguments};
+use crate::completion::with_state;
 use crate::typing::Typing;
 use crate::{Workspace, describe};
 
@@ -23,7 +28,7 @@ pub struct Signature {
     pub documentation: String,
     /// The words in the order of the label.
     pub parameters: Vec<Parameter>,
-    /// Index of the word at the cursor.
+    /// Index of the word at the cursor, else of the first that the block still needs.
     pub active: Option<u32>,
 }
 
@@ -37,20 +42,25 @@ pub struct Parameter {
 }
 
 /// The signatures of the codes of the block at `offset` that read words, that of the nearest code before the cursor first.
-pub fn signature_help(workspace: &Workspace, document: DocumentId, offset: u32) -> Vec<Signature> {
-    let Some(file) = workspace.file(document) else { return Vec::new() };
-    let typing = Typing::new(&file.snapshot, offset);
+///
+/// Unless somebody asks for it (`is_asked`), only of codes that still need a word: one that must be in the block, one of a
+/// choice, or one that may be given earlier and was not.
+///
+/// # Errors
+/// [`Cancelled`] when `stop` said yes.
+pub fn signature_help(
+    database: &mut Database,
+    workspace: &Workspace,
+    document: DocumentId,
+    offset: u32,
+    is_asked: bool,
+    stop: &dyn Fn() -> bool,
+) -> Result<Vec<Signature>, Cancelled> {
+    let snapshot = database.outlined(document).ok_or(Cancelled)?;
+    let typing = Typing::new(&snapshot, offset);
     if typing.comment().is_some() {
-        return Vec::new();
+        return Ok(Vec::new());
     }
-    let at = typing
-        .line
-        .iter()
-        .rfind(|piece| piece.range.start < typing.offset && !piece.kind.is_trivia())
-        // Behind a blank the next word is to come.
-        .filter(|piece| piece.range.end == typing.offset)
-        .filter(|piece| matches!(piece.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
-        .and_then(|piece| typing.letter(piece));
     let mut codes: Vec<Code<'_>> = typing
         .codes()
         .into_iter()
@@ -59,14 +69,134 @@ pub fn signature_help(workspace: &Workspace, document: DocumentId, offset: u32) 
         .filter(|code| !code.entry().words.is_empty() || is_call(*code))
         .collect();
     codes.reverse();
-    codes.into_iter().map(|code| signature(typing.control(), code, at)).collect()
+    if codes.is_empty() {
+        return Ok(Vec::new());
+    }
+    let at = typing
+        .line
+        .iter()
+        .rfind(|piece| piece.range.start < typing.offset && !piece.kind.is_trivia())
+        // After a blank the next word is to come.
+        .filter(|piece| piece.range.end == typing.offset)
+        .filter(|piece| matches!(piece.kind, SyntaxKind::WORD | SyntaxKind::LETTER))
+        .and_then(|piece| typing.letter(piece));
+    let block = Block { typing: &typing, present: typing.letters(), at };
+    // What was given earlier costs an execution: only where a word of that kind is missing.
+    let mut missing: Vec<Vec<Letter>> = codes.iter().map(|code| block.missing(*code, &|_| false)).collect();
+    if missing.iter().any(|missing| !missing.is_empty()) {
+        with_state(database, &snapshot, document, &typing, stop, &mut |state, look| {
+            missing = codes
+                .iter()
+                .map(|code| block.missing(*code, &|word| is_given(*code, word, state, look)))
+                .collect();
+        })?;
+    }
+    let mut shown = Vec::new();
+    for (code, missing) in codes.into_iter().zip(missing) {
+        let taken = called(&typing, code).and_then(|number| arguments(workspace, typing.control(), number));
+        let taken = taken.unwrap_or_default();
+        let needed = taken.iter().filter(|argument| argument.is_needed);
+        let needed = needed.filter_map(|argument| Letter::parse(&argument.letter));
+        let missing: Vec<Letter> =
+            missing.into_iter().chain(needed.filter(|l| !block.present.contains(l))).collect();
+        if is_asked || !missing.is_empty() {
+            shown.push(signature(typing.control(), code, &taken, at.or_else(|| missing.first().copied())));
+        }
+    }
+    Ok(shown)
 }
 
 fn is_call(code: Code<'_>) -> bool {
     matches!(code.effect(), Effect::MacroCall | Effect::MacroModal)
 }
 
-fn signature(control: &Control, code: Code<'_>, at: Option<Letter>) -> Signature {
+/// The program that a macro call of the block names.
+fn called(typing: &Typing<'_>, code: Code<'_>) -> Option<u32> {
+    if !is_call(code) {
+        return None;
+    }
+    let names_program = |piece: &&crate::pieces::Piece| typing.letter(piece) == Some(Letter::of('P'));
+    let word = typing.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD).find(names_program)?;
+    typing.snapshot.slice(word.range.clone()).get(1..)?.trim().trim_end_matches('.').parse().ok()
+}
+
+/// Was a word that may be given earlier given?
+fn is_given(code: Code<'_>, word: &WordEntry, state: &State<Abstract>, look: &Look<'_, '_>) -> bool {
+    let is_number = |value: &gcheck_engine::AbstractValue| Abstract::known(value) != Some(0.0);
+    match word.letter.as_str() {
+        "F" => is_number(state.feed_word()),
+        "S" => is_number(state.speed()),
+        "T" => is_number(state.selected()),
+        "H" => is_number(state.h()),
+        "D" => is_number(state.d()),
+        // The other words that last are those of a cycle that is in effect.
+        _ => {
+            let active = state.active_cycle(look.model());
+            active
+                .and_then(|active| look.model().control().code_at(active))
+                .is_some_and(|active| active.number() == code.number())
+        }
+    }
+}
+
+/// The words of a block that is being typed.
+struct Block<'t, 's> {
+    typing: &'t Typing<'s>,
+    /// Those that are complete.
+    present: Vec<Letter>,
+    /// The one that is being typed.
+    at: Option<Letter>,
+}
+
+impl Block<'_, '_> {
+    /// The words that a code needs and that are not complete, in the order in which it lists them.
+    fn missing(&self, code: Code<'_>, is_given: &dyn Fn(&WordEntry) -> bool) -> Vec<Letter> {
+        let entry = code.entry();
+        let has = |letter: &str| Letter::parse(letter).is_some_and(|letter| self.present.contains(&letter));
+        let is_needed = |word: &&WordEntry| {
+            let replaced = word.instead.iter().chain(&word.instead_here).any(|other| has(other));
+            if has(&word.letter) || replaced {
+                return false;
+            }
+            match word.need {
+                Need::Required => true,
+                Need::Modal => !is_given(word),
+                Need::Conditional => word.required_with.iter().any(|other| self.has_word(other)),
+                Need::Optional => false,
+            }
+        };
+        let mut missing: Vec<Letter> =
+            entry.words.iter().filter(is_needed).filter_map(|word| Letter::parse(&word.letter)).collect();
+        for choice in entry.one_of.iter().filter(|choice| !choice.iter().any(|letter| has(letter))) {
+            // The one that is being typed is the one that was chosen.
+            let letters = || choice.iter().filter_map(|letter| Letter::parse(letter));
+            let chosen = letters().find(|letter| Some(*letter) == self.at).or_else(|| letters().next());
+            missing.extend(chosen);
+        }
+        // In the order in which the label has them.
+        let place = |letter: &Letter| {
+            entry.words.iter().position(|word| Letter::parse(&word.letter) == Some(*letter))
+        };
+        missing.sort_by_key(place);
+        missing
+    }
+
+    /// Does the block have a word with its value: `L2`?
+    fn has_word(&self, word: &str) -> bool {
+        let plain = |text: &str| {
+            let text: String = text.chars().filter(|c| !c.is_whitespace()).collect();
+            let text = text.trim_end_matches('.').to_ascii_uppercase();
+            let (letter, number) = text.split_at_checked(1).unwrap_or((&text, ""));
+            format!("{letter}{}", number.trim_start_matches('0'))
+        };
+        let words = self.typing.line.iter().filter(|piece| piece.kind == SyntaxKind::WORD);
+        words
+            .map(|piece| self.typing.snapshot.slice(piece.range.clone()))
+            .any(|text| plain(&text) == plain(word))
+    }
+}
+
+fn signature(control: &Control, code: Code<'_>, taken: &[Argument], at: Option<Letter>) -> Signature {
     let entry = code.entry();
     let mut label = entry.code.clone();
     let mut parameters = Vec::new();
@@ -80,16 +210,27 @@ fn signature(control: &Control, code: Code<'_>, at: Option<Letter>) -> Signature
         }
         parameters.push(Parameter { label: start..start + text.len() as u32, documentation });
     };
+    let optional =
+        |text: &str, is_needed: bool| if is_needed { text.to_owned() } else { format!("[{text}]") };
+    let argument_letters = &control.semantics().argument_letters;
     for word in &entry.words {
-        let text = match word.need {
-            Need::Required | Need::Modal => word.letter.clone(),
-            Need::Optional | Need::Conditional => format!("[{}]", word.letter),
-        };
+        // Where the macro is known, its own arguments are told in the place of all that there may be.
+        if !taken.is_empty() && argument_letters.contains_key(&word.letter) {
+            continue;
+        }
+        let text = optional(&word.letter, matches!(word.need, Need::Required | Need::Modal));
         let letter = Letter::parse(&word.letter);
         add(text, letter, format!("**{}** {}, {}", word.letter, word.is, describe::needs(word)));
     }
-    if is_call(code) {
-        for (name, number) in &control.semantics().argument_letters {
+    for argument in taken {
+        let name = format!("{}=#{}", argument.letter, argument.variable);
+        let says = argument.says.as_ref().map(|text| format!(": {text}")).unwrap_or_default();
+        let documentation =
+            format!("**{}** becomes `#{}` in the macro{says}", argument.letter, argument.variable);
+        add(optional(&name, argument.is_needed), Letter::parse(&argument.letter), documentation);
+    }
+    if is_call(code) && taken.is_empty() {
+        for (name, number) in argument_letters {
             let letter = Letter::parse(name);
             if letter.is_some_and(|letter| describe::word_of(code, letter).is_none()) {
                 let documentation = format!("**{name}** becomes `#{number}` in the program that is called");
@@ -108,16 +249,22 @@ mod tests {
     use crate::fixture::Fixture;
 
     fn check(control: &str, text: &str, expected: &Expect) {
-        let fixture = Fixture::new(control, text);
-        let found = signature_help(&fixture.workspace, fixture.document, fixture.offset).into_iter().map(
-            |signature| {
-                let active = signature.active.and_then(|index| signature.parameters.get(index as usize));
-                let label =
-                    |range: &std::ops::Range<u32>| &signature.label[range.start as usize..range.end as usize];
-                let active = active.map(|word| format!("{}: {}", label(&word.label), word.documentation));
-                format!("{}\n  {}\n", signature.label, active.unwrap_or_else(|| "no word".to_owned()))
-            },
-        );
+        check_asked(control, text, false, expected);
+    }
+
+    fn check_asked(control: &str, text: &str, is_asked: bool, expected: &Expect) {
+        let mut fixture = Fixture::new(control, text);
+        let (database, workspace) = (&mut fixture.database, &fixture.workspace);
+        let found =
+            signature_help(database, workspace, fixture.document, fixture.offset, is_asked, &|| false)
+                .unwrap();
+        let found = found.into_iter().map(|signature| {
+            let active = signature.active.and_then(|index| signature.parameters.get(index as usize));
+            let label =
+                |range: &std::ops::Range<u32>| &signature.label[range.start as usize..range.end as usize];
+            let active = active.map(|word| format!("{}: {}", label(&word.label), word.documentation));
+            format!("{}\n  {}\n", signature.label, active.unwrap_or_else(|| "no word".to_owned()))
+        });
         expected.assert_eq(&found.collect::<String>());
     }
 
@@ -136,21 +283,126 @@ mod tests {
             "g81 $0\n",
             &expect![[r#"
                 G81 [X] [Y] [Z] [U] [V] [W] [@] [^] R [L] F
-                  no word
+                  [X]: **X** X of the hole, optional, length
             "#]],
         );
         check("haas-mill", "G0 (G83 $0)\n", &expect![[""]]);
     }
 
     #[test]
-    fn arguments_of_a_macro_call() {
+    fn help_goes_when_the_block_is_complete() {
         check(
+            "haas-mill",
+            "G83 Z-1. R.1 Q.1 $0\n",
+            &expect![[r#"
+            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+              F: **F** feed rate, here or earlier, feed rate
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "G83 Z-1. R.1 Q.1 F8$0\n",
+            &expect![[r#"
+            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+              F: **F** feed rate, here or earlier, feed rate
+        "#]],
+        );
+        check("haas-mill", "G83 Z-1. R.1 Q.1 F8. $0\n", &expect![[""]]);
+        check("haas-mill", "F8.\nG83 Z-1. R.1 Q.1 $0\n", &expect![[""]]);
+        check("haas-mill", "G83 Z-1. R.1 Q.1 F8.\n$0\n", &expect![[""]]);
+        check_asked(
+            "haas-mill",
+            "G83 Z-1. R.1 Q.1 F8. $0\n",
+            true,
+            &expect![[r#"
+            G83 [X] [Y] [A] [B] [C] Z R F [L] Q [I] [J] [K] [P] [E]
+              no word
+        "#]],
+        );
+    }
+
+    #[test]
+    fn a_move_that_lacks_nothing_has_none() {
+        check("haas-mill", "G0 $0\n", &expect![[""]]);
+        check(
+            "haas-mill",
+            "G1 X1. $0\n",
+            &expect![[r#"
+            G1 [X] [Y] [Z] [A] [B] [C] [U] [V] [W] F [,C] [,R]
+              F: **F** feed rate, here or earlier, feed rate
+        "#]],
+        );
+        check("haas-mill", "F10.\nG1 X1. $0\n", &expect![[""]]);
+        check(
+            "haas-mill",
+            "F10.\nG2 X1. $0\n",
+            &expect![[r#"
+            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] F
+              [I]: **I** centre along X, from the start point, without R, length
+        "#]],
+        );
+        check(
+            "haas-mill",
+            "F10.\nG2 X1. J$0\n",
+            &expect![[r#"
+            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] F
+              [J]: **J** centre along Y, from the start point, without R, length
+        "#]],
+        );
+        check("haas-mill", "F10.\nG2 X1. J1. $0\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn arguments_of_a_macro_call() {
+        check_asked(
             "fanuc-mill",
             "G65 P9010 A1. D$0\n",
+            true,
             &expect![[r#"
             G65 P [L] [A] [B] [C] [D] [E] [F] [H] [I] [J] [K] [M] [Q] [R] [S] [T] [U] [V] [W] [X] [Y] [Z]
               [D]: **D** argument #7, optional, number
         "#]],
         );
+        check("fanuc-mill", "G65 P9010 $0\n", &expect![[""]]);
+        check(
+            "fanuc-mill",
+            "G65 $0\n",
+            &expect![[r#"
+            G65 P [L] [A] [B] [C] [D] [E] [F] [H] [I] [J] [K] [M] [Q] [R] [S] [T] [U] [V] [W] [X] [Y] [Z]
+              P: **P** program number, required, program number, from 1
+        "#]],
+        );
+    }
+
+    /// A call of a macro that needs `A` and `Z`, and does without `D`.
+    fn check_call(typed: &str, expected: &Expect) {
+        let macros = "//- b.nc\nO9010\n(A=#1 DIAMETER)\nIF [#7 EQ #0] THEN #7=2.\nG0 X#1 Y#7 Z#26\nM99\n";
+        check("fanuc-mill", &format!("//- a.nc\nO1\n{typed}\nM30\n{macros}"), expected);
+    }
+
+    #[test]
+    fn arguments_that_the_macro_reads() {
+        check_call(
+            "G65 P9010 $0",
+            &expect![[r#"
+            G65 P [L] A=#1 [D=#7] Z=#26
+              A=#1: **A** becomes `#1` in the macro: DIAMETER
+        "#]],
+        );
+        check_call(
+            "G65 P9010 A$0",
+            &expect![[r#"
+            G65 P [L] A=#1 [D=#7] Z=#26
+              A=#1: **A** becomes `#1` in the macro: DIAMETER
+        "#]],
+        );
+        check_call(
+            "G65 P9010 A1. Z2.$0",
+            &expect![[r#"
+            G65 P [L] A=#1 [D=#7] Z=#26
+              Z=#26: **Z** becomes `#26` in the macro
+        "#]],
+        );
+        check_call("G65 P9010 A1. Z2. $0", &expect![[""]]);
     }
 }

@@ -22,7 +22,7 @@ pub struct StateView {
     pub line: u32,
     /// First byte of the block.
     pub start: u32,
-    /// Byte behind the block.
+    /// Byte after the block.
     pub end: u32,
     /// Every path comes here.
     pub on_every_path: bool,
@@ -30,7 +30,7 @@ pub struct StateView {
     pub visits: u32,
     /// Before the block.
     pub before: StateSide,
-    /// Behind it; `None` when the program does not go on from here.
+    /// After it; `None` when the program does not go on from here.
     pub after: Option<StateSide>,
 }
 
@@ -64,9 +64,9 @@ pub struct StateSide {
     pub origin: AxisPlaces,
     /// Programmed point.
     pub programmed: AxisPlaces,
-    /// Where the axes stand, work coordinates.
+    /// Where the axes are, work coordinates.
     pub work: AxisPlaces,
-    /// Where the axes stand, machine coordinates.
+    /// Where the axes are, machine coordinates.
     pub machine: AxisPlaces,
     /// The tool's tip, work coordinates.
     pub tip: AxisPlaces,
@@ -100,7 +100,7 @@ pub struct VariableView {
     pub value: String,
 }
 
-/// Where the axes stand, by axis; `None` unknown.
+/// Where the axes are, by axis; `None` unknown.
 pub type AxisPlaces = BTreeMap<char, Option<f64>>;
 
 /// The state around the block at `offset`; `None` where no block is, or no path comes.
@@ -125,19 +125,14 @@ pub fn state_at(
             end: range.end,
             on_every_path: state.on_every_path,
             visits: state.visits,
-            before: side(&reading, look, &state.before, Some(&state.trace)),
-            after: state.after.as_ref().map(|after| side(&reading, look, after, None)),
+            before: side(&reading, look, &state.before, &state.trace),
+            after: state.after.as_ref().map(|after| side(&reading, look, after, &state.trace_after)),
         });
     })?;
     Ok(view)
 }
 
-fn side(
-    reading: &Reading<'_>,
-    look: &mut Look<'_, '_>,
-    state: &State<Abstract>,
-    trace: Option<&Trace>,
-) -> StateSide {
+fn side(reading: &Reading<'_>, look: &mut Look<'_, '_>, state: &State<Abstract>, trace: &Trace) -> StateSide {
     let model = reading.model;
     let places = reading.places(state);
     let named = |point: &Position| axes(reading, state, point);
@@ -155,7 +150,7 @@ fn side(
         selected_tool: number(state.selected()),
         length_offset: number(state.h()),
         cutter_offset: number(state.d()),
-        work_offset: state.work().map(|number| gcheck_rules::work_offset_name(number, model)),
+        work_offset: state.work().map(|number| gcheck_lint::work_offset_name(number, model)),
         origin: named(&state.work_offset().origin),
         programmed: named(&places.programmed),
         work: named(&places.work),
@@ -167,16 +162,11 @@ fn side(
     }
 }
 
-fn mode(
-    reading: &Reading<'_>,
-    state: &State<Abstract>,
-    role: Role,
-    trace: Option<&Trace>,
-) -> Option<ModeView> {
+fn mode(reading: &Reading<'_>, state: &State<Abstract>, role: Role, trace: &Trace) -> Option<ModeView> {
     let codes = reading.mode(state, role);
     let first =
         state.mode(role).alternatives().iter().find_map(|code| reading.model.control().code_at(*code))?;
-    let set = trace.and_then(|trace| trace.set_by(Fact::Mode(role))).filter(|at| at.file == 0);
+    let set = trace.set_by(Fact::Mode(role)).filter(|at| at.file == 0);
     let set_at = set.and_then(|at| reading.snapshot.place(at.block)).map(|place| place.range().start);
     Some(ModeView { group: first.group().title.clone(), codes, set_at })
 }
@@ -184,7 +174,7 @@ fn mode(
 /// A point by axis, in the units of the program.
 fn axes(reading: &Reading<'_>, state: &State<Abstract>, point: &Position) -> AxisPlaces {
     let (units, diameter) = (reading.units(state), reading.diameter(state));
-    // Nobody reads more than six decimals, and the noise of conversions stands behind them.
+    // Nobody reads more than six decimals, and after them there is only the noise of conversions.
     let rounded = |value: f64| (value * 1e6).round() / 1e6 + 0.0;
     let value = |axis| point.get(axis).map(|value| rounded(in_units(axis, value, units, diameter)));
     reading.axes().into_iter().map(|axis| (axis.name(), value(axis))).collect()
@@ -458,7 +448,9 @@ mod tests {
                                         codes: [
                                             "G1",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            37,
+                                        ),
                                     },
                                     ModeView {
                                         group: "canned cycle",
@@ -479,7 +471,9 @@ mod tests {
                                         codes: [
                                             "G90",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            5,
+                                        ),
                                     },
                                     ModeView {
                                         group: "meaning of F",
@@ -493,7 +487,9 @@ mod tests {
                                         codes: [
                                             "G20",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            5,
+                                        ),
                                     },
                                     ModeView {
                                         group: "cutter compensation",
@@ -521,7 +517,9 @@ mod tests {
                                         codes: [
                                             "G54",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            5,
+                                        ),
                                     },
                                     ModeView {
                                         group: "exact stop",
@@ -865,7 +863,9 @@ mod tests {
                                         codes: [
                                             "G1",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            28,
+                                        ),
                                     },
                                     ModeView {
                                         group: "drilling and tapping cycles",
@@ -900,7 +900,9 @@ mod tests {
                                         codes: [
                                             "G20",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            3,
+                                        ),
                                     },
                                     ModeView {
                                         group: "tool nose compensation",
@@ -921,7 +923,9 @@ mod tests {
                                         codes: [
                                             "G54",
                                         ],
-                                        set_at: None,
+                                        set_at: Some(
+                                            3,
+                                        ),
                                     },
                                     ModeView {
                                         group: "exact stop",

@@ -11,7 +11,7 @@ use gcheck_syntax::{SyntaxElement, SyntaxKind, SyntaxNode};
 const MOST_BYTES: usize = 4 << 20;
 
 /// The tree of the block at `offset`, or of the whole document, one node or token a line: kind, bytes of the file, and the
-/// text of a token. Mistakes in form stand at the end of their chunk.
+/// text of a token. Mistakes in form are at the end of their chunk.
 pub fn syntax_tree(snapshot: &Snapshot, offset: Option<u32>) -> String {
     let mut out = String::new();
     for chunk in snapshot.chunks() {

@@ -10,7 +10,7 @@ use gcheck_program::{Call, CallKind, Jump, OKeyword, OLabel, OWord, Survey, prof
 use gcheck_syntax::SyntaxKind;
 
 use crate::pieces::{Piece, pieces, pieces_of_line, touches};
-use crate::{Place, ReferenceKind, Workspace, WorkspaceFile};
+use crate::{Place, Workspace, WorkspaceFile};
 
 /// Something that has a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -21,12 +21,21 @@ pub(crate) enum Thing {
     Program(u32),
     /// `O100 SUB`, `O<probe> SUB`.
     Subroutine(OLabel),
-    /// The label of an O-word that is no subroutine, in the subroutine or main part of these bytes.
+    /// The label of an O-word that is not a subroutine, in the subroutine or main part of these bytes.
     Branch { label: OLabel, part: Range<u32> },
     /// `#100`; of a local variable, the program that it lives in.
     Variable { number: u32, part: Option<Range<u32>> },
     /// `#<depth>`, lower case without blanks; of a local one, the subroutine or main part that it lives in.
     Parameter { name: String, part: Option<Range<u32>> },
+}
+
+/// What a place does with what it names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum ReferenceKind {
+    /// Defines it: the label itself, the head of a program, an assignment.
+    Write,
+    /// Uses it.
+    Read,
 }
 
 /// A place that names a thing.
@@ -56,7 +65,7 @@ pub(crate) fn thing_at(snapshot: &Snapshot, offset: u32) -> Option<Naming> {
             touches(&(naming.range.start.saturating_sub(before)..naming.range.end + behind), offset)
         })
     };
-    // A variable stands inside what else may be named: `GOTO #1`, `M98 P#2`.
+    // A variable is inside what else may be named: `GOTO #1`, `M98 P#2`.
     if let Some(naming) = variable() {
         return Some(naming);
     }
@@ -195,7 +204,7 @@ pub(crate) fn callee(snapshot: &Snapshot, call: &Call) -> Option<Thing> {
     }
 }
 
-/// Where a program or subroutine stands that is called in `from`: its name, or the begin of the file that is named so.
+/// Where a program or subroutine is that is called in `from`: its name, or the begin of the file that is named so.
 pub(crate) fn definition_of(workspace: &Workspace, from: DocumentId, thing: &Thing) -> Option<Place> {
     let own = workspace.files.iter().filter(|file| file.id == from);
     let others = || workspace.files.iter().filter(|file| file.id != from);
@@ -244,7 +253,7 @@ fn head_in(snapshot: &Snapshot, thing: &Thing) -> Option<Range<u32>> {
     }
 }
 
-/// Bytes of the program around an offset: from its `O` number to the next. What stands in front of the first belongs to it.
+/// Bytes of the program around an offset: from its `O` number to the next. What is in front of the first belongs to it.
 pub(crate) fn program_around(snapshot: &Snapshot, offset: u32) -> Range<u32> {
     let programs = &snapshot.survey().programs;
     let end = snapshot.len();
@@ -341,7 +350,7 @@ fn naming_of_program(
     Some(Naming { thing: Thing::Program(number), range: digits(snapshot, word, number)?, kind })
 }
 
-/// The label of its own program that a jump names. What a return names stands in the caller, unless the control says that it
+/// The label of its own program that a jump names. What a return names is in the caller, unless the control says that it
 /// does not, or there is no such label but here.
 fn jump_naming(snapshot: &Snapshot, jump: &Jump) -> Option<Naming> {
     let number = jump.target?;
@@ -360,7 +369,7 @@ pub(crate) fn is_in_main(snapshot: &Snapshot, offset: u32) -> bool {
         && survey.ends.iter().any(|end| end.ends == gcheck_controls::Ends::Program)
 }
 
-/// May what a code names with a word of this kind stand in another program?
+/// May the target of a word of this kind be in another program?
 pub(crate) fn is_elsewhere(control: &Control, code: CodeIx, kind: WordKind) -> bool {
     control.code_at(code).is_some_and(|code| {
         code.effect() == Effect::Return
@@ -374,7 +383,7 @@ fn call_naming(snapshot: &Snapshot, call: &Call) -> Option<Naming> {
     let CallKind::Program(written) = call.target else { return None };
     let mut range = digits(snapshot, &call.range, written)?;
     if written != *number {
-        // Repeats stand before the last four digits.
+        // Repeats are before the last four digits.
         range.start = range.end.checked_sub(4)?;
     }
     Some(Naming { thing, range, kind: ReferenceKind::Read })
@@ -430,7 +439,7 @@ fn digits(snapshot: &Snapshot, within: &Range<u32>, number: u32) -> Option<Range
 }
 
 /// All places of a file that name a variable or parameter, in text order.
-fn all_variables(snapshot: &Snapshot) -> Vec<Naming> {
+pub(crate) fn all_variables(snapshot: &Snapshot) -> Vec<Naming> {
     let scopes = Scopes::of(snapshot);
     let end = code_end(snapshot);
     let with_variables = snapshot.chunks().filter(|chunk| chunk.base < end && chunk.text.contains('#'));

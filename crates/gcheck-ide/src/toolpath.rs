@@ -12,7 +12,7 @@ use serde_json::Value;
 use crate::parts::tool_names;
 use crate::running::{is_turned, run_through, view};
 
-/// Most segments of a toolpath; more are thinned, and it is said so.
+/// Most segments of a toolpath; more are thinned, and the answer says so.
 pub const MAX_SEGMENTS: usize = 200_000;
 
 /// The toolpath of one run.

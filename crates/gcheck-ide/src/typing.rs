@@ -1,4 +1,4 @@
-//! The block that is being typed: what stands before the cursor, and which codes and words it has.
+//! The block that is being typed: what is before the cursor, and which codes and words it has.
 //!
 //! Knows: one line up to the cursor. Must not know: states, what is offered.
 
@@ -29,7 +29,7 @@ impl<'s> Typing<'s> {
         let range = snapshot.line_range(snapshot.line_at(offset));
         let text = snapshot.slice(range.clone());
         let upto = (offset.saturating_sub(range.start) as usize).min(text.len());
-        // A cursor inside a character stands before it.
+        // A cursor inside a character is before it.
         let upto = (0..=upto).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0);
         let before = text.get(..upto).unwrap_or_default().to_owned();
         let offset = range.start + upto as u32;
@@ -40,7 +40,7 @@ impl<'s> Typing<'s> {
         self.snapshot.control()
     }
 
-    /// The text of the comment that the cursor stands in, up to the cursor.
+    /// The text of the comment that the cursor is in, up to the cursor.
     pub(crate) fn comment(&self) -> Option<&str> {
         let piece = self
             .line

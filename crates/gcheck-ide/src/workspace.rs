@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_db::{DocumentId, Snapshot};
-use gcheck_rules::Edit;
+use gcheck_diagnostics::Edit;
 
 /// A file that features may look at.
 #[derive(Debug, Clone)]

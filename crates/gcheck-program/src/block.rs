@@ -18,7 +18,7 @@ bitflags::bitflags! {
     pub struct BlockFlags: u32 {
         /// A `G` or `M` word.
         const CODE = 1;
-        /// A code that the control does not have, or that is no code at all (`G1.25`).
+        /// A code that the control does not have, or that is not a code at all (`G1.25`).
         const UNKNOWN_CODE = 1 << 1;
         /// A mistake in form.
         const ERROR = 1 << 2;
@@ -26,7 +26,7 @@ bitflags::bitflags! {
         const STATEMENT = 1 << 3;
         /// A word whose value is an expression.
         const EXPRESSION = 1 << 4;
-        /// An address stands twice that may stand once.
+        /// An address is given twice that may be given once.
         const REPEATED = 1 << 5;
         /// A value without decimal point, not zero, on an address that is not a plain count.
         const UNPOINTED = 1 << 6;
@@ -52,11 +52,11 @@ bitflags::bitflags! {
         const COMMENT = 1 << 16;
         /// More characters than a line of the control may have.
         const LONG_LINE = 1 << 17;
-        /// An address that no code of the block reads and that is not free to stand anywhere.
+        /// An address that no code of the block reads and that is not free to be anywhere.
         const UNREAD_WORD = 1 << 18;
         /// A lower-case letter outside comments.
         const LOWER_CASE = 1 << 19;
-        /// An axis stands with its own address and with that of its increments.
+        /// An axis is with its own address and with that of its increments.
         const AXIS_TWICE = 1 << 20;
         /// A word whose number has a blank between its digits: `X1. 5`.
         const DIVIDED_NUMBER = 1 << 21;
@@ -225,7 +225,7 @@ impl BlockTable {
         self.ops.get(expr.ops.start as usize..expr.ops.end as usize).unwrap_or_default()
     }
 
-    /// The value of an expression that is a number as it stands: `[5]`, `-1.`.
+    /// The value of an expression that is a number as it is written: `[5]`, `-1.`.
     pub fn constant(&self, ix: ExprIx) -> Option<f64> {
         match self.ops(self.expr(ix)) {
             [Op::Number(value)] => Some(*value),

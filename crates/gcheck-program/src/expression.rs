@@ -32,11 +32,11 @@ pub enum Op {
     Number(f64),
     /// Pushes a numbered variable.
     Variable(u32),
-    /// Pushes a named parameter; its name, brackets not included, stands at this place of the chunk.
+    /// Pushes a named parameter; its name, brackets not included, is at this place of the chunk.
     Named {
         /// First byte of the name.
         start: u32,
-        /// Byte behind the name.
+        /// Byte after the name.
         end: u32,
     },
     /// Pops a number, pushes the variable of that number.

@@ -6,6 +6,7 @@
 //! Everything but [`Survey`] depends on one chunk alone.
 
 mod block;
+mod evidence;
 mod expression;
 mod loaded;
 mod lower;
@@ -17,6 +18,7 @@ mod survey;
 mod tool_names;
 
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
+pub use evidence::{EVIDENCE_BYTES, collect_evidence};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
 pub use loaded::{Loaded, Place, Touched};
 pub use lower::{Dialect, lower, lower_tree, profile};

@@ -12,7 +12,8 @@ use std::sync::Arc;
 
 use gcheck_syntax::cuts;
 
-use crate::block::{Block, BlockFlags, BlockIx, BlockTable};
+use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value};
+use crate::expression::ExprIx;
 use crate::lower::{Dialect, lower, skim};
 use crate::outline::Outline;
 use crate::survey::code_region;
@@ -66,7 +67,7 @@ struct Tables {
 pub struct Place {
     /// The table of its chunk.
     pub table: Rc<BlockTable>,
-    /// Where it stands in the table.
+    /// Where it is in the table.
     pub ix: BlockIx,
     /// The chunk's index.
     pub chunk: u32,
@@ -84,6 +85,15 @@ impl Place {
     pub fn range(&self) -> Range<u32> {
         let block = self.block();
         self.base + block.range.start..self.base + block.range.end
+    }
+
+    /// The expressions of the block: of its words, then of its statements.
+    pub fn expressions(&self) -> impl Iterator<Item = ExprIx> {
+        let of_words = self.table.words(self.block()).iter().filter_map(|word| match word.value {
+            Value::Expr(expr) => Some(expr),
+            Value::Number(_) | Value::Missing => None,
+        });
+        of_words.chain(self.table.statements(self.ix).flat_map(|statement| statement.kind.expressions()))
     }
 }
 
@@ -127,8 +137,8 @@ impl<'a> Loaded<'a> {
         Self { text, chunks, flags, region_end, outline, tables, touched: RefCell::default() }
     }
 
-    /// Puts a file together from chunks whose outline is known; `flags` says for each of them what any of its blocks has.
-    /// Chunks behind the part that the control reads may be left out.
+    /// Puts a file together from chunks whose outline is known; `flags` says for each of them what any of its blocks
+    /// has. Chunks after the part that the control reads may be left out.
     pub fn of_chunks(
         texts: Vec<Arc<str>>,
         flags: Vec<BlockFlags>,
@@ -194,7 +204,7 @@ impl<'a> Loaded<'a> {
         line
     }
 
-    /// Text of bytes of the file that stand in one chunk, as those of a block do; empty for others.
+    /// Text of bytes of the file that are in one chunk, as those of a block do; empty for others.
     pub fn slice(&self, range: Range<u32>) -> &str {
         let chunk = self.chunks.partition_point(|chunk| chunk.end <= range.start);
         let base = self.chunks.get(chunk).map_or(0, |chunk| chunk.start);

@@ -148,7 +148,7 @@ impl<'c> Dialect<'c> {
         self.refers.get(code.index()).copied().unwrap_or(false)
     }
 
-    /// The code that a word names; none for a word that is no `G` or `M`.
+    /// The code that a word names; none for a word that is not a `G` or `M`.
     fn code_of(&self, letter: Letter, number: f64, shape: NumberShape) -> CodeIx {
         if letter != Letter::of('G') && letter != Letter::of('M') {
             return CodeIx::NONE;
@@ -169,7 +169,7 @@ impl<'c> Dialect<'c> {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lasting {
     pub(crate) letter: Letter,
-    /// Words that do instead, wherever they stood.
+    /// Words that do instead, from any block.
     pub(crate) instead: LetterSet,
     /// Words that do instead in a block of the code.
     pub(crate) here: LetterSet,
@@ -240,7 +240,7 @@ struct Quiet {
     /// Of the line in the chunk, up to the last word seen.
     range: Range<u32>,
     letters: LetterSet,
-    /// No address stands twice, each is quiet, each number has a point and not too many digits.
+    /// No address is given twice, each is quiet, each number has a point and not too many digits.
     words: bool,
     has_lower: bool,
 }
@@ -297,7 +297,7 @@ struct Open {
     target: Option<Target>,
     keyword: Option<(OLabel, OKeyword)>,
     first_argument: u32,
-    /// Where the value of an assignment starts: behind its `=`.
+    /// Where the value of an assignment starts: after its `=`.
     value_start: u32,
 }
 
@@ -308,7 +308,7 @@ struct LowerSink<'t, 'd> {
     open: Vec<Open>,
     /// Depth of nodes whose content is not lowered: `ERROR` and `PRINT_STATEMENT`.
     skip: u32,
-    /// End of the last token that counts: expressions and statements end there, not behind blanks.
+    /// End of the last token that counts: expressions and statements end there, not after blanks.
     end: u32,
     /// Where the next token starts, and so where the next block does.
     next_token: u32,
@@ -326,7 +326,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
     fn new(text: &'t str, dialect: &'d Dialect<'d>) -> Self {
         let table = BlockTable {
             blocks: Vec::with_capacity(lines(text)),
-            // Seldom is a word shorter than eight characters with the blank behind it.
+            // Seldom is a word shorter than eight characters with the blank after it.
             words: Vec::with_capacity(text.len() / 8 + 1),
             ..BlockTable::default()
         };
@@ -462,7 +462,7 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             return;
         }
         let named = open.target.clone();
-        // The expression of a computed label stands in front of the arguments.
+        // The expression of a computed label is in front of the arguments.
         let mut first_argument = self.table.exprs.len() as u32;
         let label = match named {
             Some(Target::Named(range)) => OLabel::Name(name_key(self.slice(&range))),
@@ -685,7 +685,7 @@ impl Sink for LowerSink<'_, '_> {
         }
         self.open.push(Open {
             kind,
-            // Unknown until its first token comes, unless the node is opened behind it.
+            // Unknown until its first token comes, unless the node is opened after it.
             start: checkpoint,
             ops: self.table.ops.len(),
             operator: None,
@@ -751,7 +751,7 @@ impl Sink for LowerSink<'_, '_> {
             self.fused(range);
             return;
         }
-        // The next block starts behind this token, whatever it is.
+        // The next block starts after this token, whatever it is.
         self.next_token = range.end;
         match kind {
             SyntaxKind::WHITESPACE | SyntaxKind::NEWLINE | SyntaxKind::BOM | SyntaxKind::SEMICOLON => return,
@@ -906,7 +906,7 @@ impl LowerSink<'_, '_> {
         }
     }
 
-    /// A token that is no blank, no comment, and stands outside errors.
+    /// A token that is neither a blank nor a comment, outside errors.
     fn meaningful_token(&mut self, kind: SyntaxKind, range: Range<u32>) {
         let inner = self.innermost();
         match kind {

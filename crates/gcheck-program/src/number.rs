@@ -7,7 +7,7 @@
 pub struct NumberShape {
     /// Digits in front of the point, leading zeros included.
     pub whole_digits: u8,
-    /// Digits behind the point.
+    /// Digits after the point.
     pub decimals: u8,
     /// A decimal point is written.
     pub point: bool,
@@ -81,7 +81,7 @@ fn short(text: &[u8]) -> (f64, NumberShape) {
     (if minus { -value } else { value }, shape)
 }
 
-/// The value of at most fifteen digits, `decimals` of them behind the point.
+/// The value of at most fifteen digits, `decimals` of them after the point.
 #[inline]
 pub(crate) fn of_digits(digits: u64, decimals: usize) -> f64 {
     // Both operands are exact, so the quotient is the correctly rounded value of the decimal.

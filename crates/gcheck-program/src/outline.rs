@@ -9,6 +9,7 @@
 mod block_set;
 mod builder;
 mod chunk;
+mod link;
 mod loops;
 mod o_words;
 #[cfg(test)]
@@ -21,16 +22,10 @@ use crate::statement::OLabel;
 use block_set::BlockSet;
 pub use builder::OutlineBuilder;
 pub use chunk::{ChunkOutline, Skeleton};
+use link::known;
 use loops::Loops;
 pub use o_words::OWordLinks;
 use o_words::OWords;
-
-/// Stands for "no block" and "no number" where an `Option` would double the memory.
-const NONE: u32 = u32::MAX;
-
-fn known(number: u32) -> Option<u32> {
-    (number != NONE).then_some(number)
-}
 
 /// The control flow of one file.
 ///
@@ -101,11 +96,6 @@ pub struct Program {
 }
 
 impl Outline {
-    /// Collects the outline of a file chunk by chunk.
-    pub fn builder() -> OutlineBuilder {
-        OutlineBuilder::default()
-    }
-
     /// How many blocks there are.
     pub fn blocks(&self) -> u32 {
         self.blocks
@@ -178,7 +168,7 @@ impl Outline {
         Some(self.describe(*part as usize))
     }
 
-    /// The blocks of the program that a block stands in; an empty range for a block that is not there.
+    /// The blocks of the program that a block is in; an empty range for a block that is not there.
     pub fn part_of(&self, block: u32) -> Range<u32> {
         if block >= self.blocks {
             return self.blocks..self.blocks;
@@ -189,7 +179,7 @@ impl Outline {
 
     /// The blocks of the first program: what runs when the file is started.
     ///
-    /// What stands in front of the first program number belongs to that program, unless it has an end (`M30`) of its own.
+    /// What is in front of the first program number belongs to that program, unless it has an end (`M30`) of its own.
     pub fn main(&self) -> Range<u32> {
         self.part(0)
     }
@@ -210,7 +200,7 @@ impl Outline {
 
     /// The block of sequence number `number` as a jump in block `from` finds it, in its own program only.
     ///
-    /// With `forward_first` the first one at `from` or behind it, then the first of the program; without, the first of the
+    /// With `forward_first` the first one at `from` or after it, then the first of the program; without, the first of the
     /// program.
     pub fn label(&self, number: u32, from: u32, forward_first: bool) -> Option<u32> {
         let part = self.part_of(from);
@@ -260,7 +250,7 @@ impl Outline {
         self.o_words.links(block)
     }
 
-    /// The branches behind an `if`, `elseif` or `else`, in text order: every `elseif`, the `else`, the `endif`.
+    /// The branches after an `if`, `elseif` or `else`, in text order: every `elseif`, the `else`, the `endif`.
     pub fn branches(&self, block: u32) -> impl Iterator<Item = u32> {
         let next = |block: u32| self.o_words.links(block)?.next;
         std::iter::successors(next(block), move |block| next(*block))
@@ -291,7 +281,7 @@ impl Outline {
     /// May control come to the block from elsewhere than the block before? True for labels, whether used or not, heads of
     /// programs, loop statements and O-words.
     ///
-    /// Besides these, only the block behind one that [is flow](Self::is_flow) is ever gone to, and the first of the file.
+    /// Besides these, only the block after one that [is flow](Self::is_flow) is ever gone to, and the first of the file.
     pub fn may_be_target(&self, block: u32) -> bool {
         self.marks.contains(block)
     }
@@ -346,7 +336,7 @@ impl Outline {
             + self.turns.capacity() * size_of::<(u32, u32)>()
     }
 
-    /// Takes note that a jump which stands in another file leads to this sequence number here.
+    /// Takes note that a jump which is in another file leads to this sequence number here.
     pub fn enter_at_label(&mut self, number: u32) {
         let blocks: Vec<u32> = self.labels(number).collect();
         self.entries.merge(blocks);

@@ -14,7 +14,7 @@ pub(crate) struct PlainWord {
     pub(crate) shape: NumberShape,
     /// Offset of its letter in the text.
     pub(crate) start: u32,
-    /// Offset behind its last digit.
+    /// Offset after its last digit.
     pub(crate) end: u32,
     /// The letter is a small one.
     pub(crate) is_lower: bool,
@@ -110,7 +110,7 @@ fn few_digits(text: &[u8], at: usize) -> Option<Digits> {
     Some(Digits { value, whole, decimals, len })
 }
 
-/// A number whose first digit or point stands at `at`, whatever its length.
+/// A number whose first digit or point is at `at`, whatever its length.
 fn any_number_at(text: &[u8], start: usize, at: usize) -> Option<(f64, NumberShape, usize)> {
     let count = |at: usize| {
         text.get(at..).unwrap_or_default().iter().take_while(|byte| byte.is_ascii_digit()).count()

@@ -13,7 +13,7 @@ use crate::statement::{OKeyword, OLabel, StatementKind, Target};
 
 /// The part of a file that the control reads, as bytes.
 ///
-/// A `%` at the head of a line marks the beginning and the end of the tape. What stands behind the closing mark is not
+/// A `%` at the head of a line marks the beginning and the end of the tape. What is after the closing mark is not
 /// read; a single mark closes unless nothing but blanks comes before it.
 pub fn code_region(text: &str) -> Range<usize> {
     let marks: Vec<usize> =
@@ -25,12 +25,12 @@ pub fn code_region(text: &str) -> Range<usize> {
     }
 }
 
-/// Where tape marks stand in a chunk: what [`code_region`] asks of it.
+/// Where tape marks are in a chunk: what [`code_region`] asks of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TapeMarks {
     /// The first two marks at the head of a line: where each line ends, in bytes of the chunk.
     line_ends: [Option<u32>; 2],
-    /// Nothing but blanks stands before the first mark, or in the whole chunk.
+    /// Nothing but blanks is before the first mark, or in the whole chunk.
     is_blank: bool,
 }
 
@@ -93,7 +93,7 @@ pub struct Label {
 /// An `O` number at the head of a block.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProgramNumber {
-    /// `None` when it is no whole number.
+    /// `None` when it is not a whole number.
     pub number: Option<u32>,
     /// Bytes of the file.
     pub range: Range<u32>,
@@ -274,7 +274,7 @@ impl Survey {
         }
     }
 
-    /// What one chunk holds, in bytes of the chunk; blocks that begin at `end` or behind it are left out. It is to be
+    /// What one chunk holds, in bytes of the chunk; blocks that begin at `end` or after it are left out. It is to be
     /// [joined](Self::join) to others, and knows of never given words only what the chunk itself tells.
     pub fn of_chunk(table: &BlockTable, end: u32, dialect: &Dialect<'_>) -> Self {
         let mut survey = Self::default();

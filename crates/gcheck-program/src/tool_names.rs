@@ -1,7 +1,7 @@
 //! What a program calls its tools: a remark beside the tool change, a list at the head of the program, a remark above the
 //! change.
 //!
-//! Knows: where such remarks stand and how lists are written. Must not know: what tools do.
+//! Knows: where such remarks are and how lists are written. Must not know: what tools do.
 
 use std::collections::BTreeMap;
 
@@ -67,7 +67,7 @@ impl<'c> ToolNames<'c> {
         }
     }
 
-    /// Passes over blocks with words that have neither a remark nor anything of tools: what stands above them names no tool
+    /// Passes over blocks with words that have neither a remark nor anything of tools: what is above them names no tool
     /// behind them.
     pub fn pass_over(&mut self) {
         self.above = None;
@@ -138,7 +138,7 @@ fn entry(remark: &str) -> Option<(u32, &str)> {
     let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
     let number = rest.get(..end)?.parse().ok()?;
     let name = rest.get(end..)?;
-    // `T1000X2` is no entry, nor `T5.`
+    // `T1000X2` is not an entry, nor `T5.`
     if !name.starts_with([' ', '\t', '|', ':', '-', '=', ',', ';']) {
         return None;
     }

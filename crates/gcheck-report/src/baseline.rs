@@ -1,4 +1,4 @@
-//! Findings that were there before: a project takes up gcheck without mending all its old programs first.
+//! Findings that were there before: a project takes up gcheck without fixing all its old programs first.
 //!
 //! Knows: the form of a baseline, how findings are recognised in it. Must not know: files on disk, the current folder.
 //!
@@ -8,7 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use gcheck_rules::{Finding, RuleMeta};
+use gcheck_diagnostics::{Finding, RuleMeta};
 use serde::{Deserialize, Serialize};
 
 use crate::{FileReport, Fingerprint, Fingerprinter};
@@ -59,7 +59,7 @@ struct Entry {
     omitted: Option<usize>,
 }
 
-/// Why a text is no baseline.
+/// Why a text is not a baseline.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Malformed {
     /// One sentence without an end.
@@ -70,7 +70,7 @@ pub struct Malformed {
     pub help: &'static str,
 }
 
-const WRITE_ANEW: &str = "delete it, and `--update-baseline` writes it anew";
+const WRITE_ANEW: &str = "delete it, and `--update-baseline` writes it again";
 
 impl Baseline {
     /// Reads a baseline.
@@ -89,7 +89,7 @@ impl Baseline {
             });
         }
         let form: Form = serde_json::from_str(text).map_err(|error| Malformed {
-            reason: format!("is no baseline: {}", reason(&error)),
+            reason: format!("is not a baseline: {}", reason(&error)),
             line: error.line().max(1),
             help: WRITE_ANEW,
         })?;
@@ -97,7 +97,7 @@ impl Baseline {
             return Err(Malformed {
                 reason: format!("is of version {}; this gcheck reads version {VERSION}", form.version),
                 line: 1,
-                help: "use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`",
+                help: "use the gcheck that wrote it, or delete it and write it again with `--update-baseline`",
             });
         }
         let mut baseline = Self::default();
@@ -279,7 +279,7 @@ mod tests {
     use super::{Baseline, Malformed, StaleEntry};
     use crate::FileReport;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file, on};
-    use gcheck_rules::{Finding, Severity};
+    use gcheck_diagnostics::{Finding, Severity};
 
     fn on_lines(text: &str) -> FileReport {
         let starts = text.match_indices("G1").map(|(at, _)| at as u32);
@@ -307,7 +307,7 @@ mod tests {
             "lines may move"
         );
         assert_eq!(left(&baseline, on_lines("G1 X1.\nG1 X2.\nG1 X3.\n")), (1, 2, 0), "what is new is shown");
-        assert_eq!(left(&baseline, on_lines("G1 X1.\n")), (0, 1, 1), "what is mended is stale");
+        assert_eq!(left(&baseline, on_lines("G1 X1.\n")), (0, 1, 1), "what is fixed is stale");
         assert_eq!(left(&baseline, on_lines("G1 X9.\n")), (1, 0, 2));
     }
 
@@ -401,12 +401,12 @@ mod tests {
         all += &why(&good.replace("\"rule\"", "\"rul\""));
         all += &why("{\"version\": 1, \"findings\": [{\"file\": \"a\", \"rule\": \"r\"}]}");
         expect![[r#"
-            1: is no baseline: EOF while parsing a value (delete it, and `--update-baseline` writes it anew)
-            1: is of version 2; this gcheck reads version 1 (use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`)
+            1: is not a baseline: EOF while parsing a value (delete it, and `--update-baseline` writes it again)
+            1: is of version 2; this gcheck reads version 1 (use the gcheck that wrote it, or delete it and write it again with `--update-baseline`)
             4: a merge left conflict marks (keep the entries of both sides and delete the marks)
-            4: entry 1 has no fingerprint but `xd83bb959ae86b76009503b31cb70d96f` (delete it, and `--update-baseline` writes it anew)
-            4: is no baseline: unknown field `rul`, expected one of `file`, `rule`, `fingerprint`, `omitted` (delete it, and `--update-baseline` writes it anew)
-            1: entry 1 has neither a fingerprint nor a count alone (delete it, and `--update-baseline` writes it anew)
+            4: entry 1 has no fingerprint but `xd83bb959ae86b76009503b31cb70d96f` (delete it, and `--update-baseline` writes it again)
+            4: is not a baseline: unknown field `rul`, expected one of `file`, `rule`, `fingerprint`, `omitted` (delete it, and `--update-baseline` writes it again)
+            1: entry 1 has neither a fingerprint nor a count alone (delete it, and `--update-baseline` writes it again)
         "#]].assert_eq(&all);
     }
 

@@ -5,7 +5,7 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::shown::one_line;
+use crate::shown::{number, one_line};
 use crate::{Report, Summary};
 
 /// Files named when their analysis ended early.
@@ -30,7 +30,7 @@ pub fn summary_line(summary: &Summary) -> String {
     }
     let mut silent = Vec::new();
     if summary.fixed > 0 {
-        silent.push(format!("{} mended", number(summary.fixed)));
+        silent.push(format!("{} fixed", number(summary.fixed)));
     }
     if summary.suppressed > 0 {
         silent.push(format!("{} suppressed", number(summary.suppressed)));
@@ -56,8 +56,9 @@ pub fn summary_line(summary: &Summary) -> String {
 /// Assumptions shown when one file was checked.
 const SHOWN: usize = 12;
 
-/// What the verdicts rest on and a configuration could settle, a line each; of many files only how many there are. Empty
-/// when there is nothing of the kind. What nobody can settle (the modes at power-on) stands in the JSON output only.
+/// What the verdicts rest on and a configuration could settle, a line each; of many files only how many there are.
+/// Empty when there is nothing of the kind. What no configuration can settle (the modes at power-on) is in the JSON
+/// output only.
 pub fn assumptions(summary: &Summary) -> String {
     let all: Vec<_> = summary.assumptions.iter().filter(|assumed| assumed.pin.is_some()).collect();
     if all.is_empty() {
@@ -112,25 +113,12 @@ fn count(n: usize, one: &str, many: &str) -> String {
     format!("{} {}", number(n), if n == 1 { one } else { many })
 }
 
-/// `1,204`.
-pub(crate) fn number(n: usize) -> String {
-    let digits = n.to_string();
-    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
-    for (at, digit) in digits.char_indices() {
-        if at > 0 && (digits.len() - at).is_multiple_of(3) {
-            grouped.push(',');
-        }
-        grouped.push(digit);
-    }
-    grouped
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file};
     use expect_test::expect;
-    use gcheck_rules::Finding;
+    use gcheck_diagnostics::Finding;
 
     #[test]
     fn summaries() {
@@ -168,13 +156,5 @@ mod tests {
         "#]]
         .assert_eq(&statistics(&report));
         assert_eq!(statistics(&Report::new(vec![])), "");
-    }
-
-    #[test]
-    fn numbers_are_grouped() {
-        assert_eq!(
-            [0, 999, 1_000, 12_345, 1_234_567].map(number),
-            ["0", "999", "1,000", "12,345", "1,234,567"]
-        );
     }
 }

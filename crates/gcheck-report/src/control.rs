@@ -1,17 +1,8 @@
-//! Which control a file was checked for, and how it came to that.
+//! Which control a file was checked for, and where that choice came from.
 //!
-//! Knows: where a choice came from. Must not know: any control, how a choice is made.
-
-use std::collections::BTreeMap;
+//! Knows: the ways to choose a control. Must not know: any control, how a choice is made.
 
 use serde::Serialize;
-
-use crate::Report;
-use crate::closing::number;
-use crate::shown::one_line;
-
-/// Reasons that are told apart in one line.
-const REASONS: usize = 3;
 
 /// The control a file was checked for.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -41,7 +32,7 @@ pub enum ControlSource {
 }
 
 impl ControlSource {
-    fn phrase(self, reasons: &str) -> String {
+    pub(crate) fn phrase(self, reasons: &str) -> String {
         let told = !reasons.is_empty();
         match self {
             Self::Configuration if told => format!("set in {reasons}"),
@@ -55,95 +46,5 @@ impl ControlSource {
             Self::Default if told => format!("by default: {reasons}"),
             Self::Default => "by default".to_owned(),
         }
-    }
-}
-
-/// Says which control was used: one line for all files that share a control and the source of the choice.
-pub fn control_lines(report: &Report) -> Vec<String> {
-    let mut groups: BTreeMap<(&str, ControlSource), Vec<(&str, &str)>> = BTreeMap::new();
-    for file in report.files() {
-        let reason = file.control.because.as_deref().unwrap_or_default();
-        let key = (file.control.name.as_str(), file.control.source);
-        groups.entry(key).or_default().push((&file.path, reason));
-    }
-    // The first file leads, so that the lines are in the order in which findings will be.
-    let mut groups: Vec<_> = groups.into_iter().collect();
-    groups.sort_by_key(|(_, files)| files.first().map(|(path, _)| *path));
-    groups.into_iter().map(|((name, source), files)| line(name, source, &files)).collect()
-}
-
-fn line(name: &str, source: ControlSource, files: &[(&str, &str)]) -> String {
-    let mut reasons: Vec<&str> = files.iter().map(|(_, reason)| *reason).filter(|r| !r.is_empty()).collect();
-    reasons.sort_unstable();
-    reasons.dedup();
-    let reasons = if reasons.len() > REASONS { String::new() } else { reasons.join(", ") };
-    let path = files.first().map_or("", |(path, _)| path);
-    let more = match files.len() {
-        0 | 1 => String::new(),
-        2 => " and 1 more file".to_owned(),
-        n => format!(" and {} more files", number(n - 1)),
-    };
-    one_line(&format!("{path}{more}: control {name}, {}", source.phrase(&reasons))).into_owned()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::testing::file;
-
-    fn lines(choices: &[(&str, &str, ControlSource, Option<&str>)]) -> Vec<String> {
-        let files = choices.iter().map(|(path, name, source, because)| {
-            let because = because.map(str::to_owned);
-            crate::FileReport {
-                control: ControlChoice { name: (*name).to_owned(), source: *source, because },
-                ..file(path, "", vec![])
-            }
-        });
-        control_lines(&Report::new(files.collect()))
-    }
-
-    #[test]
-    fn one_file_says_why() {
-        use ControlSource::{Comment, Configuration, Default, Detected, Option};
-        let line = |source, because| lines(&[("part.nc", "haas-mill", source, because)]).remove(0);
-        assert_eq!(line(Detected, Some("(VF-2)")), "part.nc: control haas-mill, detected from (VF-2)");
-        assert_eq!(
-            line(Configuration, Some("gcheck.toml")),
-            "part.nc: control haas-mill, set in gcheck.toml"
-        );
-        assert_eq!(line(Option, None), "part.nc: control haas-mill, set by `--control`");
-        assert_eq!(
-            line(Comment, Some("(gcheck: control=haas-mill)")),
-            "part.nc: control haas-mill, set by the comment (gcheck: control=haas-mill)"
-        );
-        assert_eq!(line(Default, None), "part.nc: control haas-mill, by default");
-    }
-
-    #[test]
-    fn files_that_agree_share_a_line() {
-        use ControlSource::{Configuration, Detected};
-        let detected = lines(&[
-            ("c.nc", "haas-mill", Detected, Some("(VF-2)")),
-            ("b.nc", "fanuc-mill", Configuration, Some("gcheck.toml")),
-            ("a.nc", "haas-mill", Detected, Some("(VF-3)")),
-            ("d.nc", "haas-mill", Detected, Some("(VF-2)")),
-        ]);
-        assert_eq!(
-            detected,
-            [
-                "a.nc and 2 more files: control haas-mill, detected from (VF-2), (VF-3)",
-                "b.nc: control fanuc-mill, set in gcheck.toml",
-            ]
-        );
-    }
-
-    #[test]
-    fn many_reasons_are_not_listed() {
-        let names: Vec<String> = (0..5).map(|n| format!("{n}.nc")).collect();
-        let choices: Vec<_> = names
-            .iter()
-            .map(|n| (n.as_str(), "haas-mill", ControlSource::Detected, Some(n.as_str())))
-            .collect();
-        assert_eq!(lines(&choices), ["0.nc and 4 more files: control haas-mill, detected from the program"]);
     }
 }

@@ -17,12 +17,12 @@ const LONGEST: usize = 200;
 const WINDOW: usize = 120;
 /// Characters that the window shows before the first spot, and more where the line ends soon.
 const LEAD: usize = 40;
-/// Stands where a line is cut.
+/// Shown where a line is cut.
 const CUT: char = '…';
 /// A spot over more lines shows its first lines and its last two, so that nothing is drawn per line of a long spot.
 const FIRST_LINES: u32 = 4;
 const LAST_LINES: u32 = 2;
-/// Left-out lines are stood for by so many empty ones, enough that they are drawn as a break.
+/// So many empty lines replace omitted ones, enough that they are drawn as a break.
 const BREAK_LINES: usize = 2;
 
 /// Some lines of a program.
@@ -127,7 +127,7 @@ impl Excerpt {
         };
         for (spot, out) in spots.iter().zip(&mut self.spots) {
             if spot.first_line == number {
-                // A spot outside the window starts at the cut behind which it is.
+                // A spot outside the window starts at the cut after which it is.
                 out.start = if spot.start < window.start { start_of_line } else { place(spot.start) };
             }
             if spot.last_line == number {

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
 
-use gcheck_rules::Finding;
+use gcheck_diagnostics::Finding;
 use serde::{Serialize, Serializer};
 
 /// Identity of a finding across versions of its program; shown as 32 hexadecimal digits.

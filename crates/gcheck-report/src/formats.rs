@@ -14,12 +14,11 @@ mod jsonl;
 mod junit;
 mod list;
 mod rdjson;
+mod remarks;
 mod sarif;
 mod xml;
 
 use std::io::{self, Write};
-
-use gcheck_rules::Finding;
 
 use crate::{Colour, Report};
 
@@ -130,18 +129,6 @@ pub fn write(report: &Report, format: Format, colour: Colour, out: &mut dyn Writ
         Format::Azure => azure::write(report, &mut out)?,
     }
     out.flush()
-}
-
-/// Where the project lives.
-const HOME: &str = env!("CARGO_PKG_REPOSITORY");
-
-/// What is said below the source lines, or after the message in formats without them: `note: …`, `help: …`.
-fn remarks(finding: &Finding) -> Vec<String> {
-    let notes = finding.notes.iter().map(|note| format!("note: {note}"));
-    let alarm = finding.alarm.iter().map(|alarm| format!("note: the control raises alarm {alarm}"));
-    let assumptions = finding.assumptions.iter().map(|fact| format!("note: assuming {fact}"));
-    let help = finding.help.iter().map(|help| format!("help: {help}"));
-    notes.chain(alarm).chain(assumptions).chain(help).collect()
 }
 
 #[cfg(test)]

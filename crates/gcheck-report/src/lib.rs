@@ -10,6 +10,7 @@
 mod baseline;
 mod closing;
 mod control;
+mod control_lines;
 mod excerpt;
 mod fingerprint;
 mod formats;
@@ -23,7 +24,8 @@ mod testing;
 
 pub use baseline::{Baseline, Malformed, StaleEntry};
 pub use closing::{assumptions, statistics, summary_line};
-pub use control::{ControlChoice, ControlSource, control_lines};
+pub use control::{ControlChoice, ControlSource};
+pub use control_lines::control_lines;
 pub use fingerprint::{Fingerprint, Fingerprinter};
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};

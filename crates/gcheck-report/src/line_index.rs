@@ -20,7 +20,7 @@ pub struct Position {
     pub offset: u32,
 }
 
-/// Where the lines of a text begin, and how many scalar values stand before every so many bytes.
+/// Where the lines of a text begin, and how many scalar values are before every so many bytes.
 ///
 /// Built in one pass. It does not hold the text: every question passes the text it was built from. A wrong text, or an
 /// offset outside, gives wrong places but never a panic.
@@ -50,7 +50,7 @@ impl LineIndex {
         Self { starts, scalars }
     }
 
-    /// Number of lines; the one behind the last line end counts, though it may be empty.
+    /// Number of lines; the one after the last line end counts, though it may be empty.
     pub fn line_count(&self) -> u32 {
         self.starts.len() as u32
     }
@@ -90,9 +90,9 @@ impl LineIndex {
     }
 }
 
-/// Adds the starts of lines behind the line ends of a block, which begins at `base`.
+/// Adds the starts of lines after the line ends of a block, which begins at `base`.
 ///
-/// Most files have no lone CR: looking for LF alone and then seeing that every CR stood before one takes half the time of
+/// Most files have no lone CR: looking for LF alone and then seeing that every CR was before one takes half the time of
 /// looking for both.
 fn push_starts(bytes: &[u8], block: &[u8], base: usize, starts: &mut Vec<u32>) {
     let known = starts.len();

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 use std::sync::Arc;
 
-use gcheck_rules::{Described, Finding, RuleMeta, Severity};
+use gcheck_diagnostics::{Finding, RuleMeta, Severity, StatedAssumption};
 use gcheck_syntax::SourceText;
 use serde::Serialize;
 
@@ -21,7 +21,7 @@ pub struct FileReport {
     pub text: Arc<SourceText>,
     /// The control it was checked for.
     pub control: ControlChoice,
-    /// What is said about it, with severities as configured and without those suppressed or in the baseline.
+    /// Its findings, with severities as configured and without those suppressed or in the baseline.
     pub findings: Vec<Finding>,
     /// Findings beyond those kept, by rule and severity: counted, not shown.
     pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
@@ -31,18 +31,18 @@ pub struct FileReport {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
-    /// Findings that were mended, and so are none any more.
+    /// Findings that were fixed.
     pub fixed: usize,
     /// The analysis ended before the program did.
     pub out_of_fuel: bool,
-    /// What the verdict rests on that nobody told us.
-    pub assumptions: Vec<Described>,
+    /// The assumptions of the verdict.
+    pub assumptions: Vec<StatedAssumption>,
 }
 
 /// A file that labels point to and that was not itself checked, e.g. a subprogram from a library.
 #[derive(Debug, Clone)]
 pub struct RelatedFile {
-    /// As in [`gcheck_rules::Label::file`].
+    /// As in [`gcheck_diagnostics::Label::file`].
     pub path: String,
     /// The program.
     pub text: Arc<SourceText>,
@@ -78,7 +78,7 @@ pub(crate) struct File {
     baseline: usize,
     fixed: usize,
     pub(crate) out_of_fuel: bool,
-    assumptions: Vec<Described>,
+    assumptions: Vec<StatedAssumption>,
 }
 
 /// Sums over all files.
@@ -102,11 +102,11 @@ pub struct Summary {
     pub suppressed: usize,
     /// Findings that the baseline knows.
     pub baseline: usize,
-    /// Findings that were mended.
+    /// Findings that were fixed.
     pub fixed: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
-    /// What the verdicts rest on that nobody told us, each once, with how many files rest on it.
+    /// The assumptions of the verdicts, each once, with the number of files that depend on it.
     pub assumptions: Vec<Assumed>,
 }
 

@@ -12,7 +12,7 @@ pub(crate) fn program_char(c: char) -> char {
     match c {
         '\t' => '\t',
         '\u{7F}' => '\u{2421}',
-        // The pictures of the control characters stand in their order.
+        // The pictures of the control characters are in their order.
         '\0'..='\u{1F}' => char::from_u32(0x2400 + u32::from(c)).unwrap_or(REPLACEMENT),
         c if steers(c) => REPLACEMENT,
         c => c,
@@ -42,7 +42,7 @@ pub(crate) fn lines(text: &str) -> Cow<'_, str> {
     })
 }
 
-/// In a message SUB is most likely quoted from a program, where it stands for a byte that is no UTF-8.
+/// In a message SUB is most likely quoted from a program, where it stands for a byte that is not UTF-8.
 fn message_char(c: char) -> char {
     if c == gcheck_syntax::SourceText::STAND_IN { REPLACEMENT } else { program_char(c) }
 }
@@ -52,6 +52,19 @@ fn shown(text: &str, map: impl Fn(char) -> char) -> Cow<'_, str> {
         return Cow::Borrowed(text);
     }
     Cow::Owned(text.replace("\r\n", "\n").chars().map(map).collect())
+}
+
+/// `1,204`.
+pub(crate) fn number(n: usize) -> String {
+    let digits = n.to_string();
+    let mut grouped = String::with_capacity(digits.len() + digits.len() / 3);
+    for (at, digit) in digits.char_indices() {
+        if at > 0 && (digits.len() - at).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
 }
 
 #[cfg(test)]
@@ -66,5 +79,13 @@ mod tests {
         );
         assert_eq!(lines("first\r\nsecond\x07"), "first\nsecond␇");
         assert_eq!(program_char('\x1A'), '␚');
+    }
+
+    #[test]
+    fn numbers_are_grouped() {
+        assert_eq!(
+            [0, 999, 1_000, 12_345, 1_234_567].map(number),
+            ["0", "999", "1,000", "12,345", "1,234,567"]
+        );
     }
 }

@@ -39,7 +39,7 @@ impl Source {
         start..self.position(range.end.max(range.start))
     }
 
-    /// Whether the character at `offset` stands for a byte that is no UTF-8.
+    /// Whether the character at `offset` stands for a byte that is not UTF-8.
     pub(crate) fn is_stand_in(&self, offset: u32) -> bool {
         self.text.replaced().binary_search_by_key(&offset, |(at, _)| *at).is_ok()
     }

@@ -22,12 +22,12 @@ pub(crate) const STRONG: &str = "\x1b[0m\x1b[1m";
 pub(crate) const FRAME: &str = "\x1b[0m\x1b[34m";
 
 /// Start of a text in the colour of a severity.
-pub(crate) fn severity(severity: gcheck_rules::Severity) -> &'static str {
+pub(crate) fn severity(severity: gcheck_diagnostics::Severity) -> &'static str {
     match severity {
-        gcheck_rules::Severity::Error => "\x1b[0m\x1b[1;31m",
-        gcheck_rules::Severity::Warning => "\x1b[0m\x1b[1;33m",
-        gcheck_rules::Severity::Info => "\x1b[0m\x1b[1;36m",
-        gcheck_rules::Severity::Hint => "\x1b[0m\x1b[1;32m",
+        gcheck_diagnostics::Severity::Error => "\x1b[0m\x1b[1;31m",
+        gcheck_diagnostics::Severity::Warning => "\x1b[0m\x1b[1;33m",
+        gcheck_diagnostics::Severity::Info => "\x1b[0m\x1b[1;36m",
+        gcheck_diagnostics::Severity::Hint => "\x1b[0m\x1b[1;32m",
     }
 }
 

@@ -1,11 +1,11 @@
 //! Reports for tests.
 //!
-//! Knows: a few made-up rules, and how to name places by the text that stands there. Must not know: any format.
+//! Knows: a few made-up rules, and how to name places by the text that is there. Must not know: any format.
 
 use std::ops::Range;
 use std::sync::Arc;
 
-use gcheck_rules::{Finding, Mends, RuleMeta, Severity, Tier};
+use gcheck_diagnostics::{Finding, Fixability, RuleMeta, Severity, Tier};
 use gcheck_syntax::SourceText;
 
 use crate::{Colour, ControlChoice, ControlSource, FileReport, Format, Report};
@@ -18,7 +18,7 @@ pub(crate) static FEED_MISSING: RuleMeta = RuleMeta {
     tier: Tier::Block,
     recommended: true,
     other_sets: &[],
-    mends: Mends::Nothing,
+    fixability: Fixability::Never,
     since: "0.1.0",
     aliases: &["no-feed"],
     raw_docs: " A cutting move runs while no feed rate\n is in effect.\n\n ## Why it matters\n The control stops.\n\n\
@@ -33,7 +33,7 @@ pub(crate) static ARC_OFF_CIRCLE: RuleMeta = RuleMeta {
     tier: Tier::Block,
     recommended: true,
     other_sets: &[],
-    mends: Mends::Nothing,
+    fixability: Fixability::Never,
     since: "0.1.0",
     aliases: &[],
     raw_docs: "",
@@ -97,15 +97,15 @@ pub(crate) fn everything() -> Report {
         .alarm(Some("312 FEED".to_owned()))
         .assuming("setting 162 is off")
         .help("write a feed rate, e.g. `F200.`");
-    full.labels.push(gcheck_rules::Label {
+    full.labels.push(gcheck_diagnostics::Label {
         file: Some("sub/O9 1.nc".into()),
         range: 0..2,
         message: "called from here".to_owned(),
     });
-    let full = full.fix(gcheck_rules::Fix::risky("add `F200.`", 30..30, " F200."));
+    let full = full.fix(gcheck_diagnostics::Fix::risky("add `F200.`", 30..30, " F200."));
     let mild = Finding {
         severity: Severity::Info,
-        certainty: gcheck_rules::Certainty::Maybe,
+        certainty: gcheck_diagnostics::Certainty::Maybe,
         ..Finding::new(&ARC_OFF_CIRCLE, at(text, "G2 X20. I5."), "arc may end off the circle")
     };
     let mut first = file("part.nc", text, vec![mild, full]);

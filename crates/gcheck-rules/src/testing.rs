@@ -8,15 +8,16 @@ use std::ops::Range;
 
 use expect_test::Expect;
 use gcheck_controls::LetterSet;
-use gcheck_engine::{Axis, Machine, Position, SourceFile, Tool, WorkOffset};
-use gcheck_geometry::{Mm, MmPerMin, Rpm};
+use gcheck_diagnostics::{DocExample, Finding, RuleMeta, apply};
+use gcheck_engine::{Axis, Dynamics, Machine, Position, SourceFile, Tool, WorkOffset};
+use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
+use gcheck_lint::{
+    Environment, Execution, Job, MachineFacts, NoPrograms, Programs, RuleEntry, Selection, check,
+};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 
-use crate::{
-    DocExample, Execution, Finding, Job, MachineFacts, NoPrograms, Programs, RuleEntry, RuleMeta, Scene,
-    Selection, check,
-};
+use crate::RULES;
 
 /// What a test says about the world around the program.
 pub(crate) struct World<'w> {
@@ -40,11 +41,16 @@ impl Default for World<'_> {
 impl World<'_> {
     /// What the examples of a rule's documentation hold in. Rules of the group `machine` speak only of what is configured:
     /// axes X, Y, Z and A, 8000 turns and 10 m a minute, 500 mm of travel each way, `G54` at the machine's zero, tools 1 to 3,
-    /// rotary axes of diameter 0. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
+    /// rotary axes of diameter 0, 0.01 s for a block and two blocks ahead. Those of the group `bar_feeder` have new bars of 1000 mm, and in another file a program
     /// 9099 that ends the job.
     pub(crate) fn of_examples(rule: &RuleMeta) -> Self {
+        Self::of_group(rule.group)
+    }
+
+    /// What the examples of a group's rules hold in.
+    pub(crate) fn of_group(group: &str) -> Self {
         let mut world = Self::default();
-        if rule.group == "machine" {
+        if group == "machine" {
             let tool = |number: u32| Tool {
                 pocket: number,
                 offset: Position::ZERO,
@@ -64,10 +70,15 @@ impl World<'_> {
                 offsets: [(1, WorkOffset::ZERO)].into_iter().collect(),
                 tools: (1..=3).map(|number| (number, tool(number))).collect(),
                 tool_table_is_complete: true,
+                dynamics: Dynamics {
+                    block_time: Some(Seconds(0.01)),
+                    look_ahead: Some(2),
+                    ..Dynamics::default()
+                },
                 ..Machine::default()
             };
         }
-        if rule.group == "bar_feeder" {
+        if group == "bar_feeder" {
             world.machine.engine.bar.new_bar = Some(Mm(1000.0));
             world.programs = &OtherFile;
         }
@@ -75,8 +86,8 @@ impl World<'_> {
     }
 
     /// The same as rules see it.
-    pub(crate) fn scene<'a>(&'a self, dialect: &'a Dialect<'a>) -> Scene<'a> {
-        Scene {
+    pub(crate) fn environment<'a>(&'a self, dialect: &'a Dialect<'a>) -> Environment<'a> {
+        Environment {
             dialect,
             machine: &self.machine,
             programs: self.programs,
@@ -108,6 +119,16 @@ impl Programs for OtherFile {
     }
 }
 
+/// One rule alone.
+pub(crate) fn only(rule: &RuleEntry) -> Selection {
+    Selection::only(RULES, rule)
+}
+
+/// The recommended rules.
+pub(crate) fn recommended() -> Selection {
+    Selection::recommended(RULES)
+}
+
 /// Findings of a selection of rules on a program.
 pub(crate) fn findings(
     selection: &Selection,
@@ -117,11 +138,11 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
-    let scene = world.scene(&dialect);
+    let environment = world.environment(&dialect);
     let source = SourceText::from(program);
     check(&Job {
         source: &source,
-        scene,
+        environment,
         selection,
         suppressions: world.suppressions,
         execution: Execution::default(),
@@ -142,7 +163,7 @@ pub(crate) fn check_rule_in(
     world: &World<'_>,
     expected: &Expect,
 ) {
-    let found = findings(&Selection::only(rule), control, program, world);
+    let found = findings(&only(rule), control, program, world);
     expected.assert_eq(&found.iter().map(|f| picture(program, f)).collect::<String>());
 }
 
@@ -191,17 +212,13 @@ pub(crate) fn words(finding: &Finding) -> String {
 
 /// The program with a finding's first fix applied.
 pub(crate) fn fixed(program: &str, finding: &Finding) -> String {
-    let mut text = program.to_owned();
-    let mut edits = finding.fixes.first().map(|f| f.edits.clone()).unwrap_or_default();
-    edits.sort_by_key(|e| std::cmp::Reverse(e.range.start));
-    for edit in edits {
-        text.replace_range(edit.range.start as usize..edit.range.end as usize, &edit.text);
-    }
-    text
+    let mut edits = finding.fixes.first().map(|fix| fix.edits.clone()).unwrap_or_default();
+    edits.sort_by_key(|edit| edit.range.start);
+    apply(program, &edits)
 }
 
 /// The program with the first fix of a rule's finding applied; of several findings, a program each. Empty without one.
-pub(crate) fn mended(rule: &RuleEntry, control: &str, program: &str) -> String {
-    let found = findings(&Selection::only(rule), control, program, &World::default());
+pub(crate) fn fixes_of(rule: &RuleEntry, control: &str, program: &str) -> String {
+    let found = findings(&only(rule), control, program, &World::default());
     found.iter().map(|finding| fixed(program, finding)).collect()
 }

@@ -5,9 +5,10 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use gcheck_rules::{RuleSet, by_id};
+use gcheck_diagnostics::RuleSet;
+use gcheck_rules::RULES;
 
-/// Marks of sets behind a rule: it is not on by default.
+/// Marks of sets after a rule: it is not on by default.
 const MARKS: [(char, RuleSet); 3] =
     [('ˢ', RuleSet::Strict), ('ʳ', RuleSet::RestartSafe), ('ʰ', RuleSet::HouseStyle)];
 
@@ -52,7 +53,7 @@ fn rules_of_the_catalogue_exist_and_stand_in_the_sets_that_it_says() {
         // Text, rule, text, rule, …
         while let (Some(_), Some(id)) = (pieces.next(), pieces.clone().next()) {
             pieces.next();
-            let Some(rule) = by_id(id) else {
+            let Some(rule) = RULES.by_id(id) else {
                 wrong.push(format!("{number}: no rule is called `{id}`"));
                 continue;
             };

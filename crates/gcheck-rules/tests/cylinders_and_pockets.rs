@@ -1,5 +1,5 @@
 //! Cylinders and pockets with every word wrong in every way: nothing is called an error that only may be one, and a mistake is
-//! found wherever it stands.
+//! found wherever it is.
 
 #![expect(
     clippy::unwrap_used,
@@ -11,8 +11,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use expect_test::{Expect, expect};
+use gcheck_diagnostics::Severity;
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
-use gcheck_rules::{Execution, Job, MachineFacts, NoPrograms, Scene, Selection, Severity, check};
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 
 /// Errors and warnings of a program, each rule once.
@@ -20,13 +22,17 @@ fn findings(program: &str) -> BTreeSet<String> {
     let control = gcheck_controls::load("haas-mill").unwrap();
     let dialect = Dialect::new(&control);
     let machine = MachineFacts::default();
-    let scene =
-        Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+    let environment = Environment {
+        dialect: &dialect,
+        machine: &machine,
+        programs: &NoPrograms,
+        control_is_guessed: false,
+    };
     let source = SourceText::from(program);
     let outcome = check(&Job {
         source: &source,
-        scene,
-        selection: &Selection::default(),
+        environment,
+        selection: &Selection::recommended(RULES),
         suppressions: false,
         execution: Execution::default(),
     });
@@ -34,7 +40,7 @@ fn findings(program: &str) -> BTreeSet<String> {
     grave.map(|f| format!("{}[{}]", f.severity, f.rule.id)).collect()
 }
 
-/// Where a block stands.
+/// Where a block is.
 const PLACES: [(&str, &str, &str); 4] = [
     ("plain", "", ""),
     ("behind a block skip", "/", ""),
@@ -125,76 +131,76 @@ fn words_of_a_pocket() {
     check_words(
         &words,
         &expect![[r#"
-        P9 missing: error[required-word-missing]
-        P9 twice: warning[word-given-twice]
-        P9 -1.: error[decimal-point-on-integer]
-        P9 0.: error[decimal-point-on-integer]
-        P9 99999.: error[decimal-point-on-integer]
-        P9 ABC: error[unexpected-text]
-        P9 #100: 
-        G41 missing: 
-        G41 twice: 
-        G41 -1.: error[unknown-code]
-        G41 0.: 
-        G41 99999.: error[unknown-code]
-        G41 ABC: error[unexpected-text]
-        G41 #100: 
-        D1 missing: warning[lasting-word-never-given]
-        D1 twice: warning[word-given-twice]
-        D1 -1.: error[decimal-point-on-integer] warning[sign-not-accepted]
-        D1 0.: error[decimal-point-on-integer]
-        D1 99999.: error[decimal-point-on-integer]
-        D1 ABC: error[unexpected-text]
-        D1 #100: 
-        X0. missing: 
-        X0. twice: warning[word-given-twice]
-        X0. -1.: error[pocket-outline-open]
-        X0. 0.: 
-        X0. 99999.: error[pocket-outline-open]
-        X0. ABC: error[unexpected-text]
-        X0. #100: 
-        Y0. missing: 
-        Y0. twice: warning[word-given-twice]
-        Y0. -1.: 
-        Y0. 0.: 
-        Y0. 99999.: error[pocket-start-outside]
-        Y0. ABC: error[unexpected-text]
-        Y0. #100: 
-        Z-.5 missing: warning[cycle-r-below-bottom] warning[required-word-missing]
-        Z-.5 twice: warning[word-given-twice]
-        Z-.5 -1.: 
-        Z-.5 0.: 
-        Z-.5 99999.: warning[cycle-r-below-bottom]
-        Z-.5 ABC: error[unexpected-text]
-        Z-.5 #100: 
-        Q.25 missing: error[required-word-missing]
-        Q.25 twice: warning[word-given-twice]
-        Q.25 -1.: error[number-out-of-range]
-        Q.25 0.: error[number-out-of-range]
-        Q.25 99999.: 
-        Q.25 ABC: error[unexpected-text]
-        Q.25 #100: 
-        R.1 missing: warning[lasting-word-never-given]
-        R.1 twice: warning[word-given-twice]
-        R.1 -1.: warning[cycle-r-below-bottom]
-        R.1 0.: 
-        R.1 99999.: warning[cycle-numbers-contradict]
-        R.1 ABC: error[unexpected-text]
-        R.1 #100: 
-        I.2 missing: error[word-choice-missing]
-        I.2 twice: warning[word-given-twice]
-        I.2 -1.: error[number-out-of-range]
-        I.2 0.: error[number-out-of-range]
-        I.2 99999.: 
-        I.2 ABC: error[unexpected-text]
-        I.2 #100: 
-        K.01 missing: 
-        K.01 twice: warning[word-given-twice]
-        K.01 -1.: error[number-out-of-range]
-        K.01 0.: 
-        K.01 99999.: 
-        K.01 ABC: error[unexpected-text]
-        K.01 #100: 
-    "#]],
+            P9 missing: error[required-word-missing]
+            P9 twice: warning[word-given-twice]
+            P9 -1.: error[decimal-point-on-integer]
+            P9 0.: error[decimal-point-on-integer]
+            P9 99999.: error[decimal-point-on-integer]
+            P9 ABC: error[unexpected-text]
+            P9 #100: 
+            G41 missing: 
+            G41 twice: 
+            G41 -1.: error[unknown-code]
+            G41 0.: 
+            G41 99999.: error[unknown-code]
+            G41 ABC: error[unexpected-text]
+            G41 #100: 
+            D1 missing: warning[lasting-word-never-given]
+            D1 twice: warning[word-given-twice]
+            D1 -1.: error[decimal-point-on-integer] error[sign-not-accepted]
+            D1 0.: error[decimal-point-on-integer]
+            D1 99999.: error[decimal-point-on-integer] error[number-out-of-range]
+            D1 ABC: error[unexpected-text]
+            D1 #100: 
+            X0. missing: 
+            X0. twice: warning[word-given-twice]
+            X0. -1.: error[pocket-outline-open]
+            X0. 0.: 
+            X0. 99999.: error[pocket-outline-open]
+            X0. ABC: error[unexpected-text]
+            X0. #100: 
+            Y0. missing: 
+            Y0. twice: warning[word-given-twice]
+            Y0. -1.: 
+            Y0. 0.: 
+            Y0. 99999.: error[pocket-start-outside]
+            Y0. ABC: error[unexpected-text]
+            Y0. #100: 
+            Z-.5 missing: warning[cycle-r-below-bottom] warning[required-word-missing]
+            Z-.5 twice: warning[word-given-twice]
+            Z-.5 -1.: 
+            Z-.5 0.: 
+            Z-.5 99999.: warning[cycle-r-below-bottom]
+            Z-.5 ABC: error[unexpected-text]
+            Z-.5 #100: 
+            Q.25 missing: error[required-word-missing]
+            Q.25 twice: warning[word-given-twice]
+            Q.25 -1.: error[number-out-of-range]
+            Q.25 0.: error[number-out-of-range]
+            Q.25 99999.: 
+            Q.25 ABC: error[unexpected-text]
+            Q.25 #100: 
+            R.1 missing: warning[lasting-word-never-given]
+            R.1 twice: warning[word-given-twice]
+            R.1 -1.: warning[cycle-r-below-bottom]
+            R.1 0.: 
+            R.1 99999.: warning[cycle-numbers-contradict]
+            R.1 ABC: error[unexpected-text]
+            R.1 #100: 
+            I.2 missing: error[word-choice-missing]
+            I.2 twice: warning[word-given-twice]
+            I.2 -1.: error[number-out-of-range]
+            I.2 0.: error[number-out-of-range]
+            I.2 99999.: 
+            I.2 ABC: error[unexpected-text]
+            I.2 #100: 
+            K.01 missing: 
+            K.01 twice: warning[word-given-twice]
+            K.01 -1.: error[number-out-of-range]
+            K.01 0.: 
+            K.01 99999.: 
+            K.01 ABC: error[unexpected-text]
+            K.01 #100: 
+        "#]],
     );
 }

@@ -5,10 +5,12 @@
 use std::fmt::Write as _;
 
 use expect_test::expect_file;
-use gcheck_program::Dialect;
-use gcheck_rules::{
-    Execution, FixKinds, Job, MachineFacts, Mends, NoPrograms, RuleEntry, Scene, Selection, all, check, mend,
+use gcheck_diagnostics::{FixKinds, Fixability};
+use gcheck_lint::{
+    Environment, Execution, Job, MachineFacts, NoPrograms, RuleEntry, Selection, check, fix_all,
 };
+use gcheck_program::Dialect;
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 
 /// An example with all fixes of one rule in it.
@@ -16,14 +18,20 @@ fn mended(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (S
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let machine = MachineFacts::default();
-    // A rule about suppressions speaks of the silence of other rules.
+    // A rule about suppressions needs other rules that are silenced.
     let is_of_suppressions = rule.meta.group == "suppressions";
-    let selection = if is_of_suppressions { Selection::default() } else { Selection::only(rule) };
-    let mended = mend(SourceText::from(program), kinds, |source| {
-        let scene =
-            Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+    let selection =
+        if is_of_suppressions { Selection::recommended(RULES) } else { Selection::only(RULES, rule) };
+    let mended = fix_all(SourceText::from(program), kinds, |source| {
+        let environment = Environment {
+            dialect: &dialect,
+            machine: &machine,
+            programs: &NoPrograms,
+            control_is_guessed: false,
+        };
         let execution = Execution::default();
-        let mut outcome = check(&Job { source, scene, selection: &selection, suppressions: true, execution });
+        let mut outcome =
+            check(&Job { source, environment, selection: &selection, suppressions: true, execution });
         outcome.findings.retain(|finding| std::ptr::eq(finding.rule, rule.meta));
         outcome
     });
@@ -39,9 +47,9 @@ fn visible(program: &str) -> String {
 #[test]
 fn every_rule_that_mends_mends_its_examples() {
     let mut page = String::new();
-    for rule in all().iter().filter(|rule| rule.meta.mends != Mends::Nothing) {
+    for rule in RULES.iter().filter(|rule| rule.meta.fixability != Fixability::Never) {
         let id = rule.meta.id;
-        let kinds = if rule.meta.mends == Mends::Safely { FixKinds::Safe } else { FixKinds::All };
+        let kinds = if rule.meta.fixability == Fixability::Safely { FixKinds::Safe } else { FixKinds::All };
         let mut is_mended = false;
         for example in rule.meta.examples().iter().filter(|example| example.reported) {
             let (after, count) = mended(rule, &example.code, &example.control, kinds);
@@ -49,7 +57,7 @@ fn every_rule_that_mends_mends_its_examples() {
                 continue;
             }
             is_mended = true;
-            let option = rule.meta.mends.option();
+            let option = rule.meta.fixability.option();
             let _ = writeln!(page, "## {id} ({option}, {})\n", example.control);
             let _ = writeln!(page, "{}--\n{}", visible(&example.code), visible(&after));
             let (again, count) = mended(rule, &after, &example.control, kinds);

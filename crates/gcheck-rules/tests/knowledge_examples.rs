@@ -1,16 +1,18 @@
 //! The knowledge base judged by the rules: every code's example is a block that its own control takes.
 
 use gcheck_controls::Control;
+use gcheck_diagnostics::{Severity, Tier};
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
 use gcheck_program::Dialect;
-use gcheck_rules::{Execution, Job, MachineFacts, NoPrograms, Scene, Selection, Severity, Tier, all, check};
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 
 /// Rules that look at one block. Programs and labels that an example names do not exist, so rules about whole programs
 /// have nothing to say here.
 fn rules_about_blocks() -> Selection {
-    let mut selection = Selection::none();
+    let mut selection = Selection::none(RULES);
     for rule in
-        all().iter().filter(|r| r.meta.recommended && matches!(r.meta.tier, Tier::Token | Tier::Block))
+        RULES.iter().filter(|r| r.meta.recommended && matches!(r.meta.tier, Tier::Token | Tier::Block))
     {
         let known = selection.enable(rule.meta.id);
         assert!(known.is_ok(), "a rule is known by its id");
@@ -22,12 +24,16 @@ fn rules_about_blocks() -> Selection {
 fn findings(control: &Control, selection: &Selection, program: &str) -> Vec<String> {
     let dialect = Dialect::new(control);
     let machine = MachineFacts::default();
-    let scene =
-        Scene { dialect: &dialect, machine: &machine, programs: &NoPrograms, control_is_guessed: false };
+    let environment = Environment {
+        dialect: &dialect,
+        machine: &machine,
+        programs: &NoPrograms,
+        control_is_guessed: false,
+    };
     let source = SourceText::from(program);
     let outcome = check(&Job {
         source: &source,
-        scene,
+        environment,
         selection,
         suppressions: false,
         execution: Execution::default(),

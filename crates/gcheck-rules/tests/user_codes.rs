@@ -4,8 +4,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use gcheck_controls::{CodeNumber, Control, Machine, UserCode};
+use gcheck_diagnostics::Finding;
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, Programs, Selection, check};
 use gcheck_program::Dialect;
-use gcheck_rules::{Execution, Finding, Job, MachineFacts, Programs, Scene, Selection, check};
+use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 
 /// A folder with the program 9010 in it, which changes nothing.
@@ -46,12 +48,14 @@ fn declared(control: &Control) -> Control {
 fn findings(control: &Control, program: &str) -> Vec<Finding> {
     let dialect = Dialect::new(control);
     let machine = MachineFacts::default();
-    let mut selection = Selection::default();
+    let mut selection = Selection::recommended(RULES);
     selection.enable("all").unwrap();
-    let scene = Scene { dialect: &dialect, machine: &machine, programs: &Folder, control_is_guessed: false };
+    let environment =
+        Environment { dialect: &dialect, machine: &machine, programs: &Folder, control_is_guessed: false };
     let source = SourceText::from(program);
     let execution = Execution::default();
-    check(&Job { source: &source, scene, selection: &selection, suppressions: true, execution }).findings
+    check(&Job { source: &source, environment, selection: &selection, suppressions: true, execution })
+        .findings
 }
 
 /// A program in two parts, between which a block is put.
@@ -68,7 +72,7 @@ fn parts(control: &Control) -> (&'static str, &'static str) {
     }
 }
 
-/// Blocks that many rules would speak of, were these codes the control's own or unknown.
+/// Blocks that many rules would report, were these codes the control's own or unknown.
 const BLOCKS: [&str; 10] = [
     "M731",
     "M731 P1.5 Q-2.",

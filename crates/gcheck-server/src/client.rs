@@ -2,7 +2,8 @@
 //!
 //! Knows: capabilities, the names of settings. Must not know: what either is used for.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 use gcheck_ide::InlayOptions;
 use serde::Deserialize;
@@ -32,23 +33,35 @@ pub(crate) struct Abilities {
     pub(crate) symbol_tree: bool,
     pub(crate) location_links: bool,
     pub(crate) snippets: bool,
+    /// Rows of a completion list have a text beside their labels.
+    pub(crate) label_details: bool,
+    /// What all rows of a completion list have in common may be said once: the range that they replace, our data.
+    pub(crate) common_range: bool,
+    pub(crate) common_data: bool,
     pub(crate) markdown_hover: bool,
     pub(crate) action_literals: bool,
     pub(crate) versioned_edits: bool,
     pub(crate) shows_documents: bool,
     pub(crate) folds_lines_only: bool,
+    /// Its command that shows all about a code: `experimental.gcheck.explainCommand`.
+    pub(crate) explain_command: Option<String>,
 }
 
 impl Abilities {
     pub(crate) fn read(params: &InitializeParams) -> Self {
-        let ClientCapabilities { workspace, text_document, window, general, .. } = &params.capabilities;
+        let ClientCapabilities { workspace, text_document, window, general, experimental, .. } =
+            &params.capabilities;
+        let own = experimental.as_ref().and_then(|experimental| experimental.get("gcheck"));
         let workspace = workspace.clone().unwrap_or_default();
         let text = text_document.clone().unwrap_or_default();
         let window = window.clone().unwrap_or_default();
         let encodings = general.as_ref().and_then(|general| general.position_encodings.as_deref());
         let published = text.publish_diagnostics.unwrap_or_default();
         let is = |flag: Option<bool>| flag.unwrap_or(false);
-        let item = text.completion.and_then(|completion| completion.completion_item).unwrap_or_default();
+        let completion = text.completion.unwrap_or_default();
+        let item = completion.completion_item.unwrap_or_default();
+        let common = completion.completion_list.and_then(|list| list.item_defaults).unwrap_or_default();
+        let is_common = |name: &str| common.iter().any(|known| known == name);
         let hover = text.hover.and_then(|hover| hover.content_format);
         Self {
             encoding: Encoding::choose(encodings),
@@ -69,10 +82,17 @@ impl Abilities {
             symbol_tree: is(text.document_symbol.and_then(|s| s.hierarchical_document_symbol_support)),
             location_links: is(text.definition.and_then(|definition| definition.link_support)),
             snippets: is(item.snippet_support),
+            label_details: is(item.label_details_support),
+            common_range: is_common("editRange"),
+            common_data: is_common("data"),
             markdown_hover: hover.is_none_or(|formats| formats.contains(&MarkupKind::Markdown)),
             action_literals: text.code_action.is_some_and(|a| a.code_action_literal_support.is_some()),
             versioned_edits: is(workspace.workspace_edit.and_then(|edit| edit.document_changes)),
             shows_documents: window.show_document.is_some_and(|show| show.support),
+            explain_command: own
+                .and_then(|own| own.get("explainCommand"))
+                .and_then(Value::as_str)
+                .map(str::to_owned),
             folds_lines_only: is(text.folding_range.and_then(|folding| folding.line_folding_only)),
         }
     }
@@ -104,7 +124,19 @@ pub(crate) struct ClientSettings {
     pub(crate) trace: bool,
 }
 
+/// The settings in force where the user has set nothing.
+static DEFAULTS: LazyLock<ClientSettings> = LazyLock::new(|| ClientSettings::read(&Value::Null).0);
+
 impl ClientSettings {
+    /// Of settings for folders and for all (`None`): those of the innermost folder that holds a file, else those for all.
+    pub(crate) fn nearest<'s>(settings: &'s [(Option<PathBuf>, Self)], path: &Path) -> &'s Self {
+        let fitting =
+            settings.iter().filter(|(folder, _)| folder.as_ref().is_none_or(|f| path.starts_with(f)));
+        let nearest =
+            fitting.max_by_key(|(folder, _)| folder.as_ref().map_or(0, |f| f.as_os_str().len() + 1));
+        nearest.map_or(&DEFAULTS, |(_, settings)| settings)
+    }
+
     /// Reads the settings, from the object of `gcheck` or from one that has it. What is not understood is as if it were not
     /// said; the second part says so.
     pub(crate) fn read(value: &Value) -> (Self, Vec<String>) {
@@ -115,7 +147,7 @@ impl ClientSettings {
             None | Some(Value::Null) => None,
             Some(Value::String(text)) => Some(text.trim().to_owned()).filter(|text| !text.is_empty()),
             Some(other) => {
-                complaints.push(format!("the setting `gcheck.{name}` is no text: {other}"));
+                complaints.push(format!("the setting `gcheck.{name}` is not text: {other}"));
                 None
             }
         };
@@ -131,7 +163,7 @@ impl ClientSettings {
         if let Some(name) = &settings.control
             && !gcheck_controls::names().iter().any(|known| known == name)
         {
-            complaints.push(format!("the setting `gcheck.control` names `{name}`, which is no control"));
+            complaints.push(format!("the setting `gcheck.control` names `{name}`, which is not a control"));
             settings.control = None;
         }
         settings.trace = value.pointer("/trace/server").and_then(Value::as_str).is_some_and(|t| t != "off");

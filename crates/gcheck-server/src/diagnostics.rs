@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr as _;
 
 use gcheck_db::Snapshot;
+use gcheck_diagnostics::Severity;
 use gcheck_ide::Diagnostics;
-use gcheck_rules::Severity;
 
 use crate::ConfigurationProblem;
 use crate::client::Abilities;

@@ -18,6 +18,8 @@ use crate::{InForce, OpenPrograms};
 pub(crate) struct Document {
     pub(crate) uri: Uri,
     pub(crate) id: DocumentId,
+    /// Names it as long as it is open.
+    pub(crate) number: u64,
     /// Where it is on disk, or would be.
     pub(crate) path: PathBuf,
     pub(crate) version: i32,
@@ -29,6 +31,8 @@ pub(crate) struct Document {
     pub(crate) clock: Clock,
     /// The user wants to see findings of the text as it is: it was opened, saved, or is analysed while it is typed.
     pub(crate) wants_findings: bool,
+    /// It was changed since it was opened or saved.
+    pub(crate) is_edited: bool,
     /// The clock when findings were published last.
     pub(crate) published: Option<u64>,
     /// The clock when findings of its first lines were worked out ahead of the rest.
@@ -78,7 +82,7 @@ impl Document {
         file_name(&self.path)
     }
 
-    /// The folder it stands in.
+    /// The folder it is in.
     pub(crate) fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(&self.path)
     }

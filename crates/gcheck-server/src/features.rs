@@ -4,6 +4,7 @@
 
 mod changing;
 mod commands;
+mod completing;
 mod looking;
 mod navigating;
 mod own;
@@ -12,12 +13,13 @@ mod structure;
 
 pub(crate) use changing::action_kinds;
 pub(crate) use commands::COMMANDS;
-pub(crate) use own::{ControlEntry, OwnParams, controls};
+pub(crate) use completing::CompletionList;
+pub(crate) use own::{ControlEntry, ExplainParams, OwnParams, controls};
 
 use std::ops::Range;
 
 use gcheck_db::Cancelled;
-use gcheck_rules::Edit;
+use gcheck_diagnostics::Edit;
 
 use crate::documents::Clock;
 use crate::mailbox::Reply;

@@ -1,6 +1,6 @@
 //! Messages in a stream of bytes: a header with the length, an empty line, the body.
 //!
-//! Knows: JSON-RPC's frame, and how to go on behind a broken one. Must not know: methods.
+//! Knows: JSON-RPC's frame, and how to go on after a broken one. Must not know: methods.
 //!
 //! A header that says no length is skipped up to the next one that does; the body of a message is read as it comes, so that
 //! a length that nobody keeps costs no memory.
@@ -23,11 +23,11 @@ pub(crate) enum Incoming {
     Message(Message),
     /// The answer to one of ours.
     Answer(Response),
-    /// Bytes that are no message.
+    /// Bytes that are not a message.
     Malformed(Malformed),
 }
 
-/// Why something is no message.
+/// Why something is not a message.
 #[derive(Debug)]
 pub(crate) struct Malformed {
     /// It was JSON, but no request.
@@ -84,7 +84,7 @@ fn header(from: &mut impl BufRead) -> io::Result<Option<Result<u64, String>>> {
             Some((name, value)) if name.trim().eq_ignore_ascii_case("content-length") => {
                 match value.trim().parse() {
                     Ok(bytes) if bytes <= MOST_BYTES => length = Some(bytes),
-                    _ => strange = Some(format!("`{text}` is no length of a message")),
+                    _ => strange = Some(format!("`{text}` is not the length of a message")),
                 }
             }
             Some((name, _)) if name.trim().eq_ignore_ascii_case("content-type") => {}
@@ -96,16 +96,16 @@ fn header(from: &mut impl BufRead) -> io::Result<Option<Result<u64, String>>> {
 fn message(body: &[u8]) -> Incoming {
     let value: Value = match serde_json::from_slice(body) {
         Ok(value) => value,
-        Err(error) => return Malformed::frame(format!("a message is no JSON: {error}")),
+        Err(error) => return Malformed::frame(format!("a message is not JSON: {error}")),
     };
     let id = value.get("id").cloned();
     let malformed = |reason: String| Incoming::Malformed(Malformed { is_json: true, id: id.clone(), reason });
     if value.get("method").is_some() {
         serde_json::from_value(value)
-            .map_or_else(|error| malformed(format!("a message is no request: {error}")), Incoming::Message)
+            .map_or_else(|error| malformed(format!("a message is not a request: {error}")), Incoming::Message)
     } else if value.get("result").is_some() || value.get("error").is_some() {
         serde_json::from_value(value)
-            .map_or_else(|error| malformed(format!("a message is no answer: {error}")), Incoming::Answer)
+            .map_or_else(|error| malformed(format!("a message is not an answer: {error}")), Incoming::Answer)
     } else {
         malformed("a message has neither method nor result".to_owned())
     }
@@ -175,19 +175,19 @@ mod tests {
         ];
         let stream: String = stream.iter().flat_map(|bad| [bad.as_str(), &good]).collect();
         expect![[r#"
-            malformed, id None: a message is no JSON: EOF while parsing an object at line 1 column 10
+            malformed, id None: a message is not JSON: EOF while parsing an object at line 1 column 10
             message good
-            malformed, id Some(Number(7)): a message is no request: missing field `jsonrpc`
+            malformed, id Some(Number(7)): a message is not a request: missing field `jsonrpc`
             message good
             malformed, id None: a message has neither method nor result
             message good
-            malformed, id None: a message is no JSON: EOF while parsing a value at line 1 column 0
+            malformed, id None: a message is not JSON: EOF while parsing a value at line 1 column 0
             message good
             malformed, id None: the header of a message has no `Content-Length`
             message good
-            malformed, id None: `Content-Length: much` is no length of a message
+            malformed, id None: `Content-Length: much` is not the length of a message
             message good
-            malformed, id None: `Content-Length: 99999999999999` is no length of a message
+            malformed, id None: `Content-Length: 99999999999999` is not the length of a message
             message good
         "#]]
         .assert_eq(&all(stream.as_bytes()));
@@ -198,7 +198,7 @@ mod tests {
         let mut stream = b"Content-Length: 3\r\n\r\n\"\xFF\"".to_vec();
         stream.extend(framed(r#"{"jsonrpc":"2.0","method":"good"}"#).bytes());
         expect![[r#"
-            malformed, id None: a message is no JSON: invalid unicode code point at line 1 column 2
+            malformed, id None: a message is not JSON: invalid unicode code point at line 1 column 2
             message good
         "#]]
         .assert_eq(&all(&stream));

@@ -9,8 +9,11 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use crate::client::Abilities;
-use crate::features::{COMMANDS, ControlEntry, OwnParams, action_kinds, controls};
+use crate::features::{
+    COMMANDS, CompletionList, ControlEntry, ExplainParams, OwnParams, action_kinds, controls,
+};
 use crate::mailbox::{Kind, Mailbox};
+use crate::owner::Owner;
 use crate::parent::Parent;
 #[cfg_attr(
     not(test),
@@ -21,9 +24,35 @@ use crate::proto::*;
 /// The handlers.
 #[derive(Debug)]
 pub(crate) struct Handlers {
-    mailbox: Mailbox,
+    mailbox: Mailbox<Owner>,
     parent: Arc<Parent>,
 }
+
+/// Under which name `textDocument/completion` has its handler: the library's form of the answer has no `itemDefaults`, without
+/// which a list is several times as long.
+const COMPLETION: &str = "gcheck/completion";
+
+/// The message as the service has a handler for it.
+pub(crate) fn as_handled(message: Message) -> Message {
+    let (method, keeps_params) = match message.method() {
+        "textDocument/completion" => (COMPLETION, true),
+        // Some clients always send parameters, an empty object where there are none.
+        CONTROLS => (CONTROLS, false),
+        _ => return message,
+    };
+    let (_, id, params) = message.into_parts();
+    let mut handled = Message::build(method);
+    if let Some(params) = params.filter(|_| keeps_params) {
+        handled = handled.params(params);
+    }
+    match id {
+        Some(id) => handled.id(id).finish(),
+        None => handled.finish(),
+    }
+}
+
+/// The one request without parameters.
+const CONTROLS: &str = "gcheck/controls";
 
 /// What the server tells of itself.
 const NAME: &str = "gcheck";
@@ -31,13 +60,19 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 impl Handlers {
     /// The service with every method.
-    pub(crate) fn service(mailbox: Mailbox, parent: Arc<Parent>) -> (LspService<Self>, impl Sized) {
+    pub(crate) fn service(mailbox: Mailbox<Owner>, parent: Arc<Parent>) -> (LspService<Self>, impl Sized) {
         LspService::build(|_| Self { mailbox, parent })
             .custom_method("gcheck/toolpath", Self::toolpath)
             .custom_method("gcheck/stateAt", Self::state_at)
             .custom_method("gcheck/syntaxTree", Self::syntax_tree)
-            .custom_method("gcheck/controls", Self::controls)
+            .custom_method(CONTROLS, Self::controls)
+            .custom_method("gcheck/explain", Self::explain)
+            .custom_method(COMPLETION, Self::completion_list)
             .finish()
+    }
+
+    async fn completion_list(&self, params: CompletionParams) -> Result<CompletionList> {
+        self.quick("textDocument/completion", move |owner, stop| owner.completion(&params, stop)).await
     }
 
     async fn toolpath(&self, params: OwnParams) -> Result<Value> {
@@ -50,6 +85,10 @@ impl Handlers {
 
     async fn syntax_tree(&self, params: OwnParams) -> Result<String> {
         self.quick("gcheck/syntaxTree", move |owner, _| owner.syntax_tree(&params)).await
+    }
+
+    async fn explain(&self, params: ExplainParams) -> Result<Option<String>> {
+        self.quick("gcheck/explain", move |owner, _| owner.explain(&params)).await
     }
 
     #[expect(clippy::unused_async, reason = "the form of a handler")]
@@ -140,12 +179,12 @@ impl LanguageServer for Handlers {
         self.quick("textDocument/hover", move |owner, stop| owner.hover(&params, stop)).await
     }
 
-    async fn completion(&self, params: CompletionParams) -> Result<Option<CompletionResponse>> {
-        self.quick("textDocument/completion", move |owner, stop| owner.completion(&params, stop)).await
+    async fn completion_resolve(&self, item: CompletionItem) -> Result<CompletionItem> {
+        self.quick("completionItem/resolve", move |owner, _| Ok(owner.resolve_completion(item))).await
     }
 
     async fn signature_help(&self, params: SignatureHelpParams) -> Result<Option<SignatureHelp>> {
-        self.quick("textDocument/signatureHelp", move |owner, _| owner.signature_help(&params)).await
+        self.quick("textDocument/signatureHelp", move |owner, stop| owner.signature_help(&params, stop)).await
     }
 
     async fn document_highlight(
@@ -298,6 +337,7 @@ fn capabilities(abilities: &Abilities) -> ServerCapabilities {
         hover_provider: Some(HoverProviderCapability::Simple(true)),
         completion_provider: Some(CompletionOptions {
             trigger_characters: Some(texts(gcheck_ide::COMPLETION_TRIGGERS)),
+            resolve_provider: Some(true),
             ..CompletionOptions::default()
         }),
         signature_help_provider: Some(SignatureHelpOptions {

@@ -6,21 +6,26 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gcheck_db::Settings;
+use gcheck_lint::RuleTable;
+
+use crate::ProgramText;
 
 /// The surroundings of the server.
 pub trait Host: Send + Sync + 'static {
     /// What is in force for a program.
     fn in_force(&self, program: &ProgramQuery<'_>) -> InForce;
 
-    /// The programs that stand in a folder itself, by path. A folder that cannot be read has none.
+    /// The programs that are in a folder itself, by path. A folder that cannot be read has none.
     fn programs_in(&self, folder: &Path) -> Vec<ProgramFile>;
 
     /// The programs of a folder and of those below it that a check of the folder would read, by path.
     fn programs_below(&self, folder: &Path) -> Vec<ProgramFile>;
 
-    /// The text of a program on disk, with a stand-in of one byte for each byte that is not UTF-8; `None` when it cannot be
-    /// read, is no text, or is gone.
-    fn read(&self, path: &Path) -> Option<String>;
+    /// The text of a program on disk; `None` when it cannot be read, is not a text, or is gone.
+    fn read(&self, path: &Path) -> Option<ProgramText>;
+
+    /// Every rule that there is, for the pages about rules.
+    fn rules(&self) -> RuleTable;
 
     /// Forgets what is known of files: some have changed.
     fn forget(&self);
@@ -45,13 +50,13 @@ pub struct ProgramFile {
 pub struct ProgramQuery<'q> {
     /// Where it is, or would be.
     pub path: &'q Path,
-    /// Its first [`gcheck_rules::EVIDENCE_BYTES`] bytes and the rest of their last line.
+    /// Its first [`gcheck_program::EVIDENCE_BYTES`] bytes and the rest of their last line.
     pub head: &'q str,
     /// The control that the user chose for all programs, in the editor.
     pub control: Option<&'q str>,
     /// The configuration that the user chose for all programs, in the editor.
     pub configuration: Option<&'q Path>,
-    /// Texts that stand in the place of files.
+    /// Texts that replace files.
     pub open: &'q Arc<dyn OpenPrograms>,
 }
 
@@ -66,8 +71,8 @@ pub trait OpenPrograms: Send + Sync {
 /// What is in force for a program.
 #[derive(Debug, Clone)]
 pub struct InForce {
-    /// For the analysis. `None` when the configuration cannot be read: nothing is said of a program whose control and
-    /// machine nobody knows.
+    /// For the analysis. `None` when the configuration cannot be read: there are no findings for a program whose
+    /// control and machine nobody knows.
     pub settings: Option<Settings>,
     /// How the control came about.
     pub choice: Choice,
@@ -95,7 +100,7 @@ pub struct Choice {
 /// Something that is wrong with a configuration.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct ConfigurationProblem {
-    /// The file; `None` for what is no file's fault.
+    /// The file; `None` for what is not a file's fault.
     pub path: Option<PathBuf>,
     /// Line, from 0.
     pub line: u32,

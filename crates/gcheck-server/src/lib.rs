@@ -17,8 +17,10 @@ mod outbox;
 mod owner;
 mod parent;
 mod position;
+mod program_text;
 mod proto;
 mod transport;
 
 pub use host::{Choice, ConfigurationProblem, Host, InForce, OpenPrograms, ProgramFile, ProgramQuery};
+pub use program_text::ProgramText;
 pub use transport::{Ending, serve};

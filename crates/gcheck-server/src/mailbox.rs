@@ -1,6 +1,6 @@
-//! The one channel to the thread that owns everything.
+//! The one channel to the thread that owns everything: tasks in the order in which they come.
 //!
-//! Knows: what waits there, so that work in hand can be given up for it. Must not know: what the work is.
+//! Knows: what waits there, so that current work can be cancelled for it. Must not know: what a task does, and to whom.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -9,35 +9,37 @@ use std::time::Duration;
 
 use tokio::sync::oneshot;
 
-use crate::owner::Owner;
 use crate::proto::{Error, Result};
 
-/// Work for the owner.
-type Work = Box<dyn FnOnce(&mut Owner) + Send>;
-
-/// What kind of work it is, as far as work in hand is concerned.
+/// What kind of task it is, as far as current work is concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Makes what is being worked out stale: edits.
     Change,
-    /// Somebody waits for an answer, or a change is rare enough to wait for one.
+    /// A client waits for an answer, or a change is rare enough to wait for one.
     Question,
     /// The result of work elsewhere.
     Result,
 }
 
-/// A piece of work with its name for the log.
-pub(crate) struct Letter {
+/// Work for the owner `O`, with a name for the log.
+pub(crate) struct Task<O> {
     pub(crate) name: &'static str,
     kind: Kind,
-    pub(crate) work: Work,
+    pub(crate) work: Box<dyn FnOnce(&mut O) + Send>,
 }
 
-/// The way to the owner.
-#[derive(Debug, Clone)]
-pub(crate) struct Mailbox {
-    sender: Sender<Letter>,
+/// The sending end of the channel to the owner `O`.
+#[derive(Debug)]
+pub(crate) struct Mailbox<O> {
+    sender: Sender<Task<O>>,
     waiting: Arc<Waiting>,
+}
+
+impl<O> Clone for Mailbox<O> {
+    fn clone(&self) -> Self {
+        Self { sender: self.sender.clone(), waiting: Arc::clone(&self.waiting) }
+    }
 }
 
 /// How much waits.
@@ -48,12 +50,12 @@ pub(crate) struct Waiting {
 }
 
 impl Waiting {
-    /// Something waits that makes work in hand stale.
+    /// Something waits that makes current work stale.
     pub(crate) fn has_changes(&self) -> bool {
         self.changes.load(Ordering::Acquire) > 0
     }
 
-    /// Somebody waits for an answer.
+    /// A client waits for an answer.
     pub(crate) fn has_questions(&self) -> bool {
         self.questions.load(Ordering::Acquire) > 0
     }
@@ -69,30 +71,25 @@ impl Waiting {
 
 /// The owner's end.
 #[derive(Debug)]
-pub(crate) struct Inbox {
-    receiver: Receiver<Letter>,
+pub(crate) struct Inbox<O> {
+    receiver: Receiver<Task<O>>,
     waiting: Arc<Waiting>,
 }
 
 /// Makes the channel.
-pub(crate) fn mailbox() -> (Mailbox, Inbox) {
+pub(crate) fn mailbox<O>() -> (Mailbox<O>, Inbox<O>) {
     let (sender, receiver) = channel();
     let waiting = Arc::new(Waiting::default());
     (Mailbox { sender, waiting: Arc::clone(&waiting) }, Inbox { receiver, waiting })
 }
 
-impl Mailbox {
-    /// Posts work. With the owner gone there is nobody left to do it.
-    pub(crate) fn post(
-        &self,
-        name: &'static str,
-        kind: Kind,
-        work: impl FnOnce(&mut Owner) + Send + 'static,
-    ) {
+impl<O: 'static> Mailbox<O> {
+    /// Posts a task. It is dropped if the owner is gone.
+    pub(crate) fn post(&self, name: &'static str, kind: Kind, work: impl FnOnce(&mut O) + Send + 'static) {
         if let Some(count) = self.waiting.of(kind) {
             count.fetch_add(1, Ordering::AcqRel);
         }
-        let _ = self.sender.send(Letter { name, kind, work: Box::new(work) });
+        let _ = self.sender.send(Task { name, kind, work: Box::new(work) });
     }
 
     /// Posts a question and waits for its answer.
@@ -101,12 +98,12 @@ impl Mailbox {
     pub(crate) async fn ask<T: Send + 'static>(
         &self,
         name: &'static str,
-        work: impl FnOnce(&mut Owner, Reply<T>) + Send + 'static,
+        work: impl FnOnce(&mut O, Reply<T>) + Send + 'static,
     ) -> Result<T> {
         let (sender, receiver) = oneshot::channel();
         let reply = Reply(sender);
         self.post(name, Kind::Question, move |owner| {
-            // Nobody waits any more for what was cancelled meanwhile.
+            // Nothing waits for a cancelled question.
             if !reply.is_cancelled() {
                 work(owner, reply);
             }
@@ -115,19 +112,22 @@ impl Mailbox {
     }
 }
 
-/// What a request is answered with that met a mistake of our own; the log has its words.
+/// The answer to a request that failed by a bug of gcheck; the log has the message.
 fn own_mistake() -> Error {
     Error { message: "gcheck met a mistake of its own; the log says which".into(), ..Error::internal_error() }
 }
 
-impl Inbox {
-    /// The next letter; `None` when everybody is gone, or nothing came in time.
-    pub(crate) fn next(&self, patience: Duration) -> std::result::Result<Letter, RecvTimeoutError> {
-        let letter = self.receiver.recv_timeout(patience)?;
-        if let Some(count) = self.waiting.of(letter.kind) {
+impl<O> Inbox<O> {
+    /// The next task.
+    ///
+    /// # Errors
+    /// When no task came in time, or every sender is gone.
+    pub(crate) fn next(&self, patience: Duration) -> std::result::Result<Task<O>, RecvTimeoutError> {
+        let task = self.receiver.recv_timeout(patience)?;
+        if let Some(count) = self.waiting.of(task.kind) {
             count.fetch_sub(1, Ordering::AcqRel);
         }
-        Ok(letter)
+        Ok(task)
     }
 
     pub(crate) fn waiting(&self) -> Arc<Waiting> {
@@ -135,19 +135,19 @@ impl Inbox {
     }
 }
 
-/// The way back to who asked.
+/// The way back to the client that asked.
 #[derive(Debug)]
 pub(crate) struct Reply<T>(oneshot::Sender<Result<T>>);
 
 impl<T> Reply<T> {
-    /// Nobody waits any more.
+    /// The client does not wait any more.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.0.is_closed()
     }
 
     /// Answers.
     pub(crate) fn send(self, answer: Result<T>) {
-        // Who has gone away meanwhile needs no answer.
+        // A client that is gone needs no answer.
         let _ = self.0.send(answer);
     }
 }
@@ -167,7 +167,7 @@ impl Workers {
         let receiver = Arc::new(Mutex::new(receiver));
         for _ in 0..WORKERS {
             let receiver = Arc::clone(&receiver);
-            // They end with the process, or when there is nobody left to send them anything.
+            // They end with the process, or when every sender is gone.
             std::thread::spawn(move || {
                 loop {
                     let work = receiver.lock().unwrap_or_else(PoisonError::into_inner).recv();

@@ -1,12 +1,13 @@
-//! The thread that owns everything: documents are edited, settings chosen, findings worked out, one thing after another.
+//! The thread that owns everything: it edits documents, chooses settings and computes findings, one after the other.
 //!
-//! Knows: the order of work, what is stale, when work is given up for something better. Must not know: how features
+//! Knows: the order of work, what is stale, when work is cancelled for something more urgent. Must not know: how features
 //! answer, how messages travel.
 //!
-//! Letters are taken in the order in which they came. Only when none waits are findings worked out, and they are given up
-//! when an edit comes in; so an edit never waits, and no finding of an old text is shown.
+//! Tasks are run in the order in which they came. Findings are computed only while none waits, and that is cancelled when an
+//! edit comes in; so an edit never waits, and no finding of an old text is shown.
 
 mod diagnosing;
+mod disk;
 mod settings;
 mod synchronizing;
 mod workspace;
@@ -19,15 +20,16 @@ use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use gcheck_db::{Database, Settings, Snapshot};
+use gcheck_lint::RuleTable;
 
 use crate::client::{Abilities, ClientSettings};
 use crate::documents::{Document, OpenTexts};
-use crate::mailbox::{Inbox, Letter, Mailbox, Reply, Waiting, Workers};
+use crate::mailbox::{Inbox, Mailbox, Reply, Task, Waiting, Workers};
 use crate::outbox::Outbox;
 use crate::position::Places;
 use crate::proto::{Error, MessageType, Result, Uri};
 use crate::{Host, OpenPrograms};
-use workspace::Disk;
+use disk::Disk;
 
 pub(crate) use settings::Unopened;
 pub(crate) use synchronizing::path_of;
@@ -42,7 +44,7 @@ const PATIENCE: Duration = Duration::from_millis(50);
 #[derive(Debug)]
 pub(crate) struct Owner {
     pub(crate) outbox: Arc<Outbox>,
-    pub(crate) mailbox: Mailbox,
+    pub(crate) mailbox: Mailbox<Self>,
     pub(crate) workers: Workers,
     pub(crate) abilities: Abilities,
     pub(crate) database: Database,
@@ -66,7 +68,7 @@ pub(crate) struct Owner {
     is_ready: bool,
 }
 
-/// The host behind a name of its own, because a trait object has no form to be printed.
+/// The host in a type of its own, because a trait object cannot be printed.
 #[derive(Clone)]
 pub(crate) struct HostHandle(pub(crate) Arc<dyn Host>);
 
@@ -77,7 +79,12 @@ impl std::fmt::Debug for HostHandle {
 }
 
 impl Owner {
-    pub(crate) fn new(host: Arc<dyn Host>, outbox: Arc<Outbox>, mailbox: Mailbox, inbox: &Inbox) -> Self {
+    pub(crate) fn new(
+        host: Arc<dyn Host>,
+        outbox: Arc<Outbox>,
+        mailbox: Mailbox<Self>,
+        inbox: &Inbox<Self>,
+    ) -> Self {
         Self {
             outbox,
             mailbox,
@@ -98,13 +105,13 @@ impl Owner {
         }
     }
 
-    /// Works until nobody is left to post anything.
-    pub(crate) fn run(mut self, inbox: &Inbox) {
+    /// Works until every sender is gone.
+    pub(crate) fn run(mut self, inbox: &Inbox<Self>) {
         loop {
             let next = self.next_to_diagnose();
             let patience = if next.is_some() { Duration::ZERO } else { IDLE };
             match (inbox.next(patience), next) {
-                (Ok(letter), _) => self.open_letter(letter),
+                (Ok(task), _) => self.run_task(task),
                 (Err(RecvTimeoutError::Timeout), Some(uri)) => {
                     if !self.guarded("analysis", |owner| owner.diagnose(&uri)) {
                         self.give_up_on(&uri);
@@ -116,8 +123,8 @@ impl Owner {
         }
     }
 
-    fn open_letter(&mut self, letter: Letter) {
-        let Letter { name, work, .. } = letter;
+    fn run_task(&mut self, task: Task<Self>) {
+        let Task { name, work, .. } = task;
         let start = self.is_traced().then(Instant::now);
         self.guarded(name, work);
         if let Some(start) = start {
@@ -130,7 +137,7 @@ impl Owner {
         self.is_ready && self.client_settings.iter().any(|(_, settings)| settings.trace)
     }
 
-    /// Does work. A panic ends it, and is said; what the work had in hand may be broken and is made anew.
+    /// Does work. A panic ends it and is reported; the data of the work may be broken and is made again.
     fn guarded(&mut self, name: &str, work: impl FnOnce(&mut Self)) -> bool {
         let Err(payload) = catch_unwind(AssertUnwindSafe(|| work(self))) else { return true };
         let text = payload.downcast_ref::<String>().map(String::as_str);
@@ -144,7 +151,7 @@ impl Owner {
         false
     }
 
-    /// Makes the database anew from the texts of the open documents.
+    /// Makes the database again from the texts of the open documents.
     fn rebuild(&mut self) {
         let mut database = Database::new();
         self.disk = Disk::default();
@@ -184,7 +191,7 @@ impl Owner {
         self.database.snapshot(id).ok_or_else(|| not_open(uri))
     }
 
-    /// The same for who asks for survey or outline, which cost little behind an edit.
+    /// The same for who asks for survey or outline, which cost little after an edit.
     pub(crate) fn outlined(&mut self, uri: &Uri) -> Result<Snapshot> {
         let id = self.document(uri)?.id;
         self.database.outlined(id).ok_or_else(|| not_open(uri))
@@ -197,7 +204,7 @@ impl Owner {
 
     /// What the user has set for a document.
     pub(crate) fn client_settings(&self, document: &Document) -> &ClientSettings {
-        settings::nearest(&self.client_settings, &document.path)
+        ClientSettings::nearest(&self.client_settings, &document.path)
     }
 
     /// Changes with files and configuration.
@@ -219,7 +226,7 @@ fn fallback_settings() -> Settings {
     let control = gcheck_controls::load(gcheck_controls::fallback());
     #[expect(clippy::expect_used, reason = "the data of the fallback is built in and read by tests")]
     let control = control.expect("the fallback is a control");
-    Settings { selection: Arc::new(gcheck_rules::Selection::none()), ..Settings::new(control) }
+    Settings::new(control, RuleTable::EMPTY)
 }
 
 pub(crate) fn not_open(uri: &Uri) -> Error {

@@ -84,7 +84,7 @@ impl<'s> Places<'s> {
         Self { snapshot, encoding, last: None }
     }
 
-    /// The position of a byte. One behind the text is its end, one inside a line's end is before it.
+    /// The position of a byte. One after the text is its end, one inside a line's end is before it.
     pub(crate) fn position(&mut self, offset: u32) -> Position {
         let known = self.last.take().filter(|last| last.bytes.start <= offset && offset <= last.bytes.end);
         let mut last = known.unwrap_or_else(|| {
@@ -104,7 +104,7 @@ impl<'s> Places<'s> {
         position
     }
 
-    /// The text between two bytes, where the second may stand inside a character, which is then left out.
+    /// The text between two bytes, where the second may be inside a character, which is then left out.
     fn before(&self, start: u32, end: u32) -> std::borrow::Cow<'s, str> {
         let mut end = end;
         loop {
@@ -122,7 +122,7 @@ impl<'s> Places<'s> {
         proto::Range { start, end: self.position(bytes.end.max(bytes.start)) }
     }
 
-    /// The byte at a position. A column behind a line is its end, a line behind the text is the end of that.
+    /// The byte at a position. A column after a line is its end, a line after the text is the end of that.
     pub(crate) fn offset(&self, position: Position) -> u32 {
         if position.line >= self.snapshot.line_count() {
             return self.snapshot.len();
@@ -150,7 +150,7 @@ mod tests {
     fn snapshot(text: &str) -> Snapshot {
         let control = gcheck_controls::load(gcheck_controls::fallback()).unwrap();
         let mut database = Database::new();
-        let id = database.open(text, Settings::new(control));
+        let id = database.open(text, Settings::new(control, gcheck_rules::RULES));
         database.snapshot(id).unwrap()
     }
 
@@ -252,8 +252,8 @@ mod tests {
         let places = Places::new(&snapshot, Encoding::Utf16);
         let text = |range| &TEXT[places.bytes(range).start as usize..places.bytes(range).end as usize];
         let range = |a, b, c, d| Range::new(Position::new(a, b), Position::new(c, d));
-        assert_eq!(text(range(0, 3, 0, 99)), "X1.", "behind a line is its end");
-        assert_eq!(text(range(2, 0, 99, 0)), "M30\n", "behind the text is its end");
+        assert_eq!(text(range(0, 3, 0, 99)), "X1.", "after a line is its end");
+        assert_eq!(text(range(2, 0, 99, 0)), "M30\n", "after the text is its end");
         assert_eq!(text(range(1, 1, 0, 3)), "X1.\r\n(", "the wrong way round");
         assert_eq!(text(range(1, 6, 1, 7)), "", "half a character is taken for its begin");
         assert_eq!(text(range(1, 6, 1, 8)), "😀");

@@ -17,7 +17,7 @@ use tower_service::Service;
 
 use crate::Host;
 use crate::framing::{self, Incoming, Malformed};
-use crate::handlers::Handlers;
+use crate::handlers::{Handlers, as_handled};
 use crate::mailbox::mailbox;
 use crate::outbox::Outbox;
 use crate::owner::Owner;
@@ -48,7 +48,7 @@ pub enum Ending {
 }
 
 impl Ending {
-    /// The exit code: the protocol wants 1 for `exit` without `shutdown`; that a client vanished is no failure of ours.
+    /// The exit code: the protocol wants 1 for `exit` without `shutdown`; that a client vanished is not a failure of ours.
     pub fn code(self) -> u8 {
         u8::from(self == Self::Abrupt)
     }
@@ -125,7 +125,8 @@ async fn call(service: &mut LspService<Handlers>, message: Message, outbox: &Arc
     }
     // Until these are answered, nothing else may be.
     let is_awaited = matches!(message.method(), "initialize" | "shutdown");
-    let mut answer = service.call(message);
+    let id = message.id().cloned();
+    let mut answer = service.call(as_handled(message));
     let first = poll_fn(|cx| Poll::Ready(answer.as_mut().poll(cx))).await;
     let answered = match first {
         Poll::Ready(answered) => answered,
@@ -140,12 +141,15 @@ async fn call(service: &mut LspService<Handlers>, message: Message, outbox: &Arc
             return false;
         }
     };
-    let Ok(Some(response)) = answered else { return false };
+    let Ok(response) = answered else { return false };
+    // The service passes over unknown methods that begin with `$/`, requests among them; a request is always answered.
+    let unanswered = || Some(Response::from_error(id?, Error::method_not_found()));
+    let Some(response) = response.or_else(unanswered) else { return false };
     outbox.answer(&response);
     response.is_ok()
 }
 
-/// Answers what is no message.
+/// Answers what is not a message.
 fn refuse(outbox: &Outbox, malformed: Malformed) {
     let Malformed { is_json, id, reason } = malformed;
     let id = id.and_then(|id| serde_json::from_value::<Id>(id).ok()).unwrap_or_default();

@@ -1,4 +1,5 @@
-//! A panic anywhere answers its request with an error, is said in the log, and the server lives on with the right text.
+//! A panic anywhere answers its request with an error, is written to the log, and the server lives on with the right
+//! text.
 //!
 //! Knows: a host that panics when it is told to. Must not know: what answers say.
 
@@ -8,8 +9,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use gcheck_db::Settings;
-use gcheck_rules::Programs;
-use gcheck_server::{Choice, Ending, Host, InForce, ProgramFile, ProgramQuery, serve};
+use gcheck_lint::{Programs, RuleTable};
+use gcheck_server::{Choice, Ending, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve};
 use gcheck_testkit::language_client::LanguageClient;
 use serde_json::{Value, json};
 
@@ -35,7 +36,10 @@ impl Host for Fragile {
         assert!(!program.head.contains("PANIC"), "the head holds the word");
         let control = gcheck_controls::load(gcheck_controls::fallback()).unwrap();
         InForce {
-            settings: Some(Settings { programs: Arc::new(FragilePrograms), ..Settings::new(control) }),
+            settings: Some(Settings {
+                programs: Arc::new(FragilePrograms),
+                ..Settings::new(control, gcheck_rules::RULES)
+            }),
             choice: Choice::default(),
             style: None,
             folders: vec![PathBuf::from("/work")],
@@ -52,8 +56,12 @@ impl Host for Fragile {
         Vec::new()
     }
 
-    fn read(&self, _: &Path) -> Option<String> {
+    fn read(&self, _: &Path) -> Option<ProgramText> {
         None
+    }
+
+    fn rules(&self) -> RuleTable {
+        gcheck_rules::RULES
     }
 
     fn forget(&self) {}

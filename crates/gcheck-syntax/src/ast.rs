@@ -1,6 +1,6 @@
 //! Typed views of the tree: what the editor features and fixes walk.
 //!
-//! Knows: which kinds stand where. Must not know: values; a view gives text and ranges.
+//! Knows: which kinds are where. Must not know: values; a view gives text and ranges.
 
 use rowan::{NodeOrToken, TextRange};
 
@@ -66,7 +66,7 @@ impl Block {
         self.0.children_with_tokens().filter_map(Word::cast)
     }
 
-    /// The block delete, wherever it stands.
+    /// The block delete, wherever it is.
     pub fn block_delete(&self) -> Option<BlockDelete> {
         self.0.children().find_map(BlockDelete::cast)
     }
@@ -83,7 +83,7 @@ impl Block {
 }
 
 impl BlockDelete {
-    /// The digit behind the slash.
+    /// The digit after the slash.
     pub fn level(&self) -> Option<u8> {
         let number = self
             .0
@@ -137,7 +137,7 @@ impl Word {
         Some(if first == ':' { 'O' } else { first.to_ascii_uppercase() })
     }
 
-    /// Where the word stands in its chunk.
+    /// Where the word is in its chunk.
     pub fn range(&self) -> TextRange {
         match self {
             Self::Fused(token) => token.text_range(),

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub const MIN_LINES: usize = 128;
 /// Most lines in a chunk: repeated lines give no cuts.
 pub const MAX_LINES: usize = 2_048;
-/// A chunk also ends behind the line that brings it to this many bytes, so that long lines do not make huge chunks.
+/// A chunk also ends after the line that brings it to this many bytes, so that long lines do not make huge chunks.
 const MAX_BYTES: usize = 1 << 20;
 /// A line ends a chunk when its hash has these bits clear: one line in 384, so a mean of about 512 with the minimum.
 const CUT_MASK_ODDS: u32 = 384;
@@ -71,12 +71,12 @@ pub fn line_len(bytes: &[u8]) -> usize {
     }
 }
 
-/// Where the first byte stands that may end a line: one below fourteen, as `\n` and `\r` are, and tabs.
+/// Where the first byte is that may end a line: one below fourteen, as `\n` and `\r` are, and tabs.
 #[inline]
 fn first_line_end(bytes: [u8; 8]) -> Option<usize> {
     const EACH: u64 = 0x0101_0101_0101_0101;
     let bytes = u64::from_le_bytes(bytes);
-    // Taking fourteen away sets the highest bit of a byte below it. What it borrows falls on bytes behind it only.
+    // Taking fourteen away sets the highest bit of a byte below it. What it borrows falls on bytes after it only.
     let low = bytes.wrapping_sub(EACH * 14) & !bytes & (EACH * 0x80);
     (low != 0).then(|| (low.trailing_zeros() / 8) as usize)
 }
@@ -110,7 +110,7 @@ pub struct Document {
 pub struct Changed {
     /// Chunks of the old list that are gone.
     pub old: Range<usize>,
-    /// Chunks of the new list that stand in their place.
+    /// Chunks of the new list that are in their place.
     pub new: Range<usize>,
 }
 
@@ -206,7 +206,7 @@ impl Document {
     }
 }
 
-/// Would this chunk end here even with `next` behind it, or does it only end for want of text?
+/// Would this chunk end here even with `next` after it, or does it only end for want of text?
 fn ends_before(chunk: &str, next: &str) -> bool {
     let mut with_more = Vec::with_capacity(chunk.len() + 1);
     with_more.extend_from_slice(chunk.as_bytes());

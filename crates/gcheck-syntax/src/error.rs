@@ -11,7 +11,7 @@ pub struct SyntaxError {
     pub range: Range<u32>,
 }
 
-/// Kinds of mistakes; `gcheck-rules` gives each its rule and wording.
+/// Kinds of mistakes; `gcheck-rules` has a rule with the wording for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SyntaxErrorKind {
     /// `(` without `)` on its line.
@@ -48,11 +48,11 @@ pub enum SyntaxErrorKind {
     WhileWithoutDo,
     /// `O<name>` without `SUB`, `CALL`, ….
     OWordWithoutKeyword,
-    /// A keyword where none can stand.
+    /// A keyword in the wrong place.
     StrayKeyword,
     /// Characters that no control reads, or that make no sense here.
     Unexpected,
-    /// Text after the end-of-block character that is no block.
+    /// Text after the end-of-block character that is not a block.
     TextAfterEndOfBlock,
     /// A form that other controls have and this one has not.
     Foreign(ForeignForm),

@@ -66,7 +66,7 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
         if tokens.is_empty() {
             return;
         }
-        // `X 1.` and `X1. 5` need the grammar where blanks may stand in numbers, but then a NUMBER or LETTER token is there,
+        // `X 1.` and `X1. 5` need the grammar where blanks may be in numbers, but then a NUMBER or LETTER token is there,
         // and that is not plain.
         if plain {
             sink.start_node(SyntaxKind::BLOCK);
@@ -147,7 +147,7 @@ impl<S: Sink> Parser<'_, S> {
         range.and_then(|r| self.text.get(r)).unwrap_or_default()
     }
 
-    /// Where the token stands that follows `skip` tokens further on, blanks not counted.
+    /// Where the token is that follows `skip` tokens further on, blanks not counted.
     fn index_past_blanks(&self, skip: usize) -> usize {
         let rest = self.tokens.get(self.at + skip..).unwrap_or_default();
         let blanks = rest.iter().take_while(|l| l.token == Token::Whitespace).count();
@@ -165,7 +165,7 @@ impl<S: Sink> Parser<'_, S> {
         self.tokens.get(at).is_some_and(|l| l.token == Token::Number)
     }
 
-    /// Does the number whose first piece is `skip - 1` tokens ahead go on behind blanks: `1 0`, `1 . 5`?
+    /// Does the number whose first piece is `skip - 1` tokens ahead go on after blanks: `1 0`, `1 . 5`?
     fn number_goes_on(&self, skip: usize) -> bool {
         if !self.profile.blanks_in_numbers || !self.has_blank_or_point(self.at + skip) {
             return false;
@@ -178,7 +178,7 @@ impl<S: Sink> Parser<'_, S> {
         self.tokens.get(at).is_some_and(|l| matches!(l.token, Token::Whitespace | Token::Unknown))
     }
 
-    /// `. 5`: a number that begins with a point, a blank behind it.
+    /// `. 5`: a number that begins with a point, a blank after it.
     fn starts_with_point(&self, at: usize) -> bool {
         self.profile.blanks_in_numbers
             && self.is_point(at)
@@ -290,7 +290,7 @@ fn rest_is_not_a_block<S: Sink>(p: &Parser<'_, S>) -> bool {
     !has_word || previous == Token::Letter
 }
 
-/// The rest of a line behind its last end-of-block character.
+/// The rest of a line after its last end-of-block character.
 fn finish_line<S: Sink>(p: &mut Parser<'_, S>) {
     while matches!(p.current(), Some(Token::Whitespace | Token::Comment(_) | Token::Semicolon(_))) {
         comment_or_blank(p);
@@ -396,7 +396,7 @@ fn unexpected<S: Sink>(p: &mut Parser<'_, S>) {
     p.error(SyntaxErrorKind::Unexpected, start..end);
 }
 
-/// Do the tokens at `at` begin a word of prose? `X`, `Y`, `Z` in a row, or a letter with a keyword behind it.
+/// Do the tokens at `at` begin a word of prose? `X`, `Y`, `Z` in a row, or a letter with a keyword after it.
 fn starts_prose<S: Sink>(p: &Parser<'_, S>, at: usize) -> bool {
     let token = |at: usize| p.tokens.get(at).map(|l| l.token);
     match (token(at), token(at + 1)) {
@@ -424,7 +424,7 @@ fn is_keyword(token: Token) -> bool {
         )
 }
 
-/// Text that is no code, as far as it goes, is one mistake: `OFFSET`, `move to start`.
+/// Text that is not a code, as far as it goes, is one mistake: `OFFSET`, `move to start`.
 fn prose<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
     p.sink.start_node(SyntaxKind::ERROR);
@@ -481,7 +481,7 @@ fn block_delete<S: Sink>(p: &mut Parser<'_, S>) {
 
 /// A fused word, or `O100` in front of a keyword.
 fn word<S: Sink>(p: &mut Parser<'_, S>) {
-    // Between `O100` and its keyword stand blanks at most; `N10 IF` is a label and a statement.
+    // Between `O100` and its keyword are blanks at most; `N10 IF` is a label and a statement.
     if p.peek_past_blanks(1).is_some_and(is_o_keyword) && p.is_address_o() {
         o_statement(p);
         return;
@@ -596,7 +596,7 @@ fn starts_operand(token: Token) -> bool {
     )
 }
 
-/// `X#1+2`, `X1.-2`: arithmetic behind a value that is not in brackets.
+/// `X#1+2`, `X1.-2`: arithmetic after a value that is not in brackets.
 fn needs_brackets<S: Sink>(p: &mut Parser<'_, S>) {
     let start = p.offset();
     let mut any = false;
@@ -823,7 +823,7 @@ fn o_tail<S: Sink>(p: &mut Parser<'_, S>, start: u32) {
     match keyword {
         Some(Token::If | Token::ElseIf | Token::While | Token::Repeat) => required_condition(p),
         Some(Token::Call) => {
-            // A comment may stand between two arguments.
+            // There may be a comment between two arguments.
             while let Some(blanks) = blanks_before_argument(p) {
                 for _ in 0..blanks {
                     comment_or_blank(p);
@@ -839,7 +839,7 @@ fn o_tail<S: Sink>(p: &mut Parser<'_, S>, start: u32) {
     }
 }
 
-/// How many blanks and comments stand in front of the next argument of a call, if there is one.
+/// How many blanks and comments are in front of the next argument of a call, if there is one.
 fn blanks_before_argument<S: Sink>(p: &Parser<'_, S>) -> Option<usize> {
     let rest = p.tokens.get(p.at..)?;
     let is_blank = |token: Token| matches!(token, Token::Whitespace | Token::Comment(CommentEnd::Closed));
@@ -862,7 +862,7 @@ fn binding_power(token: Token, profile: SyntaxProfile) -> Option<u8> {
     })
 }
 
-/// An expression; true if it has an operator that stands in no bracket.
+/// An expression; true if it has an operator that is in no bracket.
 fn expression<S: Sink>(p: &mut Parser<'_, S>) -> bool {
     binary(p, 0)
 }
@@ -1018,7 +1018,7 @@ fn group<S: Sink>(p: &mut Parser<'_, S>) {
 
 fn close_group<S: Sink>(p: &mut Parser<'_, S>, open: u32) {
     if p.current() != Some(Token::RBracket) && !p.at_end() {
-        // What stands between the expression and its bracket is one mistake, if the bracket comes at all.
+        // Text between the expression and its bracket is one mistake, if the bracket comes at all.
         let rest = p.tokens.get(p.at..).unwrap_or_default();
         let closes = rest.iter().any(|l| l.token == Token::RBracket);
         if closes {

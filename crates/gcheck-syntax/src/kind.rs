@@ -1,4 +1,4 @@
-//! The names of everything that can stand in a tree.
+//! The names of everything that can be in a tree.
 //!
 //! Knows: names. Must not know: how tokens are recognised (see [`crate::lexer`]) or arranged (see [`crate::grammar`]).
 

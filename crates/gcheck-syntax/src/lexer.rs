@@ -214,7 +214,7 @@ fn semicolon(lexer: &mut logos::Lexer<'_, Token>) -> SemicolonUse {
 }
 
 impl Token {
-    /// The kind under which the token stands in the tree.
+    /// The kind under which the token is in the tree.
     pub(crate) fn kind(self) -> SyntaxKind {
         match self {
             Self::Whitespace => SyntaxKind::WHITESPACE,
@@ -272,7 +272,7 @@ impl Token {
         }
     }
 
-    /// Tokens that mean the same wherever they stand in a block: a line of these needs no grammar.
+    /// Tokens that mean the same wherever they are in a block: a line of these needs no grammar.
     pub(crate) fn is_plain(self) -> bool {
         matches!(self, Self::Word | Self::Whitespace | Self::Newline | Self::Comment(CommentEnd::Closed))
     }
@@ -288,7 +288,7 @@ impl<'t> Lexer<'t> {
         Self { inner: Token::lexer_with_extras(text, mode) }
     }
 
-    /// Goes on `bytes` further behind the last token; no character is cut in two.
+    /// Goes on `bytes` further after the last token; no character is cut in two.
     pub(crate) fn pass_over(&mut self, bytes: u32) {
         self.inner.bump(bytes as usize);
     }

@@ -5,7 +5,7 @@
 /// A program as text in which every offset is an offset into the file's bytes.
 ///
 /// Part programs come from serial lines and old editors: some hold Latin-1 or code page bytes in comments. A byte that is
-/// not UTF-8 stands in [`text`](Self::text) as one [`STAND_IN`](Self::STAND_IN), so that nothing moves; the byte itself is
+/// not UTF-8 is in [`text`](Self::text) as one [`STAND_IN`](Self::STAND_IN), so that nothing moves; the byte itself is
 /// kept aside.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SourceText {
@@ -19,7 +19,7 @@ pub struct SourceText {
 pub struct TooLarge;
 
 impl SourceText {
-    /// Stands for a byte that is no UTF-8: the control character SUB, which no program uses.
+    /// Stands for a byte that is not UTF-8: the control character SUB, which no program uses.
     pub const STAND_IN: char = '\x1A';
 
     /// Longest file in bytes; offsets are `u32`.
@@ -57,7 +57,7 @@ impl SourceText {
         &self.text
     }
 
-    /// Offsets and values of the bytes that are no UTF-8.
+    /// Offsets and values of the bytes that are not UTF-8.
     pub fn replaced(&self) -> &[(u32, u8)] {
         &self.replaced
     }

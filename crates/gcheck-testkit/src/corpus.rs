@@ -25,7 +25,7 @@ pub struct CorpusProgram {
 
 /// The folder of the corpus.
 ///
-/// `GCHECK_CORPUS` names it. Without that, a `corpus` folder with an `index.tsv` that stands next to the checkout, directly
+/// `GCHECK_CORPUS` names it. Without that, a `corpus` folder with an `index.tsv` that is next to the checkout, directly
 /// or one folder down, is taken.
 pub fn folder() -> Option<PathBuf> {
     if let Some(named) = env::var_os("GCHECK_CORPUS") {

@@ -228,7 +228,7 @@ impl LanguageClient {
         self.input = None;
     }
 
-    /// Waits for the server to end; `None` when a signal ended it, or it is no process.
+    /// Waits for the server to end; `None` when a signal ended it, or it is not a process.
     ///
     /// # Panics
     /// When it does not.

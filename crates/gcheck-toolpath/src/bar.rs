@@ -5,7 +5,7 @@
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::statistics::Values;
+use crate::values::Values;
 
 /// Bars beyond these are counted in the sums alone.
 const MOST_BARS: usize = 1_000;
@@ -37,7 +37,7 @@ impl BarFigures {
         match event {
             Event::BarFeed(_) => {
                 self.feeds += 1;
-                // A feed in front of the first part comes behind none.
+                // A feed in front of the first part comes after none.
                 if std::mem::take(&mut self.has_cut) {
                     self.parts += 1;
                     self.of_this_bar += 1;
@@ -61,7 +61,7 @@ impl BarFigures {
         self.feeds > 0
     }
 
-    /// Parts that were finished: bar was fed behind them.
+    /// Parts that were finished: bar was fed after them.
     pub const fn parts(&self) -> u64 {
         self.parts
     }

@@ -43,7 +43,7 @@ impl Default for Start {
 pub enum Ending {
     /// By a block that ends the program.
     Program,
-    /// By the percent sign behind the program.
+    /// By the percent sign after the program.
     Percent,
     /// By a fault.
     Fault,
@@ -162,6 +162,9 @@ impl<W: Write> Canonical<W> {
             }),
             // The interface has nothing for them and the interpreter says nothing.
             Event::Modal(_)
+            | Event::ExactStop
+            | Event::Smoothing(_)
+            | Event::ContourControl { .. }
             | Event::WaitInput { .. }
             | Event::CutterVector(_)
             | Event::Cylinder(_)
@@ -513,7 +516,7 @@ fn integer(out: &mut Vec<u8>, value: i32) {
     whole(out, u64::from(value.unsigned_abs()));
 }
 
-/// A tool number, or what stands for one that nobody knows.
+/// A tool number, or what stands for one that is unknown.
 fn maybe(out: &mut Vec<u8>, number: Option<u32>) {
     match number {
         Some(number) => whole(out, u64::from(number)),

@@ -3,11 +3,12 @@
 //! Knows: when two paths are one however they are cut into blocks, which settings count for which move. Must not know: how acts
 //! come about, how differences are worded.
 //!
-//! Both runs are read with a cursor that may stand inside a move. Of two moves the shorter one decides how far both go on, so
+//! Both runs are read with a cursor that may be inside a move. Of two moves the shorter one decides how far both go on, so
 //! that a line in two pieces, or a circle in four quarters, is the line or the circle.
 
 mod curve;
 mod difference;
+mod same;
 mod stands;
 
 use std::iter::Peekable;
@@ -19,10 +20,9 @@ use crate::trail::{Act, Doing, Driven, Feed, Setting, Stand};
 use curve::Curve;
 
 pub use difference::{Aspect, Difference, Differences, Parting, Place, Value};
+use same::{known_differ, rate_differs};
 
-/// Feeds and speeds that differ by less, as a part of the larger one, are the same: inches are not always whole millimetres.
-const SAME_RATE: f64 = 1e-3;
-/// Acts that stand together and are matched with each other at most.
+/// Acts that are given together and are matched with each other at most.
 const MAX_STANDS: usize = 64;
 
 /// Compares two runs. Paths are the same while they stay within `tolerance` millimetres (degrees on rotary axes) of each other
@@ -54,7 +54,7 @@ struct Cursor<I: Iterator<Item = Act>> {
     acts: Peekable<I>,
     /// The move at hand, as far as it is not done.
     piece: Option<Piece>,
-    /// Where the axes stand.
+    /// Where the axes are.
     at: Position,
     /// An axis has moved. Before that, a move that goes nowhere may be the other side's way from an unknown place.
     started: bool,
@@ -112,7 +112,7 @@ impl<I: Iterator<Item = Act>> Cursor<I> {
         self.piece.is_none() && self.acts.peek().is_none()
     }
 
-    /// Does the next act stand?
+    /// Is the next act one without motion?
     fn stands_next(&mut self) -> bool {
         self.piece.is_none() && self.acts.peek().is_some_and(|act| matches!(act.doing, Doing::Stand(_)))
     }
@@ -131,7 +131,7 @@ impl Piece {
 impl<A: Iterator<Item = Act>, B: Iterator<Item = Act>> Comparison<A, B> {
     fn run(&mut self) {
         loop {
-            // A move that is not done on one side, while the other one stands: what stands there is one-sided.
+            // A move that is not done on one side, while the other one is: what is there is one-sided.
             let mut before_a = self.a.advance(&mut self.found);
             let mut before_b = self.b.advance(&mut self.found);
             if self.a.is_over() != self.b.is_over() {
@@ -300,10 +300,6 @@ fn settings(found: &mut Differences, a: &Piece, b: &Piece) {
     compare(Aspect::Coolant, coolant_differs, [of_a.coolant, of_b.coolant].map(Value::Coolant));
 }
 
-fn known_differ<T: PartialEq>(a: Option<T>, b: Option<T>) -> bool {
-    matches!((a, b), (Some(a), Some(b)) if a != b)
-}
-
 fn feed_differs(a: Feed, b: Feed) -> bool {
     match (a, b) {
         (Feed::PerMinute(a), Feed::PerMinute(b)) | (Feed::PerTurn(a), Feed::PerTurn(b)) => rate_differs(a, b),
@@ -311,11 +307,6 @@ fn feed_differs(a: Feed, b: Feed) -> bool {
             !a.is_nan() && !b.is_nan()
         }
     }
-}
-
-/// An unknown rate differs from nothing.
-fn rate_differs(a: f64, b: f64) -> bool {
-    (a - b).abs() > SAME_RATE * a.abs().max(b.abs())
 }
 
 fn spindle_differs(a: &Setting, b: &Setting) -> bool {

@@ -1,6 +1,6 @@
 //! The move list as comma-separated values.
 //!
-//! Knows: the columns. Must not know: how values come about. An empty cell is a value that nobody knows or that does not
+//! Knows: the columns. Must not know: how values come about. An empty cell is a value that is unknown or does not
 //! apply; text is quoted as RFC 4180 says; numbers are rounded to six decimals.
 
 use std::io::{self, Write};

@@ -1,7 +1,7 @@
 //! The move list as JSON lines: one object a move.
 //!
 //! Knows: names and order of the fields. Must not know: how values come about. Numbers are rounded to six decimals;
-//! `null` is a value that nobody knows or that does not apply.
+//! `null` is a value that is unknown or does not apply.
 
 use std::io::{self, Write};
 
@@ -21,7 +21,7 @@ use crate::time::Timing;
 /// ```
 ///
 /// Under a length along a tilting tool, where pivot and posted length are told, `tip` holds X, Y and Z of the tip.
-/// Arcs have `"arc":{"centre":{…},"normal":{…},"sweep_deg":…}`. Lines that are no moves have `action`, a number named
+/// Arcs have `"arc":{"centre":{…},"normal":{…},"sweep_deg":…}`. Lines that are not moves have `action`, a number named
 /// after what it is (`tool`, `rpm`, …) and `text`, as far as they apply.
 #[derive(Debug)]
 #[must_use = "lines are written when `finish` is called"]

@@ -10,19 +10,23 @@ mod bar;
 mod canonical;
 mod compare;
 mod csv;
+mod estimate;
 mod jsonl;
 mod motion;
 mod number;
 mod placing;
+mod plan;
 pub mod plot;
 mod record;
 mod sink;
+mod slowest;
 mod statistics;
 mod step;
 mod summary;
 mod text;
 mod time;
 mod trail;
+mod values;
 
 pub use bar::BarFigures;
 pub use canonical::{Canonical, Ending, Start};
@@ -30,12 +34,13 @@ pub use compare::{Aspect, Difference, Differences, Parting, Place, Value, compar
 pub use csv::Csv;
 pub use jsonl::JsonLines;
 pub use placing::WorkCoordinates;
+pub use plan::Plan;
 pub use record::Kind;
-pub use statistics::{
-    Assumption, Feeds, MAX_DISTINCT, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted, Values,
-};
+pub use slowest::{MAX_PLACES, Place as SlowPlace};
+pub use statistics::{Assumption, Feeds, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted};
 pub use step::{Beside, Spot, Step, View};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};
 pub use trail::{Act, Doing, Driven, Feed, Move, Setting, Stand, Trail};
+pub use values::{MAX_DISTINCT, Values};

@@ -42,7 +42,7 @@ pub(crate) struct Tracker {
     machine: Position,
     /// Rotation of the work coordinates about Z.
     rotation: Degrees,
-    /// An axis that is wrapped around a cylinder: it stands still, and a rotary axis turns for it.
+    /// An axis that is wrapped around a cylinder: it does not move, and a rotary axis turns for it.
     still: Option<Axis>,
 }
 
@@ -68,6 +68,16 @@ impl Tracker {
     /// The axis whose coordinates are those of an unrolled cylinder: it does not move.
     pub(crate) const fn still(&self) -> Option<Axis> {
         self.still
+    }
+
+    /// Do the work coordinates lie as the axes do?
+    pub(crate) fn is_upright(&self) -> bool {
+        self.rotation.sin_cos().0.abs() <= 0.0 && self.rotation.sin_cos().1 > 0.0
+    }
+
+    /// A point of the work coordinates as the axes see it, but for a shift.
+    pub(crate) fn turned(&self, point: &Position) -> Position {
+        self.moved(&Position::ZERO, &Position::ZERO, point)
     }
 
     /// Calls `each` for every movement of the event, in order.
@@ -267,7 +277,7 @@ pub(crate) enum Cover {
 
 /// What a movement covers, and whether an axis of which nobody knows anything may have moved beside it.
 ///
-/// The length is that of X, Y and Z; of U, V and W when those stand; of the rotary axes when all linear axes stand: this
+/// The length is that of X, Y and Z; of U, V and W when those are; of the rotary axes when all linear axes are: this
 /// is also how feeds are meant.
 pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
     let mut partial = false;

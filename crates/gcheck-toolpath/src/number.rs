@@ -31,7 +31,7 @@ pub(crate) fn fixed(out: &mut Vec<u8>, value: f64, decimals: u8) {
 }
 
 /// Prints the value rounded to `decimals`, without zeros at the end but with one decimal at least, without a negative
-/// zero; `otherwise` for what is no finite number. At most 9 decimals.
+/// zero; `otherwise` for what is not a finite number. At most 9 decimals.
 pub(crate) fn short(out: &mut Vec<u8>, value: f64, decimals: u8, otherwise: &str) {
     if !value.is_finite() {
         out.extend_from_slice(otherwise.as_bytes());
@@ -79,7 +79,7 @@ fn digits(out: &mut Vec<u8>, number: u64, decimals: u8, trim: bool) {
             used += 1;
             continue;
         }
-        // One digit stands before the point.
+        // One digit is before the point.
         if rest == 0 && place > usize::from(decimals) + usize::from(decimals > 0) {
             break;
         }

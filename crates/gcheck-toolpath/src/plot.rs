@@ -340,7 +340,7 @@ fn single(at: &Position) -> [f32; 3] {
     at.xyz().map(|value| value.0 as f32)
 }
 
-/// Smallest and largest coordinates, without the noise of computing; zero on axes that nobody knows.
+/// Smallest and largest coordinates, without the noise of computing; zero on axes that are unknown.
 fn extents(bounds: &Bounds) -> Option<[[f64; 3]; 2]> {
     if bounds.is_empty() {
         return None;

@@ -1,6 +1,6 @@
 //! A line of a move list, before it is text.
 //!
-//! Knows: which events are lines and what stands in them. Must not know: how a line is written.
+//! Knows: which events are lines and what is in them. Must not know: how a line is written.
 
 use gcheck_engine::{Axis, Coolant, Cylinder, Event, FeedMode, Position, Spindle, Stop, Units};
 use gcheck_geometry::{Arc, Plane};

@@ -1,6 +1,6 @@
 //! Lines on their way to a writer.
 //!
-//! Knows: when to hand them on. Must not know: what stands in them.
+//! Knows: when to hand them on. Must not know: what is in them.
 
 use std::io::{self, Write};
 

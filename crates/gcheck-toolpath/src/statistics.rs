@@ -3,30 +3,41 @@
 //! Knows: what is counted, and what cannot be. Must not know: how it is shown ([`crate::Names`] and the summary do that),
 //! what the figures are good for.
 
-use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Units};
+use gcheck_engine::{Axis, Clearing, Event, FeedMode, Position, Spindle, Units};
 use gcheck_geometry::{Bounds, Degrees, Mm, Seconds};
+use gcheck_planner::Shares;
 
 use crate::bar::BarFigures;
+use crate::estimate::{Estimate, Kind as TimeOf, Tag};
 use crate::motion::{Cover, Motion, Way, cover};
+use crate::plan::Plan;
+use crate::slowest::Place as SlowPlace;
 use crate::step::{Step, View};
 use crate::time::{Clock, Timing, Untimed, length};
+use crate::values::Values;
 
-/// More different values of a feed or a speed are not kept one by one.
-pub const MAX_DISTINCT: usize = 32;
 /// More tool sections are added to earlier ones of the same tool.
 pub const MAX_SECTIONS: usize = 1_000;
 /// More work offsets in a section are counted as one.
 const MAX_OFFSETS: usize = 512;
 
-/// Where the time goes.
+/// Where the time goes. What needs a [`Plan`] is zero without one.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Times {
-    /// Moves at feed, threads and probing among them.
+    /// Moves at feed, threads and probing among them, at the feed that the program asks for or the axes allow.
     pub cutting: Seconds,
-    /// Rapid moves.
+    /// Rapid moves at the rapid rates.
     pub rapid: Seconds,
+    /// What speeding up, slowing down and corners add to both.
+    pub acceleration: Seconds,
+    /// Waiting for blocks that the control has not prepared yet.
+    pub starved: Seconds,
+    /// Waiting for the spindle.
+    pub spindle: Seconds,
     /// Standing still.
     pub dwell: Seconds,
+    /// Auxiliary functions.
+    pub auxiliary: Seconds,
     /// Tool changes.
     pub tool_change: Seconds,
 }
@@ -34,67 +45,42 @@ pub struct Times {
 impl Times {
     /// All of it.
     pub fn total(&self) -> Seconds {
-        self.cutting + self.rapid + self.dwell + self.tool_change
-    }
-}
-
-/// Values that occurred: the smallest, the largest, and each while they are few.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Values {
-    /// Ascending, at most [`MAX_DISTINCT`].
-    distinct: Vec<f64>,
-    last: Option<f64>,
-    range: Option<(f64, f64)>,
-    more: bool,
-}
-
-impl Values {
-    pub(crate) fn add(&mut self, value: f64) {
-        // The same value comes again and again.
-        if !value.is_finite() || self.last.is_some_and(|last| last.to_bits() == value.to_bits()) {
-            return;
-        }
-        self.last = Some(value);
-        self.range = Some(self.range.map_or((value, value), |(low, high)| (low.min(value), high.max(value))));
-        let at = self.distinct.partition_point(|known| *known < value);
-        let near = |index: usize| {
-            self.distinct.get(index).is_some_and(|known| (known - value).abs() <= 1e-9 * value.abs())
-        };
-        // Values that differ by the noise of a conversion are one.
-        if near(at) || at.checked_sub(1).is_some_and(near) {
-            return;
-        }
-        if self.distinct.len() < MAX_DISTINCT {
-            self.distinct.insert(at, value);
-        } else {
-            self.more = true;
-        }
+        self.cutting
+            + self.rapid
+            + self.acceleration
+            + self.starved
+            + self.spindle
+            + self.dwell
+            + self.auxiliary
+            + self.tool_change
     }
 
-    fn merge(&mut self, other: &Self) {
-        for value in &other.distinct {
-            self.add(*value);
+    fn add(&mut self, other: &Self) {
+        self.cutting += other.cutting;
+        self.rapid += other.rapid;
+        self.acceleration += other.acceleration;
+        self.starved += other.starved;
+        self.spindle += other.spindle;
+        self.dwell += other.dwell;
+        self.auxiliary += other.auxiliary;
+        self.tool_change += other.tool_change;
+    }
+
+    /// Adds what the planner found for a stretch.
+    fn put(&mut self, kind: TimeOf, shares: &Shares) {
+        match kind {
+            TimeOf::Rapid => self.rapid += shares.run,
+            TimeOf::Cut | TimeOf::Stand => self.cutting += shares.run,
+            TimeOf::Pocket => self.cutting += shares.run + shares.dwell,
         }
-        if let Some((low, high)) = other.range {
-            self.add(low);
-            self.add(high);
+        if kind != TimeOf::Pocket {
+            self.dwell += shares.dwell;
         }
-        self.more |= other.more;
-    }
-
-    /// The values in ascending order; not all of them when [`Self::has_more`].
-    pub fn distinct(&self) -> &[f64] {
-        &self.distinct
-    }
-
-    /// Were there more than are kept?
-    pub const fn has_more(&self) -> bool {
-        self.more
-    }
-
-    /// The smallest and the largest.
-    pub const fn range(&self) -> Option<(f64, f64)> {
-        self.range
+        self.acceleration += shares.acceleration;
+        self.starved += shares.starved;
+        self.spindle += shares.spindle;
+        self.auxiliary += shares.auxiliary;
+        self.tool_change += shares.tool_change;
     }
 }
 
@@ -121,7 +107,7 @@ pub struct OffsetUse {
 /// Moves that are missing in the figures, or partly so.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Unaccounted {
-    /// From or to a point that nobody knows: neither in ways nor in times.
+    /// From or to an unknown point: neither in ways nor in times.
     pub points: u64,
     /// Without a feed, or at feed zero: not in times.
     pub feeds: u64,
@@ -214,10 +200,7 @@ impl Section {
     }
 
     fn merge(&mut self, other: &Self) {
-        self.times.cutting += other.times.cutting;
-        self.times.rapid += other.times.rapid;
-        self.times.dwell += other.times.dwell;
-        self.times.tool_change += other.times.tool_change;
+        self.times.add(&other.times);
         self.rapid += other.rapid;
         self.cutting += other.cutting;
         self.turned += other.turned;
@@ -271,17 +254,18 @@ impl Section {
     }
 }
 
-/// Something taken for granted because nobody said it, and the key of the configuration that would.
+/// Something taken for granted because the configuration does not say it, and the key that would.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assumption {
     /// What is assumed.
     pub text: String,
-    /// The key in `[machine]`.
-    pub key: &'static str,
+    /// The key in `[machine]`; `None` where there is none.
+    pub key: Option<&'static str>,
 }
 
 /// Gathers the figures of a run from its events.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "independent facts, each named")]
 pub struct Statistics {
     view: View,
     clock: Clock,
@@ -294,8 +278,14 @@ pub struct Statistics {
     inch_moves: u64,
     mm_moves: u64,
     rotary_rapids: bool,
+    rotary_moves: bool,
+    spindle_turns: bool,
     bar: BarFigures,
     helices: bool,
+    /// The run as the machine makes it, where that is known.
+    estimate: Option<Estimate>,
+    /// Files in the order in which something happened in them.
+    files: Vec<String>,
 }
 
 impl Statistics {
@@ -311,9 +301,44 @@ impl Statistics {
             inch_moves: 0,
             mm_moves: 0,
             rotary_rapids: false,
+            rotary_moves: false,
+            spindle_turns: false,
             bar: BarFigures::default(),
             helices: false,
+            estimate: None,
+            files: Vec::new(),
         }
+    }
+
+    /// With the times of a machine that accelerates, where enough is known of it. Without this times are a lower bound:
+    /// every move runs at its speed from end to end.
+    #[must_use]
+    pub fn planned(mut self, plan: Option<&Plan>) -> Self {
+        self.estimate = plan.map(|plan| Estimate::new(plan.clone()));
+        self
+    }
+
+    /// To be called when nothing comes any more, and before any figure is asked for.
+    pub fn finish(&mut self) {
+        let Self { estimate, sections, .. } = self;
+        if let Some(estimate) = estimate {
+            estimate.finish(&mut |tag, shares| put(sections, tag, shares));
+        }
+    }
+
+    /// Are the times those of a machine that accelerates? Else they are a lower bound.
+    pub const fn is_planned(&self) -> bool {
+        self.estimate.is_some()
+    }
+
+    /// Where most time is lost, the worst first; at most [`crate::MAX_PLACES`], none without a [`Plan`].
+    pub fn slowest(&self) -> &[SlowPlace] {
+        self.estimate.as_ref().map(Estimate::places).unwrap_or_default()
+    }
+
+    /// Name of a file of [`Self::slowest`].
+    pub fn file(&self, number: u16) -> &str {
+        self.files.get(usize::from(number)).map_or("", String::as_str)
     }
 
     /// Counts an event.
@@ -324,18 +349,48 @@ impl Statistics {
             Event::Dwell(seconds) => {
                 let time = self.clock.still(step);
                 let section = self.section(step);
-                section.times.dwell += time;
                 section.unaccounted.dwells += u64::from(!seconds.is_finite());
+                self.pause(step, TimeOf::Stand, time);
             }
             Event::Cleared(clearing) => self.cleared(step, clearing),
             Event::WorkOffset { number, .. } => self.work = Some(*number),
+            Event::Spindle(turns) => self.spindle_turns |= *turns != Spindle::Stopped,
             Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. } => {
                 let tracker = self.clock.tracker;
                 tracker.motions(step, |motion| self.motion(step, motion));
             }
             event => self.bar.add(event),
         }
+        if self.estimate.is_some() {
+            let tag = self.tag(step, TimeOf::Stand);
+            let surface = self.clock.surface_speed().is_some();
+            let Self { estimate, sections, .. } = self;
+            if let Some(estimate) = estimate {
+                estimate.event(step, surface, tag, &mut |tag, shares| put(sections, tag, shares));
+            }
+        }
         self.clock.after(step);
+    }
+
+    /// Where the time of a step belongs.
+    fn tag(&mut self, step: &Step<'_>, kind: TimeOf) -> Tag {
+        self.section(step);
+        let file = self.files.iter().rposition(|known| known == step.file).unwrap_or_else(|| {
+            self.files.push(step.file.to_owned());
+            self.files.len() - 1
+        });
+        let section = self.current.unwrap_or(0) as u32;
+        Tag { section, file: u16::try_from(file).unwrap_or(u16::MAX), line: step.line, kind }
+    }
+
+    /// The axes do not move for a time.
+    fn pause(&mut self, step: &Step<'_>, kind: TimeOf, time: Seconds) {
+        let tag = self.tag(step, kind);
+        let Self { estimate, sections, .. } = self;
+        match estimate {
+            Some(estimate) => estimate.pause(time, tag, &mut |tag, shares| put(sections, tag, shares)),
+            None => put(sections, tag, &Shares { dwell: time, ..Shares::default() }),
+        }
     }
 
     /// What the bar feeder did.
@@ -397,7 +452,7 @@ impl Statistics {
         self.view
     }
 
-    /// What the times rest on that nobody configured, as far as it mattered.
+    /// What the times rest on that is not configured, as far as it mattered.
     pub fn assumptions(&self) -> Vec<Assumption> {
         let timing = &self.clock.timing;
         let total = self.total();
@@ -408,26 +463,60 @@ impl Statistics {
                 Units::Inch => format!("{} inch/min", rapid.inch()),
                 Units::Mm => format!("{} mm/min", rapid.0),
             };
-            assumptions
-                .push(Assumption { text: format!("rapid moves at {rate} on every axis"), key: "rapid" });
+            assumptions.push(Assumption {
+                text: format!("rapid moves at {rate} on every axis"),
+                key: Some("rapid"),
+            });
         }
         if timing.rotary_assumed && self.rotary_rapids {
             let text = format!("rapid moves of rotary axes at {} deg/min", crate::time::DEFAULT_ROTARY_RAPID);
-            assumptions.push(Assumption { text, key: "rotary_rapid" });
+            assumptions.push(Assumption { text, key: Some("rotary_rapid") });
         }
         if timing.tool_change_assumed && total.times.tool_change > Seconds::ZERO {
             let text = format!("{} s for a tool change", timing.tool_change().0);
-            assumptions.push(Assumption { text, key: "tool_change_seconds" });
+            assumptions.push(Assumption { text, key: Some("tool_change_seconds") });
+        }
+        let Some(plan) = self.estimate.as_ref().map(Estimate::plan) else {
+            if total.moves > 0 {
+                let text = "axes and spindle reach their speed at once: real times are longer";
+                assumptions.push(Assumption { text: text.to_owned(), key: Some("acceleration") });
+            }
+            return assumptions;
+        };
+        if plan.rotary_derived && self.rotary_moves {
+            let text = "rotary axes reach their rapid rate when X does";
+            assumptions.push(Assumption { text: text.to_owned(), key: Some("acceleration") });
+        }
+        if !plan.knows_spindle() && self.spindle_turns {
+            let text = "the spindle reaches its speed at once";
+            assumptions.push(Assumption { text: text.to_owned(), key: Some("spindle_acceleration") });
+        }
+        if plan.control_assumed && total.moves > 0 {
+            let text = "how the control takes corners and rapid moves: its builder does not publish it";
+            assumptions.push(Assumption { text: text.to_owned(), key: None });
         }
         assumptions
+    }
+
+    /// What the control takes to prepare a block; zero where it is not known.
+    pub fn block_time(&self) -> Seconds {
+        self.estimate.as_ref().map_or(Seconds::ZERO, |estimate| estimate.plan().block_time())
     }
 
     fn tool_change(&mut self, step: &Step<'_>, tool: Option<u32>) {
         let time = self.clock.still(step);
         self.begin(tool, true, step);
-        let section = self.section(step);
-        section.times.tool_change += time;
-        section.tool_changes += u64::from(time > Seconds::ZERO);
+        let is_change = self.clock.changes(tool);
+        self.section(step).tool_changes += u64::from(is_change);
+        let tag = self.tag(step, TimeOf::Stand);
+        let Self { estimate, sections, .. } = self;
+        match estimate {
+            Some(estimate) if is_change => {
+                estimate.change(tool, tag, &mut |tag, shares| put(sections, tag, shares));
+            }
+            Some(_) => {}
+            None => put(sections, tag, &Shares { tool_change: time, ..Shares::default() }),
+        }
     }
 
     /// Begins a section, unless the tool is the one of the current section.
@@ -463,14 +552,13 @@ impl Statistics {
         &mut self.sections[at]
     }
 
-    /// A pocket that the control clears: what it comes to is an estimate, and is said to be one.
+    /// A pocket that the control clears: its time is an estimate, and reported as one.
     fn cleared(&mut self, step: &Step<'_>, clearing: &Clearing) {
         let work = self.work;
-        // The way down into a pocket is no hole.
+        // The way down into a pocket is not a hole.
         self.holes = Holes::default();
         let section = self.section(step);
         if clearing.length.is_known() && clearing.seconds.is_finite() {
-            section.times.cutting += clearing.seconds;
             section.cutting += clearing.length;
             section.estimated += clearing.seconds;
         } else {
@@ -484,6 +572,8 @@ impl Statistics {
         }
         section.offset(work).include_bounds(&extents);
         section.cut.include_bounds(&extents);
+        let time = self.clock.still(step);
+        self.pause(step, TimeOf::Pocket, time);
     }
 
     fn motion(&mut self, step: &Step<'_>, motion: &Motion) {
@@ -499,7 +589,9 @@ impl Statistics {
         let machine_arc = motion.arc.map(|arc| (arc, self.clock.tracker.machine_arc(motion, &arc)));
         let (view, work) = (self.view, self.work);
         let rapid = motion.way == Way::Rapid;
-        self.rotary_rapids |= rapid && turns(motion);
+        let turned = turns(motion);
+        self.rotary_rapids |= rapid && turned;
+        self.rotary_moves |= turned;
         if !rapid {
             self.bar.cut();
         }
@@ -514,8 +606,7 @@ impl Statistics {
             partial && covered != Cover::Unknown && view.axes().any(|axis| never_known(motion, axis)),
         );
         match time {
-            Ok(seconds) if rapid => section.times.rapid += seconds,
-            Ok(seconds) => section.times.cutting += seconds,
+            Ok(_) => {}
             Err(Untimed::Point) => section.unaccounted.points += 1,
             Err(Untimed::Feed) => section.unaccounted.feeds += 1,
             Err(Untimed::Speed) => section.unaccounted.speeds += 1,
@@ -561,6 +652,34 @@ impl Statistics {
             Some((_, None)) => section.unaccounted.arcs_by_ends += 1,
             None => {}
         }
+        self.time(step, motion, time);
+    }
+
+    /// The time of a movement, which takes `asked` at the speed that the program asks for.
+    fn time(&mut self, step: &Step<'_>, motion: &Motion, asked: Result<Seconds, Untimed>) {
+        let kind = if motion.way == Way::Rapid { TimeOf::Rapid } else { TimeOf::Cut };
+        let tag = self.tag(step, kind);
+        let tracker = self.clock.tracker;
+        let Self { estimate, sections, .. } = self;
+        match estimate {
+            Some(estimate) => {
+                let asked = asked.ok();
+                estimate.motion(step, &tracker, motion, asked, tag, &mut |tag, shares| {
+                    put(sections, tag, shares);
+                });
+            }
+            None => {
+                if let Ok(run) = asked {
+                    put(sections, tag, &Shares { run, ..Shares::default() });
+                }
+            }
+        }
+    }
+}
+
+fn put(sections: &mut [Section], tag: Tag, shares: &Shares) {
+    if let Some(section) = sections.get_mut(tag.section as usize) {
+        section.times.put(tag.kind, shares);
     }
 }
 

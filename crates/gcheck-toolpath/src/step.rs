@@ -23,8 +23,8 @@ pub struct Step<'a> {
     pub feed_mode: FeedMode,
     /// Feed in effect: millimetres a minute, millimetres a turn or moves a minute, as `feed_mode` says. NaN unknown.
     pub feed: f64,
-    /// Turns of the spindle a minute, 0 when it stands. NaN unknown. Under constant surface speed it is not looked at: it
-    /// follows from the events of the spindle and from X.
+    /// Turns of the spindle a minute, 0 when it is stopped. NaN unknown. Under constant surface speed it is not looked
+    /// at: it follows from the events of the spindle and from X.
     pub rpm: f64,
     /// Machine coordinates after the event; NaN unknown.
     pub machine: Position,
@@ -34,7 +34,7 @@ pub struct Step<'a> {
     pub h: Option<u32>,
     /// Number of the cutter offset that was called last; `None` unknown.
     pub d: Option<u32>,
-    /// Why the axes stand beside the programmed point, where a reader is told both.
+    /// Why the axes are beside the programmed point, where a reader is told both.
     pub beside: Option<Beside>,
     /// Name of the file that holds the block.
     pub file: &'a str,
@@ -87,7 +87,7 @@ fn tool(value: &ConcreteValue) -> Option<u32> {
     Concrete::known(value).filter(|number| *number >= 0.0).map(|number| number.round() as u32)
 }
 
-/// Turns of the spindle, or of the live tool that stands in for it.
+/// Turns of the spindle, or of the live tool that replaces it.
 fn turns(state: &State<Concrete>) -> f64 {
     match (state.spindle(), state.live_tool()) {
         (Some(Spindle::Stopped), Truth::False) => 0.0,
@@ -106,12 +106,12 @@ fn machine(state: &State<Concrete>, model: &Model<'_>, event: &Event) -> Positio
     }
 }
 
-/// Why the axes stand elsewhere than the programmed point says.
+/// Why the axes are elsewhere than the programmed point says.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beside {
     /// A length is added along a tilting tool: the programmed point is the one that was posted.
     AlongTool {
-        /// Where the tip is, in the coordinates of the programmed point; `None` when that cannot be said.
+        /// Where the tip is, in the coordinates of the programmed point; `None` when that is unknown.
         tip: Option<[Mm; 3]>,
     },
     /// The path is shifted along a vector by the size of the cutter.

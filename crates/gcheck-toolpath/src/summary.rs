@@ -6,12 +6,15 @@ use std::fmt::Write as _;
 
 use gcheck_engine::{Axis, Units};
 use gcheck_geometry::{Bounds, Seconds};
+use gcheck_planner::Cause;
 use serde::Serialize;
 
 use crate::bar::BarFigures;
 use crate::number::rounded;
-use crate::statistics::{Section, Statistics, Unaccounted, Values};
+use crate::slowest::Place;
+use crate::statistics::{Section, Statistics, Unaccounted};
 use crate::step::{View, in_units};
+use crate::values::Values;
 
 /// Names that only the caller knows.
 #[derive(Clone, Copy)]
@@ -44,18 +47,27 @@ impl Names<'_> {
 
 /// How long comments of tools may be in the table.
 const COMMENT_WIDTH: usize = 28;
+/// Places that lose less are not worth a line.
+const LEAST_LOSS: Seconds = Seconds(0.05);
 
 impl Statistics {
     /// The figures as text, in the units that most moves were written in.
     pub fn to_text(&self, names: &Names<'_>) -> String {
         let total = self.total();
-        let table = Table { names, view: self.view(), units: self.units(), total: &total };
+        let table = Table {
+            is_planned: self.is_planned(),
+            names,
+            view: self.view(),
+            units: self.units(),
+            total: &total,
+        };
         let mut out = String::new();
         table.headline(&mut out);
         if total.moves > 0 || total.tool_changes > 0 {
             table.tools(&mut out, self.sections());
             table.extents(&mut out, self.sections());
         }
+        table.slowest(&mut out, self);
         table.bar(&mut out, self.bar());
         table.missing(&mut out);
         table.assumed(&mut out, self);
@@ -77,7 +89,22 @@ impl Statistics {
                 Units::Mm => "mm",
             },
             x_is_diameter: view.has_diameters(),
+            times: if self.is_planned() { "estimate" } else { "lower-bound" },
             total: figures(&total),
+            slowest: self
+                .slowest()
+                .iter()
+                .map(|place| json::Slow {
+                    file: self.file(place.file).to_owned(),
+                    line: place.lines.0,
+                    last_line: place.lines.1,
+                    cause: cause(place.cause),
+                    lost_seconds: rounded(place.lost.0),
+                    seconds: rounded(place.taken.0),
+                    moves: place.moves,
+                    length: rounded(in_units(Axis::X, place.way, units)),
+                })
+                .collect(),
             bar: self.bar().is_used().then(|| json::BarJob::of(self.bar(), total.times.total(), units)),
             tools: self
                 .sections()
@@ -101,6 +128,7 @@ impl Statistics {
 }
 
 struct Table<'a> {
+    is_planned: bool,
     names: &'a Names<'a>,
     view: View,
     units: Units,
@@ -112,8 +140,17 @@ impl Table<'_> {
         let times = &self.total.times;
         let all = times.total();
         let unit = if self.has_hours() { "h" } else { "min" };
-        let _ = write!(out, "cycle time {} {unit}", self.time(all));
-        let parts = [("cutting", times.cutting), ("rapid", times.rapid), ("dwell", times.dwell)];
+        let kind = if self.is_planned { "estimate" } else { "lower bound" };
+        let _ = write!(out, "cycle time {} {unit} ({kind})", self.time(all));
+        let parts = [
+            ("cutting", times.cutting),
+            ("rapid", times.rapid),
+            ("acceleration", times.acceleration),
+            ("data starved", times.starved),
+            ("spindle", times.spindle),
+            ("auxiliary functions", times.auxiliary),
+            ("dwell", times.dwell),
+        ];
         for (index, (name, time)) in parts.into_iter().filter(|(_, time)| *time > Seconds::ZERO).enumerate() {
             let _ = write!(out, "{} {name} {}", if index == 0 { ":" } else { "," }, self.time(time));
             if all > Seconds::ZERO && all.is_finite() {
@@ -154,6 +191,10 @@ impl Table<'_> {
                 "time",
                 "cutting",
                 "rapid",
+                "accel",
+                "starved",
+                "spindle",
+                "aux",
                 "dwell",
                 "change",
                 &format!("cut {unit}"),
@@ -173,8 +214,8 @@ impl Table<'_> {
         }
         out.push('\n');
         // Tool, comment, feed and speed are words; the rest are numbers.
-        let mut right = [true; 13];
-        for column in [0, 1, 9, 10] {
+        let mut right = [true; 17];
+        for column in [0, 1, 13, 14] {
             if let Some(right) = right.get_mut(column) {
                 *right = false;
             }
@@ -182,7 +223,7 @@ impl Table<'_> {
         columns(out, &rows, &right);
     }
 
-    fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 13] {
+    fn row(&self, tool: String, comment: Option<String>, section: &Section) -> [String; 17] {
         let way = |mm: f64| {
             let way = mm / self.units.in_mm();
             if self.units == Units::Inch { format!("{way:.1}") } else { format!("{way:.0}") }
@@ -201,6 +242,10 @@ impl Table<'_> {
             self.time(section.times.total()),
             self.time(section.times.cutting),
             self.time(section.times.rapid),
+            some(section.times.acceleration),
+            some(section.times.starved),
+            some(section.times.spindle),
+            some(section.times.auxiliary),
             some(section.times.dwell),
             some(section.times.tool_change),
             way(section.cutting.0),
@@ -285,6 +330,40 @@ impl Table<'_> {
                 _ => text,
             }
         })
+    }
+
+    /// Where most time is lost.
+    fn slowest(&self, out: &mut String, statistics: &Statistics) {
+        let several = statistics.slowest().iter().any(|place| place.file > 0);
+        let lines: Vec<String> = statistics
+            .slowest()
+            .iter()
+            .filter(|place| place.lost >= LEAST_LOSS)
+            .map(|place| {
+                let (first, last) = place.lines;
+                let mut text =
+                    if first == last { format!("line {first}") } else { format!("lines {first} to {last}") };
+                if several {
+                    let _ = write!(text, " of {}", statistics.file(place.file));
+                }
+                let _ = write!(
+                    text,
+                    ": {} of {} lost, {}",
+                    clock(place.lost, false),
+                    clock(place.taken, false),
+                    because(place, statistics.block_time())
+                );
+                #[expect(clippy::cast_precision_loss, reason = "far fewer moves than 2^53")]
+                if place.moves > 1 {
+                    let way = place.way / place.moves as f64;
+                    let unit = if self.units == Units::Inch { "inch" } else { "mm" };
+                    let way = plain(in_units(Axis::X, way, self.units));
+                    let _ = write!(text, "; {} moves of {way} {unit} on the average", place.moves);
+                }
+                text
+            })
+            .collect();
+        list(out, "slowest places", &lines);
     }
 
     /// Parts, bars and what is left of them.
@@ -375,7 +454,10 @@ impl Table<'_> {
         let mut lines: Vec<String> = statistics
             .assumptions()
             .into_iter()
-            .map(|assumption| format!("{} (set machine.{})", assumption.text, assumption.key))
+            .map(|assumption| match assumption.key {
+                Some(key) => format!("{} (set machine.{key})", assumption.text),
+                None => assumption.text,
+            })
             .collect();
         if self.total.estimated > Seconds::ZERO {
             lines.push(format!(
@@ -387,18 +469,45 @@ impl Table<'_> {
             && let Some(percent) = statistics.feed_override()
         {
             lines.push(format!(
-                "the feed override stands at {percent} %: it does not count for rapid moves, threads and taps"
+                "the feed override is at {percent} %: it does not count for rapid moves, threads and taps"
             ));
-        }
-        if self.total.moves > 0 {
-            lines.push("axes and spindle reach their speed at once: real times are longer".to_owned());
         }
         list(out, "assumed", &lines);
     }
 }
 
+/// Why time is lost at a place.
+fn because(place: &Place, block_time: Seconds) -> String {
+    match place.cause {
+        Cause::Starved => {
+            #[expect(clippy::cast_precision_loss, reason = "far fewer moves than 2^53")]
+            let asked = place.moves as f64 / (place.taken - place.lost).0;
+            format!("data starved: {asked:.0} blocks/s, and the control prepares {:.0}", 1.0 / block_time.0)
+        }
+        Cause::Axis => "an axis is slower than the feed".to_owned(),
+        Cause::Turn => "arcs too tight for the feed".to_owned(),
+        Cause::Stop => "the axes stop after each move".to_owned(),
+        Cause::Corner => "corners, and moves too short for the feed".to_owned(),
+        Cause::Spindle => "the spindle is waited for".to_owned(),
+        Cause::None => String::new(),
+    }
+}
+
+/// The cause, for other programs.
+const fn cause(cause: Cause) -> &'static str {
+    match cause {
+        Cause::None => "none",
+        Cause::Starved => "data-starved",
+        Cause::Axis => "axis-speed",
+        Cause::Turn => "tight-arc",
+        Cause::Stop => "stop",
+        Cause::Corner => "corner",
+        Cause::Spindle => "spindle",
+    }
+}
+
 fn per_part(bar: &BarFigures, time: Seconds) -> Option<Seconds> {
-    #[expect(clippy::cast_precision_loss, reason = "nobody makes so many parts")]
+    #[expect(clippy::cast_precision_loss, reason = "far fewer parts than 2^53")]
     let parts = bar.parts() as f64;
     (parts > 0.0).then(|| Seconds(time.0 / parts))
 }
@@ -487,12 +596,30 @@ mod json {
     pub(super) struct Whole<'a> {
         pub(super) units: &'static str,
         pub(super) x_is_diameter: bool,
+        /// `estimate`, or `lower-bound` where the acceleration of the machine is not known.
+        pub(super) times: &'static str,
         pub(super) total: Figures,
+        /// Where most time is lost, the worst first; empty for a lower bound.
+        pub(super) slowest: Vec<Slow>,
         /// Only with a bar feeder.
         #[serde(skip_serializing_if = "Option::is_none")]
         pub(super) bar: Option<BarJob>,
         pub(super) tools: Vec<Tool<'a>>,
         pub(super) assumptions: Vec<Assumed>,
+    }
+
+    #[derive(Serialize)]
+    pub(super) struct Slow {
+        pub(super) file: String,
+        pub(super) line: u32,
+        pub(super) last_line: u32,
+        pub(super) cause: &'static str,
+        /// Beyond what the same moves take at the speed that was asked for.
+        pub(super) lost_seconds: Option<f64>,
+        pub(super) seconds: Option<f64>,
+        pub(super) moves: u64,
+        /// Way of these moves.
+        pub(super) length: Option<f64>,
     }
 
     #[derive(Serialize)]
@@ -522,7 +649,7 @@ mod json {
     #[derive(Serialize)]
     pub(super) struct Assumed {
         pub(super) text: String,
-        pub(super) key: &'static str,
+        pub(super) key: Option<&'static str>,
     }
 
     #[derive(Serialize)]
@@ -557,6 +684,13 @@ mod json {
         total: Option<f64>,
         cutting: Option<f64>,
         rapid: Option<f64>,
+        /// Speeding up, slowing down, corners.
+        acceleration: Option<f64>,
+        /// Waiting for blocks that the control has not prepared yet.
+        starved: Option<f64>,
+        /// Waiting for the spindle.
+        spindle: Option<f64>,
+        auxiliary: Option<f64>,
         dwell: Option<f64>,
         tool_change: Option<f64>,
         /// The part of `cutting` that is an estimate: pockets that the control clears by a path of its own.
@@ -641,6 +775,10 @@ mod json {
                     total: rounded(section.times.total().0),
                     cutting: rounded(section.times.cutting.0),
                     rapid: rounded(section.times.rapid.0),
+                    acceleration: rounded(section.times.acceleration.0),
+                    starved: rounded(section.times.starved.0),
+                    spindle: rounded(section.times.spindle.0),
+                    auxiliary: rounded(section.times.auxiliary.0),
                     dwell: rounded(section.times.dwell.0),
                     tool_change: rounded(section.times.tool_change.0),
                     estimated: rounded(section.estimated.0),

@@ -41,7 +41,7 @@ impl<W: Write> Text<W> {
         }
     }
 
-    /// Prints the lines of one event, if it has any. A heading stands before the first line and wherever file or units
+    /// Prints the lines of one event, if it has any. A heading is before the first line and wherever file or units
     /// change.
     pub fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
         let Self { sink, recorder, view, file, units, cell } = self;

@@ -57,7 +57,17 @@ impl Timing {
 
     /// Of a control with a machine: its rates, and how it measures the feed of helices.
     pub fn of_machine(model: &Model<'_>, machine: &Machine) -> Self {
-        let timing = Self::new(machine.rapid, machine.tool_change);
+        let dynamics = &machine.dynamics;
+        let mut timing = Self::new(machine.rapid, machine.tool_change);
+        if let Some(rate) = dynamics.rotary_rapid {
+            timing = timing.with_rotary_rapid(rate);
+        }
+        for (axis, rate) in &dynamics.rapid {
+            timing = timing.with_axis_rapid(*axis, *rate);
+        }
+        if let Some(percent) = dynamics.feed_override {
+            timing = timing.with_feed_override(percent);
+        }
         if model.feeds_helix_by_circle(&machine.settings) { timing.with_helix_by_circle() } else { timing }
     }
 
@@ -117,6 +127,11 @@ impl Timing {
         MmPerMin(self.rapid.first().copied().unwrap_or(DEFAULT_RAPID.0))
     }
 
+    /// Rapid rate of an axis, millimetres or degrees a minute.
+    pub(crate) fn axis_rapid(&self, axis: Axis) -> f64 {
+        self.rapid.get(axis.index()).copied().unwrap_or(DEFAULT_RAPID.0)
+    }
+
     /// Every axis runs at its own rate; the movement is over when the last one has arrived.
     fn rapid_seconds(&self, from: &Position, to: &Position, still: Option<Axis>) -> f64 {
         let times = Axis::ALL.into_iter().zip(self.rapid).filter(|(axis, _)| Some(*axis) != still);
@@ -132,7 +147,7 @@ impl Timing {
 /// Why a movement has no time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Untimed {
-    /// It starts or ends at a point that nobody knows.
+    /// It starts or ends at an unknown point.
     Point,
     /// No feed, an unknown one, or zero.
     Feed,
@@ -206,9 +221,14 @@ impl Clock {
         match step.event {
             Event::Dwell(seconds) if seconds.is_finite() => Seconds(seconds.0.max(0.0)),
             Event::Cleared(clearing) if clearing.seconds.is_finite() => Seconds(clearing.seconds.0.max(0.0)),
-            Event::ToolChange(tool) if tool.is_none() || *tool != self.tool => self.timing.tool_change,
+            Event::ToolChange(tool) if self.changes(*tool) => self.timing.tool_change,
             _ => Seconds::ZERO,
         }
+    }
+
+    /// Is this another tool than the one in the spindle?
+    pub(crate) fn changes(&self, tool: Option<u32>) -> bool {
+        tool.is_none() || tool != self.tool
     }
 
     /// Surface speed in metres a minute, when that is what `S` means.

@@ -1,4 +1,4 @@
-//! The acts of a run as they are compared: every move with the setting it is made in, and what happens while the axes stand.
+//! The acts of a run as they are compared: every move with the setting it is made in, and what happens while the axes do not move.
 //!
 //! Knows: what of a run makes a difference on the machine. Must not know: how two runs are held against each other.
 
@@ -31,7 +31,7 @@ pub struct Act {
 pub enum Doing {
     /// Axes move.
     Move(Move),
-    /// Something happens while they stand.
+    /// Something happens while they do not move.
     Stand(Stand),
 }
 
@@ -61,7 +61,7 @@ pub enum Driven {
     Tap,
 }
 
-/// What happens while the axes stand.
+/// What happens while the axes do not move.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Stand {
     /// Standing still for this many seconds; NaN unknown.

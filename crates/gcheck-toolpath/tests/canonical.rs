@@ -1,5 +1,5 @@
 //! Every event as canonical functions. The expectations are what the reference interpreter (2.9) printed for the program
-//! that stands above each, without its comments.
+//! that is above each, without its comments.
 
 mod step_maker;
 
@@ -441,7 +441,7 @@ fn stops_outputs_and_messages() {
     );
 }
 
-/// What the interpreter does not have: comments, which comparisons leave out, and numbers that nobody knows.
+/// What the interpreter does not have: comments, which comparisons leave out, and numbers that are unknown.
 #[test]
 fn beyond_the_interface() {
     let mut run = Run::new();

@@ -192,7 +192,7 @@ fn curves_are_their_pieces() {
     "#]].assert_eq(&run.jsonl(View::new(&[Axis::X, Axis::Y])));
 }
 
-/// Axes that stand beside the point which the program wrote: a reader is told both, and the tip where it is known.
+/// Axes that are beside the point which the program wrote: a reader is told both, and the tip where it is known.
 #[test]
 fn points_beside_the_programmed_one() {
     let mut run = Run::new();

@@ -136,7 +136,7 @@ fn around_a_cylinder() {
     assert_eq!(seconds(&run), Ok(11.0));
 }
 
-/// What the control clears by itself is counted, apart, and its way down is no hole.
+/// What the control clears by itself is counted, apart, and its way down is not a hole.
 #[test]
 fn pockets_are_estimates() {
     let mut run = Run::new();
@@ -215,7 +215,7 @@ fn part() -> Run {
 fn a_table_for_machinists() {
     let statistics = part().statistics(xyz(), timing());
     expect![[r#"
-        cycle time 1:03.8 min: cutting 0:50.5 (79 %), rapid 0:04.8 (8 %), dwell 0:00.4 (1 %); 2 tool changes 0:08.0
+        cycle time 1:03.8 min (lower bound): cutting 0:50.5 (79 %), rapid 0:04.8 (8 %), dwell 0:00.4 (1 %); 2 tool changes 0:08.0
 
         tool                   time  cutting   rapid   dwell  change  cut mm  rapid mm  feed          speed          holes  arcs
         T1     FACE MILL 50  0:37.0   0:32.0  0:01.0          0:04.0     401        99  600-1200/min  3000 rpm                 1
@@ -232,7 +232,7 @@ fn a_table_for_machinists() {
           1 move from or to an unknown point: not in distance or time
 
         assumed
-          axes and spindle reach their speed at once: real times are longer
+          axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
     "#]].assert_eq(&statistics.to_text(&NAMES));
 }
 
@@ -245,7 +245,14 @@ fn figures_as_json() {
     json["tools"][0] = "…".into();
     expect![[r#"
         {
-          "assumptions": [],
+          "assumptions": [
+            {
+              "key": "acceleration",
+              "text": "axes and spindle reach their speed at once: real times are longer"
+            }
+          ],
+          "slowest": [],
+          "times": "lower-bound",
           "tools": [
             "…",
             {
@@ -312,10 +319,14 @@ fn figures_as_json() {
               ],
               "probes": 0,
               "seconds": {
+                "acceleration": 0.0,
+                "auxiliary": 0.0,
                 "cutting": 18.545455,
                 "dwell": 0.4,
                 "estimated": 0.0,
                 "rapid": 3.82,
+                "spindle": 0.0,
+                "starved": 0.0,
                 "tool_change": 4.0,
                 "total": 26.765455
               },
@@ -369,7 +380,7 @@ fn what_is_missing_and_what_is_assumed() {
     let statistics =
         run.statistics(View::new(&[Axis::X, Axis::Y, Axis::Z, Axis::A]), Timing::new(None, None));
     expect![[r#"
-        cycle time 0:06.6 min: rapid 0:01.6 (24 %); 1 tool change 0:05.0
+        cycle time 0:06.6 min (lower bound): rapid 0:01.6 (24 %); 1 tool change 0:05.0
 
         tool     time  cutting   rapid  change  cut inch  rapid inch  feed      speed
         T?     0:00.1   0:00.0  0:00.1               2.4         1.0            0 rpm
@@ -393,7 +404,7 @@ fn what_is_missing_and_what_is_assumed() {
           rapid moves at 1000 inch/min on every axis (set machine.rapid)
           rapid moves of rotary axes at 3600 deg/min (set machine.rotary_rapid)
           5 s for a tool change (set machine.tool_change_seconds)
-          axes and spindle reach their speed at once: real times are longer
+          axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
     "#]]
     .assert_eq(&statistics.to_text(&Names::NONE));
 }
@@ -403,7 +414,7 @@ fn a_program_without_moves() {
     let mut run = Run::new();
     run.event(Event::End);
     expect![[r#"
-        cycle time 0:00.0 min
+        cycle time 0:00.0 min (lower bound)
     "#]]
     .assert_eq(&run.statistics(xyz(), timing()).to_text(&Names::NONE));
 }
@@ -573,7 +584,7 @@ fn a_bar_feed_before_anything_was_cut() {
     run.each(|step| statistics.add(step));
     let text = statistics.to_text(&Names::NONE);
     expect![[r#"
-        cycle time 0:00.0 min
+        cycle time 0:00.0 min (lower bound)
 
         bar feeder
           0 parts

@@ -5,9 +5,9 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use gcheck_diagnostics::Severity;
 use gcheck_format::Numbering;
 use gcheck_report::Format;
-use gcheck_rules::Severity;
 
 /// Blocks that may be executed when nobody says otherwise.
 pub(crate) const FUEL: u64 = 50_000_000;
@@ -61,7 +61,7 @@ pub enum When {
 pub enum Command {
     /// Check files and folders
     Check(CheckOptions),
-    /// Format programs, and number their blocks anew
+    /// Format programs, and renumber their blocks
     Fmt(FmtOptions),
     /// Execute a program and print its moves
     Run(RunOptions),
@@ -158,7 +158,7 @@ pub struct CheckOptions {
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]
     pub jobs: Option<usize>,
-    /// Check anew whatever is there, and remember nothing
+    /// Check everything again, and store nothing
     #[arg(long)]
     pub no_cache: bool,
     /// Where results of earlier runs are kept; without it `GCHECK_CACHE` says so, or they are among the user's caches
@@ -190,7 +190,7 @@ pub struct FmtOptions {
     /// Change nothing; print what would change and exit with 1 if anything would
     #[arg(long)]
     pub diff: bool,
-    /// Number the blocks that have an `N` number anew, and every word that names one with them: `--renumber 10:10`
+    /// Renumber the blocks that have an `N` number, and every word that names one of them: `--renumber 10:10`
     #[arg(long, value_name = "START:STEP", value_parser = numbering)]
     pub renumber: Option<Numbering>,
     /// Files formatted at a time; the number of processors without it
@@ -420,7 +420,7 @@ fn format(name: &str) -> Result<Format, String> {
     })
 }
 
-/// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is no format belongs to the file's name.
+/// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is not a format belongs to the file's name.
 #[expect(clippy::unnecessary_wraps, reason = "the form of a value parser")]
 fn output_file(text: &str) -> Result<OutputFile, String> {
     let with_format = text.split_once('=').and_then(|(name, path)| Some((Format::parse(name)?, path)));
@@ -439,12 +439,12 @@ fn tolerance(text: &str) -> Result<f64, String> {
 
 fn assignment(text: &str) -> Result<Assignment, String> {
     let (name, value) = text.split_once('=').ok_or("write `#100=2.5` or `#<name>=1`")?;
-    let value: f64 = value.trim().parse().map_err(|_| format!("`{}` is no number", value.trim()))?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("`{}` is not a number", value.trim()))?;
     if !value.is_finite() {
-        return Err(format!("`{value}` is no number that a control can hold"));
+        return Err(format!("`{value}` is not a number that a control can hold"));
     }
     let variable = VariableName::parse(name)
-        .ok_or_else(|| format!("`{}` is no variable; write `#100` or `#<name>`", name.trim()))?;
+        .ok_or_else(|| format!("`{}` is not a variable; write `#100` or `#<name>`", name.trim()))?;
     Ok(Assignment { variable, value })
 }
 

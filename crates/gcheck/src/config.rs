@@ -2,6 +2,7 @@
 //!
 //! Knows: which configuration rules over which file, how several are put together. Must not know: how programs are checked.
 
+mod execution_facts;
 mod file;
 mod format;
 mod layer;
@@ -9,22 +10,24 @@ mod pattern;
 mod placed;
 mod read;
 mod settings;
+mod text;
 mod validate;
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+pub use execution_facts::ExecutionFacts;
 pub use file::{
-    CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable, Scalar,
-    SearchTable, ToolTable, ToolsTable, Units,
+    ByAxis, CodeTable, ConfigFile, FilesTable, Level, MachineTable, OverrideTable, Rotary, RulesTable,
+    Scalar, SearchTable, ToolChanger, ToolTable, ToolsTable, Units,
 };
 pub use format::FormatTable;
-pub use layer::{ExecutionFacts, Layer};
+pub use layer::Layer;
 pub use pattern::PathPattern;
 pub use placed::Placed;
 pub use settings::{FileSettings, RuleWishes};
-pub(crate) use validate::{rotary_axis, unknown_rule, validate_control};
+pub(crate) use validate::{implausible_acceleration, rotary_axis, unknown_rule, validate_control};
 
 use crate::{Problem, paths};
 
@@ -106,9 +109,9 @@ impl Configs {
                 ));
             }
             Some(file) => {
-                let mut config = read::file_with_bases(Path::new(file))?;
-                config.layers.extend(inline.iter().cloned());
-                Source::Fixed(Arc::new(config))
+                let mut layers = read::file_with_bases(Path::new(file))?;
+                layers.extend(inline.iter().cloned());
+                Source::Fixed(Arc::new(Config { layers }))
             }
             None if isolated => Source::Fixed(Arc::new(Config { layers: inline.clone() })),
             None => Source::Discovered,
@@ -138,7 +141,7 @@ impl Configs {
         self.of_folder(path.parent().unwrap_or(&path))
     }
 
-    /// The configuration of what stands in a folder.
+    /// The configuration of what is in a folder.
     pub fn of_folder(&mut self, folder: &Path) -> Result<Arc<Config>, Problem> {
         if let Source::Fixed(config) = &self.source {
             return Ok(Arc::clone(config));
@@ -157,9 +160,9 @@ impl Configs {
             Some(file) => match self.by_file.get(&file) {
                 Some(known) => known.clone(),
                 None => {
-                    let config = read::file_with_bases(&file).map(|mut config| {
-                        config.layers.extend(self.inline.iter().cloned());
-                        Arc::new(config)
+                    let config = read::file_with_bases(&file).map(|mut layers| {
+                        layers.extend(self.inline.iter().cloned());
+                        Arc::new(Config { layers })
                     });
                     self.by_file.insert(file, config.clone());
                     config

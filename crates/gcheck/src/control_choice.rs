@@ -31,7 +31,7 @@ pub(crate) fn choose(
         let because = file.map(paths::shown_from_here);
         return Ok(choice(name, ControlSource::Configuration, because));
     }
-    if let Some(guess) = gcheck_controls::guess(&gcheck_rules::collect_evidence(source)) {
+    if let Some(guess) = gcheck_controls::guess(&gcheck_program::collect_evidence(source.text())) {
         return Ok(choice(&guess.control, ControlSource::Detected, Some(guess.because)));
     }
     Ok(choice(gcheck_controls::fallback(), ControlSource::Default, None))

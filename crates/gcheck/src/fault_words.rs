@@ -45,7 +45,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
         Fault::VariableNumber => Words::new("there is no variable of this number")
             .why("the number is not whole, or outside the range of the control's variables"),
         Fault::MissingValue(letter) => Words::new(format!("`{letter}` has no value"))
-            .help("write a number behind the letter, or take the letter away"),
+            .help("write a number after the letter, or remove the letter"),
         Fault::MissingWord(letter) => Words::new(format!("`{letter}` is missing in this block"))
             .why(format!("a code of the block needs a `{letter}` word")),
         Fault::WordRange(letter) => {
@@ -73,16 +73,16 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
         }
         Fault::Malformed => Words::new("the control cannot read this block")
             .help("`gcheck check` says what is wrong with its form"),
-        Fault::Conflict => Words::new("two codes of this block cannot stand together")
+        Fault::Conflict => Words::new("two codes of this block cannot be together")
             .why("they belong to one modal group, or both use the same words")
             .help("put one of them on a block of its own"),
 
-        Fault::WordTwice(letter) => Words::new(format!("`{letter}` stands twice in this block"))
+        Fault::WordTwice(letter) => Words::new(format!("`{letter}` is in this block twice"))
             .help("keep one of the two, or put the second on a block of its own"),
         Fault::UnreadWord(letter) => Words::new(format!("no code of this block reads `{letter}`"))
             .why("neither the codes of the block nor the motion in effect take this word")
             .help(format!("take `{letter}` away, or write the code that it belongs to")),
-        Fault::Misplaced(letter) => Words::new(format!("`{letter}` stands behind other words"))
+        Fault::Misplaced(letter) => Words::new(format!("`{letter}` is after other words"))
             .help(format!("write `{letter}` at the start of the block")),
         Fault::TooManyCodes => {
             Words::new("more M codes than a block may have").help("put some of them on a block of their own")
@@ -99,7 +99,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
         Fault::NoInverseTimeFeed => Words::new("inverse-time feed, and the block has no `F`")
             .why("in inverse time `F` is the time of one move, so that every cutting block needs its own")
             .help("give `F` on this block"),
-        Fault::SpindleStopped => Words::new("this needs a turning spindle, and it stands still")
+        Fault::SpindleStopped => Words::new("this needs a turning spindle, and it is stopped")
             .help("start the spindle first: `S` with `M3` or `M4`"),
         Fault::SpindleDirection => Words::new("the spindle turns the wrong way for this cycle"),
         Fault::NoSuchAxis(letter) => Words::new(format!("the machine has no axis `{letter}`"))
@@ -119,7 +119,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
             .why("it needs a feed, a way to go, and neither cutter compensation nor inverse-time feed"),
         Fault::NoDwellTime => Words::new("a dwell without its time").help("say how long: `P` with the dwell"),
         Fault::Profile => Words::new("the profile of this cycle is not found, or cannot be cut")
-            .why("the blocks from `P` to `Q` must stand in this program and go in one direction"),
+            .why("the blocks from `P` to `Q` must be in this program and go in one direction"),
         Fault::OverTravel(letter) => Words::new(format!("`{letter}` would leave the travel of the machine"))
             .why("the end point lies outside `travel` of `[machine]` in gcheck.toml"),
         Fault::NoSavedModes => {
@@ -128,7 +128,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
 
         Fault::NoSuchLabel(number) => Words::new(format!("the program has no block `N{number}` to jump to")),
         Fault::NoSuchProgram => Words::new("the called program is not found")
-            .help("it may stand in the folder of the program, or in one of `[search] paths` of gcheck.toml"),
+            .help("it may be in the folder of the program, or in one of `[search] paths` of gcheck.toml"),
         Fault::TooDeep => Words::new("calls are nested deeper than the control allows")
             .why("a program that calls itself without an end does this"),
         Fault::LoopMismatch => Words::new("the other end of this loop or condition is not found"),
@@ -162,7 +162,7 @@ pub(crate) fn undecidable(variables: &[u32]) -> Words {
         (Some((last, others)), Some(first)) => {
             (format!("{} and {last}, and their values are not known", others.join(", ")), *first)
         }
-        _ => ("a value that nobody told gcheck".to_owned(), 100),
+        _ => ("an unknown value".to_owned(), 100),
     };
     Words::new(format!("what happens next depends on {what}"))
         .why("a condition, a repeat count, a target or a code is computed from it")
@@ -225,7 +225,7 @@ fn of_arc(fault: &ArcFault, units: Units) -> Words {
 fn of_cycle(fault: CycleFault) -> Words {
     match fault {
         CycleFault::Missing(letter) => Words::new(format!("the canned cycle needs `{letter}`"))
-            .why("it stands neither in this block nor in an earlier one of the cycle"),
+            .why("it is neither in this block nor in an earlier one of the cycle"),
         CycleFault::RBelowBottom => Words::new("the retract level `R` lies below the bottom of the hole"),
         CycleFault::NotPositive(letter) => {
             Words::new(format!("`{letter}` of the canned cycle must be above zero"))
@@ -242,7 +242,7 @@ fn of_cycle(fault: CycleFault) -> Words {
             .why("its last move does not end where its first move leads to")
             .help("end the outline at the point that its first move reaches"),
         CycleFault::OutlineEmpty => Words::new("the pocket has no outline")
-            .why("nothing stands behind the move that leads to the outline"),
+            .why("there is no move after the one that leads to the outline"),
         CycleFault::StartOutside => Words::new("the start hole of the pocket lies outside its outline")
             .help("give the start hole with `X` and `Y`, inside the outline"),
     }

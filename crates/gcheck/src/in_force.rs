@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use gcheck_controls::{Control, UserCode};
 use gcheck_engine::Model;
-use gcheck_rules::MachineFacts;
+use gcheck_lint::MachineFacts;
 
 use crate::Problem;
 use crate::args::Assignment;

@@ -1,7 +1,7 @@
 //! The command line of gcheck: arguments, files, configuration, choice of control.
 //!
 //! Knows: the file system, the environment, the terminal, exit codes. Must not know: how anything is computed or rendered;
-//! that is `gcheck-rules` and `gcheck-report`.
+//! that is `gcheck-lint`, `gcheck-rules` and `gcheck-report`.
 //!
 //! Exit codes: 0 nothing at or above `--fail-on`, or the program came to its end; 1 findings, or it did not; 2 the work could
 //! not be done (usage, configuration, files).
@@ -10,6 +10,7 @@ pub mod args;
 mod check;
 mod commands;
 pub mod config;
+mod console;
 mod control_choice;
 mod discovery;
 mod execution;
@@ -24,7 +25,6 @@ mod programs;
 mod reading;
 mod rewriting;
 
-use std::io::Write as _;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::process::ExitCode;
@@ -35,9 +35,6 @@ pub use problem::Problem;
 
 use args::{Arguments, Command};
 
-/// The work could not be done.
-const FAILED: u8 = 2;
-
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
     // Usage errors end the process here, with exit code 2.
@@ -45,8 +42,8 @@ pub fn main() -> ExitCode {
     match run(&arguments) {
         Ok(code) => ExitCode::from(code),
         Err(problem) => {
-            report(&problem);
-            ExitCode::from(FAILED)
+            console::report(&problem);
+            ExitCode::from(console::FAILED)
         }
     }
 }
@@ -80,10 +77,4 @@ fn run(arguments: &Arguments) -> Result<u8, Problem> {
 fn guarded(file: &Path, work: impl FnOnce() -> Result<u8, Problem>) -> Result<u8, Problem> {
     panic::catch_unwind(AssertUnwindSafe(work))
         .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref()).in_file(file)))
-}
-
-/// Says a problem on standard error, where it can be said.
-fn report(problem: &Problem) {
-    // With standard error gone there is nobody left to tell.
-    let _ = writeln!(std::io::stderr(), "error: {problem}");
 }

@@ -10,9 +10,11 @@ use std::time::UNIX_EPOCH;
 use std::{fs, io};
 
 use gcheck_db::Settings;
+use gcheck_lint::{Execution, RuleTable};
 use gcheck_report::{ControlChoice, ControlSource};
-use gcheck_rules::Execution;
-use gcheck_server::{Choice, ConfigurationProblem, Host, InForce, ProgramFile, ProgramQuery, serve};
+use gcheck_server::{
+    Choice, ConfigurationProblem, Host, InForce, ProgramFile, ProgramQuery, ProgramText, serve,
+};
 use gcheck_syntax::SourceText;
 
 use crate::args::{FUEL, Global};
@@ -31,7 +33,7 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     if let Some(name) = &global.control {
         validate_control(name).map_err(Problem::new)?;
     }
-    // What is wrong with the command line is said where it was typed.
+    // A mistake in the command line is reported where it was typed.
     Configs::new(&global.config, global.isolated)?;
     let host = Surroundings {
         control: global.control.clone(),
@@ -72,7 +74,7 @@ impl Surroundings {
     ) -> Result<T, Problem> {
         let mut all = self.configs.lock().unwrap_or_else(PoisonError::into_inner);
         let configs = all.entry(chosen).or_insert_with_key(|chosen| match chosen {
-            // The editor's choice stands over the command line's.
+            // The editor's choice has priority over the command line's.
             Some(path) => Configs::new(&[path.to_string_lossy().into_owned()], false),
             None => Configs::new(&self.config, self.isolated),
         });
@@ -147,8 +149,13 @@ impl Host for Surroundings {
         files.into_iter().take(MOST_FILES).filter_map(program_file).collect()
     }
 
-    fn read(&self, path: &Path) -> Option<String> {
-        Some(reading::file(path).ok()?.text().to_owned())
+    fn read(&self, path: &Path) -> Option<ProgramText> {
+        let file = reading::file(path).ok()?;
+        Some(ProgramText { text: file.text().to_owned(), replaced: file.replaced().to_vec() })
+    }
+
+    fn rules(&self) -> RuleTable {
+        gcheck_rules::RULES
     }
 
     fn forget(&self) {
@@ -159,10 +166,22 @@ impl Host for Surroundings {
     fn watched(&self) -> Vec<String> {
         vec![
             format!("**/{{{}}}", FILE_NAMES.join(",")),
-            format!("**/*.{{{}}}", EXTENSIONS.join(",")),
-            "**/[Oo][0-9]*".to_owned(),
+            format!("**/*.{{{}}}", EXTENSIONS.map(in_any_case).join(",")),
+            "**/[oO][0-9]*".to_owned(),
         ]
     }
+}
+
+/// A pattern for a name in small letters or capitals: programs come as `PART.NC` as well.
+fn in_any_case(name: &str) -> String {
+    let letter = |c: char| {
+        if c.is_ascii_alphabetic() {
+            format!("[{}{}]", c.to_ascii_lowercase(), c.to_ascii_uppercase())
+        } else {
+            c.to_string()
+        }
+    };
+    name.chars().map(letter).collect()
 }
 
 /// A file on disk; `None` when it is none, or is gone.

@@ -34,7 +34,7 @@ pub(crate) fn print(text: &str) -> Result<u8, Problem> {
     Ok(0)
 }
 
-/// Writes to standard output. A reader that went away (`| head`) is no error.
+/// Writes to standard output. A reader that went away (`| head`) is not an error.
 pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Problem> {
     let mut out = io::stdout().lock();
     match write(&mut out).and_then(|()| out.flush()) {
@@ -47,7 +47,7 @@ pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
 
 /// Writes a file whole or not at all: to a temporary file beside it, which then takes its name.
 ///
-/// A link stays, and what it leads to is replaced. What is no file (a pipe, `/dev/null`) is written to as it is.
+/// A link stays, and what it leads to is replaced. What is not a file (a pipe, `/dev/null`) is written to as it is.
 pub(crate) fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -95,7 +95,7 @@ pub(crate) fn replace(
     if is_replaced {
         return Ok(());
     }
-    Err(Problem::with_file(path, "was changed by somebody else meanwhile, and is left alone")
+    Err(Problem::with_file(path, "was changed by another program in the meantime, and is not written")
         .help("run gcheck again"))
 }
 
@@ -109,7 +109,7 @@ fn rename_over(target: &Path, fill: impl FnOnce(&mut File) -> io::Result<bool>) 
         Ok(wanted)
     });
     if !matches!(done, Ok(true)) {
-        // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
+        // Nothing of ours remains; that the clean-up may fail as well changes nothing.
         let _ = fs::remove_file(&temporary);
     }
     done

@@ -1,6 +1,6 @@
 //! Paths as text: absolute, without `.` and `..`, and as people want to see them.
 //!
-//! Knows: components of paths, the current folder. Must not know: what stands at a path.
+//! Knows: components of paths, the current folder. Must not know: what is at a path.
 
 use std::path::{Component, Path, PathBuf};
 

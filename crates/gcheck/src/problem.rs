@@ -1,4 +1,4 @@
-//! What went wrong that is no finding: a message, its place, the line that holds it.
+//! What went wrong that is not a finding: a message, its place, the line that holds it.
 //!
 //! Knows: how such a message is laid out. Must not know: where it is printed, or what becomes of the run.
 

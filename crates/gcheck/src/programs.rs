@@ -1,8 +1,8 @@
 //! Programs beside the one that is checked: what `M98`, `G65` and O-words may call.
 //!
-//! Knows: folders, how a file shows the program numbers it holds. Must not know: calls. A folder is looked through when the
-//! first call asks, and once; a folder too large to be looked through is said to have everything, so that nothing false is
-//! reported. Programs that are open in an editor stand in the place of their files.
+//! Knows: folders, how a file shows the program numbers it holds. Must not know: calls. A folder is looked through when
+//! the first call asks, and once; a folder that is too large to be searched counts as having everything, so that
+//! nothing false is reported. Programs that are open in an editor replace their files.
 
 use std::collections::HashMap;
 use std::fs;
@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use gcheck_engine::{Library, SourceFile};
-use gcheck_rules::Programs;
+use gcheck_lint::Programs;
 use gcheck_server::OpenPrograms;
 
 use crate::discovery::is_program_name;
@@ -206,7 +206,7 @@ impl Folder {
             if let Some(number) = number_of_name(&stem) {
                 folder.numbers.entry(number).or_insert_with(|| path.clone());
             }
-            // Subroutines called by name stand in files of one extension.
+            // Subroutines called by name are in files of one extension.
             let is_usual = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("ngc"));
             if is_usual || !folder.names.contains_key(&stem) {
                 folder.names.insert(stem, path.clone());

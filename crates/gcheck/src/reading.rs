@@ -1,4 +1,4 @@
-//! Reading a program from disk or standard input, and refusing what is no text.
+//! Reading a program from disk or standard input, and refusing what is not text.
 //!
 //! Knows: files and bytes. Must not know: configuration, controls.
 
@@ -31,7 +31,7 @@ pub(crate) fn standard_input(name: &Path) -> Result<SourceText, Problem> {
     })?
 }
 
-/// Reads a sample, and the rest only behind a sample that is text: a device or pipe may never end.
+/// Reads a sample, and the rest only after a sample that is text: a device or pipe may never end.
 ///
 /// `size` is what is expected, so that the buffer does not grow; the bytes become text without being copied.
 fn bounded(path: &Path, mut from: impl Read, size: usize) -> io::Result<Result<SourceText, Problem>> {
@@ -42,7 +42,7 @@ fn bounded(path: &Path, mut from: impl Read, size: usize) -> io::Result<Result<S
         return Ok(Err(Problem::with_file(path, "is UTF-16 text").help("save it as UTF-8 or plain ASCII")));
     }
     if is_binary(&bytes) {
-        return Ok(Err(Problem::with_file(path, "is no text, so no part program")));
+        return Ok(Err(Problem::with_file(path, "is not text, so it is not a part program")));
     }
     let left = SourceText::MAX_LEN + 1 - bytes.len();
     from.take(left as u64).read_to_end(&mut bytes)?;

@@ -11,7 +11,7 @@ use crate::problem::io_reason;
 use crate::{Problem, output};
 
 /// Replaces a program on disk: whole or not at all, and only if it still is what was read. `verb` is what is done to it, as
-/// in "cannot mend".
+/// in "cannot fix".
 pub(crate) fn write(path: &Path, verb: &str, before: &[u8], after: &[u8]) -> Result<(), Problem> {
     let problem =
         |error: &std::io::Error| Problem::with_file(path, format!("cannot {verb}: {}", io_reason(error)));
@@ -22,7 +22,7 @@ pub(crate) fn write(path: &Path, verb: &str, before: &[u8], after: &[u8]) -> Res
     output::replace(path, &permissions, after, |now| now == before)
 }
 
-/// The change as a unified difference. Bytes that are no UTF-8 are shown as such.
+/// The change as a unified difference. Bytes that are not UTF-8 are shown as such.
 pub(crate) fn difference(shown: &str, before: &[u8], after: &[u8]) -> String {
     let (before, after) = (String::from_utf8_lossy(before), String::from_utf8_lossy(after));
     TextDiff::from_lines(&*before, &*after)

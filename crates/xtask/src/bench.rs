@@ -1,6 +1,6 @@
 //! `cargo xtask bench`: speed and memory against the budgets, in one table.
 //!
-//! Knows: the budgets and what each is measured with. Must not know: how the product works. It is no test: a busy machine
+//! Knows: the budgets and what each is measured with. Must not know: how the product works. It is not a test: a busy machine
 //! would fail it.
 
 mod command_line;
@@ -17,7 +17,7 @@ use anyhow::bail;
 
 use crate::product;
 
-/// Measures everything in a release build.
+/// Measures everything in the profile `dist`.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     let only_server = match arguments {
         [] => false,

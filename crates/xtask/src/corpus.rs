@@ -4,17 +4,15 @@
 //! out. The folder is given by `GCHECK_CORPUS` and not part of the repository; `gcheck_testkit::corpus` reads its index.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::env;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, ExitCode, Output};
+use std::process::ExitCode;
 
-use anyhow::{Context as _, bail, ensure};
+use anyhow::{Context as _, bail};
 use gcheck_testkit::corpus::{self, CorpusProgram};
 use serde_json::Value;
 
-use crate::{measure, workspace};
+use crate::{binary, measure, workspace};
 
 const PAGE: &str = "docs/dev/corpus.md";
 
@@ -40,52 +38,27 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     programs.retain(|p| data.join(&p.control).join("control.toml").exists());
     programs.sort_by(|a, b| a.name.cmp(&b.name));
 
-    let status = Command::new("cargo")
-        .current_dir(workspace::root())
-        .args(["build", "--quiet", "--release", "--package", "gcheck"])
-        .status()?;
-    ensure!(status.success(), "the release build fails");
-    let target = workspace::members()?.target_directory.into_std_path_buf();
-    let gcheck = target.join("release").join(format!("gcheck{}", env::consts::EXE_SUFFIX));
+    let gcheck = binary::build(true)?;
 
     let mut by_control: BTreeMap<&str, Counts> = BTreeMap::new();
     let controls: BTreeSet<&str> = programs.iter().map(|p| p.control.as_str()).collect();
     for control in controls {
         let paths: Vec<&str> =
             programs.iter().filter(|p| p.control == control).map(|p| p.name.as_str()).collect();
-        let output = check(&gcheck, &folder, &["--control", control], &paths)?;
+        let output = binary::check(&gcheck, &folder, &["--isolated", "--control", control], &paths)?;
         by_control.insert(control, count(&output.stdout, paths.len())?);
     }
     let all: Vec<&str> = programs.iter().map(|p| p.name.as_str()).collect();
     let (before, _) = measure::children()?;
-    check(&gcheck, &folder, &[], &all)?;
+    binary::check(&gcheck, &folder, &["--isolated"], &all)?;
     let (after, _) = measure::children()?;
     fs::write(workspace::root().join(PAGE), page(&programs, &by_control, after - before))?;
     println!("wrote  {PAGE}");
     Ok(ExitCode::SUCCESS)
 }
 
-/// What `gcheck check` says about programs of the corpus, as JSON.
-pub(crate) fn check(
-    gcheck: &Path,
-    folder: &Path,
-    options: &[&str],
-    paths: &[&str],
-) -> anyhow::Result<Output> {
-    let output = Command::new(gcheck)
-        .current_dir(folder)
-        .args(["check", "--isolated", "--no-cache", "--output-format", "json"])
-        .args(options)
-        .arg("--")
-        .args(paths)
-        .output()?;
-    let words = String::from_utf8_lossy(&output.stderr);
-    ensure!(matches!(output.status.code(), Some(0 | 1)), "gcheck check {options:?} fails: {words}");
-    Ok(output)
-}
-
 fn count(json: &[u8], programs: usize) -> anyhow::Result<Counts> {
-    let report: Value = serde_json::from_slice(json).context("the output is no JSON")?;
+    let report: Value = serde_json::from_slice(json).context("the output is not JSON")?;
     let mut counts = Counts {
         programs,
         lines: report.pointer("/summary/lines").and_then(Value::as_u64).unwrap_or(0),

@@ -4,6 +4,7 @@
 
 #[cfg(feature = "product")]
 mod control_pages;
+mod generated;
 #[cfg(feature = "product")]
 mod markdown;
 pub(crate) mod registry;
@@ -16,15 +17,14 @@ mod summary;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
 
-use crate::{product, workspace};
+use generated::Generated;
 
-/// A generated file: its path from the root, and what belongs in it.
-pub(crate) type Generated = Vec<(PathBuf, String)>;
+use crate::{product, workspace};
 
 /// Folders in which every Markdown file is generated.
 const WHOLE_FOLDERS: &[&str] = &["docs/rules", "docs/controls"];

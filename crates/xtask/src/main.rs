@@ -9,6 +9,9 @@
 
 #[cfg(feature = "product")]
 mod bench;
+#[cfg(feature = "product")]
+mod binary;
+mod blind;
 mod competitors;
 #[cfg(feature = "product")]
 mod corpus;
@@ -21,6 +24,7 @@ mod precision;
 mod product;
 mod test;
 mod tidy;
+mod timing;
 mod workspace;
 
 use std::env;
@@ -41,6 +45,10 @@ usage: cargo xtask COMMAND
   corpus                      check the programs of $GCHECK_CORPUS and write docs/dev/corpus.md
   precision                   draw a sample of those findings, match the verdicts of tests/precision.tsv, write
                               docs/precision.md
+  timing [--again] [PROGRAM…] run programs in the motion planner that $GCHECK_TIMING starts, and write
+                              fixtures/timing/measured.tsv
+  blind seal FILE… | look draw-N | look mistakes-N | page
+                              first looks at programs and mistakes that nobody tuned gcheck to (docs/dev/blind.md)
   competitors                 run other checkers on the seeded mistakes and write tests/competitors.tsv";
 
 fn main() -> ExitCode {
@@ -50,6 +58,7 @@ fn main() -> ExitCode {
         None => ("help", arguments.as_slice()),
     };
     let outcome = match command {
+        "blind" => blind::run(rest),
         "tidy" => tidy::run(rest),
         "gen" => generate::run(rest),
         "new-rule" => new_rule::run(rest),
@@ -61,6 +70,7 @@ fn main() -> ExitCode {
         #[cfg(feature = "product")]
         "precision" => precision::run(rest),
         "competitors" => competitors::run(rest),
+        "timing" => timing::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),
         #[cfg(not(feature = "product"))]

@@ -33,7 +33,7 @@ const TIERS: &[Tier] = &[
         uses: "\
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};",
         run: "Run::Token { on: |kind| kind == SyntaxErrorKind::StrayParenthesis, check }",
         check: "\
@@ -49,7 +49,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
         uses: "\
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};",
         run: "Run::Block { trigger: BlockFlags::CODE, check }",
         check: "\
@@ -70,7 +70,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         uses: "\
 use gcheck_program::Label;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};",
         run: "Run::Program { check }",
         check: "\
@@ -90,7 +90,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         uses: "\
 use gcheck_engine::{Event, Spindle};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};",
         run: "Run::Path { watch: Watch::CUTS, make: || Box::new(Watcher) }",
         check: "\
@@ -154,8 +154,8 @@ fn parse(arguments: &[String]) -> anyhow::Result<Request<'_>> {
         .iter()
         .find(|t| t.name == tier)
         .with_context(|| format!("there is no tier `{tier}`\n{USAGE}"))?;
-    ensure!(is_name(id, '-'), "`{id}` is no rule id: lower-case words with dashes between them");
-    ensure!(is_name(group, '_'), "`{group}` is no group: a lower-case word");
+    ensure!(is_name(id, '-'), "`{id}` is not a rule id: lower-case words with dashes between them");
+    ensure!(is_name(group, '_'), "`{group}` is not a group: a lower-case word");
     let tells =
         ["check-", "no-", "avoid-", "bad-"].iter().any(|p| id.starts_with(p)) || id.ends_with("-error");
     ensure!(!tells, "`{id}` does not name the defect; say what is wrong, as in `dwell-without-time`");

@@ -7,17 +7,16 @@
 //! of a hash of their fingerprints. A finding that stays where it is stays in the sample, and keeps its verdict.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::env;
 use std::fmt::Write as _;
 use std::fs;
-use std::process::{Command, ExitCode};
+use std::process::ExitCode;
 
 use anyhow::{Context as _, bail, ensure};
+use gcheck_testkit::blind::{self, Draw};
 use gcheck_testkit::corpus;
 use serde_json::Value;
 
-use crate::corpus::check;
-use crate::workspace;
+use crate::{binary, workspace};
 
 const PAGE: &str = "docs/precision.md";
 const TABLE: &str = "tests/precision.tsv";
@@ -73,7 +72,7 @@ impl Is {
 }
 
 impl Verdict {
-    /// The file is no program of the control: a script, a listing, a program of another control.
+    /// The file is not a program of the control: a script, a listing, a program of another control.
     fn is_of_no_program(&self) -> bool {
         self.reason.starts_with("no program of this control")
     }
@@ -98,14 +97,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     programs.retain(|p| data.join(&p.control).join("control.toml").exists());
     programs.sort_by(|a, b| a.name.cmp(&b.name));
 
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(cargo)
-        .current_dir(workspace::root())
-        .args(["build", "--quiet", "--package", "gcheck"])
-        .status()?;
-    ensure!(status.success(), "the build fails");
-    let target = workspace::members()?.target_directory.into_std_path_buf();
-    let gcheck = target.join("debug").join(format!("gcheck{}", env::consts::EXE_SUFFIX));
+    let gcheck = binary::build(false)?;
 
     let mut counts: BTreeMap<String, Counts> = BTreeMap::new();
     let mut found = Vec::new();
@@ -113,8 +105,8 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     for control in controls {
         let paths: Vec<&str> =
             programs.iter().filter(|p| p.control == control).map(|p| p.name.as_str()).collect();
-        let output = check(&gcheck, &folder, &["--control", control], &paths)?;
-        let report: Value = serde_json::from_slice(&output.stdout).context("the output is no JSON")?;
+        let output = binary::check(&gcheck, &folder, &["--isolated", "--control", control], &paths)?;
+        let report: Value = serde_json::from_slice(&output.stdout).context("the output is not JSON")?;
         let of_control = read(&report, control);
         let mut count = Counts {
             programs: paths.len(),
@@ -137,7 +129,9 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     });
     let sample = sample(&found);
     fs::write(&table, write_table(&sample, &verdicts))?;
-    fs::write(workspace::root().join(PAGE), page(&counts, &sizes, &sample, &verdicts))?;
+    let first_looks = blind::precision(&Draw::all(&blind::folder())?);
+    let page = blind::with_section(&page(&counts, &sizes, &sample, &verdicts), &first_looks);
+    fs::write(workspace::root().join(PAGE), page)?;
     let unread: Vec<&Found> = sample.iter().filter(|one| !verdicts.contains_key(&key(one))).collect();
     println!("wrote  {PAGE}\nwrote  {TABLE}");
     for one in &unread {
@@ -203,7 +197,7 @@ fn verdicts(table: &str) -> anyhow::Result<BTreeMap<(String, String), Verdict>> 
             continue;
         }
         let is = Is::parse(verdict)
-            .with_context(|| format!("{TABLE}:{}: `{verdict}` is no verdict", number + 1))?;
+            .with_context(|| format!("{TABLE}:{}: `{verdict}` is not a verdict", number + 1))?;
         ensure!(!reason.is_empty(), "{TABLE}:{}: a verdict needs a reason", number + 1);
         let key = (fingerprint.to_owned(), severity.to_owned());
         verdicts.insert(key, Verdict { is, reason: reason.to_owned() });
@@ -273,12 +267,12 @@ fn page(
     verdicts: &BTreeMap<(String, String), Verdict>,
 ) -> String {
     let mut text = format!(
-        "<!-- Written by `cargo xtask precision`; the verdicts stand in `{TABLE}`. -->\n\n# How many findings are right\n\n"
+        "<!-- Written by `cargo xtask precision`; the verdicts are in `{TABLE}`. -->\n\n# How many findings are right\n\n"
     );
     text.push_str(
         "gcheck checks the real-program corpus (`GCHECK_CORPUS`; [dev/corpus.md](dev/corpus.md) says whose programs they are) with the rules that are on by default, each program for the control that the corpus guesses for it, and without a machine file.\n\
-        Of the errors and warnings a sample was drawn and read by eye, beside the program, as somebody who programs and runs such machines would read it.\n\n\
-        * *True*: the control refuses it, or does something else than what is meant, or somebody about to run the program would want to be told.\n\
+        Of the errors and warnings a sample was drawn and read by eye, beside the program, by a person who programs and runs such machines.\n\n\
+        * *True*: the control refuses it, or does something else than what is meant, or the operator would want to know.\n\
         * *False*: the program is right there, or what is said of it is not so.\n\
         * *Unsure*: it hangs on a setting, a macro or an intention that the program does not show.\n\n\
         The sample is stratified: of each rule, severity and control six findings or one in twenty, in the order of a hash, or all there are.\n\
@@ -318,14 +312,14 @@ fn page(
             all.add(*size, &read);
             let of_programs: Vec<&Verdict> =
                 read.iter().copied().filter(|verdict| !verdict.is_of_no_program()).collect();
-            // The share of a stratum that stands in programs is the one of its sample.
+            // The share of a stratum that is in programs is the one of its sample.
             let size = (*size * of_programs.len() as u64).checked_div(read.len() as u64).unwrap_or(0);
             programs.add(size, &of_programs);
         }
         let _ = writeln!(text, "| {severity} | {} |", all.cells());
         let _ = writeln!(text, "| {severity}, in programs of the control | {} |", programs.cells());
     }
-    text.push_str("\n*In programs of the control* leaves out what stands in shell scripts, listings and programs of other controls that the corpus lists; how many findings those are is estimated from the sample.\n");
+    text.push_str("\n*In programs of the control* leaves out findings in shell scripts, listings and programs of other controls that the corpus lists; how many findings those are is estimated from the sample.\n");
     if unread > 0 {
         let _ = writeln!(text, "\n{unread} findings of the sample are not read yet.");
     }

@@ -12,12 +12,12 @@ use crate::workspace;
 /// True in a build that has the product's crates.
 pub(crate) const BUILT_IN: bool = cfg!(feature = "product");
 
-/// Runs an xtask command in a build with the product; `release` for measurements.
-pub(crate) fn rerun(command: &str, arguments: &[String], release: bool) -> anyhow::Result<ExitCode> {
+/// Runs an xtask command in a build with the product; `measures` takes the profile of published builds.
+pub(crate) fn rerun(command: &str, arguments: &[String], measures: bool) -> anyhow::Result<ExitCode> {
     let mut cargo = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     cargo.current_dir(workspace::root()).args(["run", "--quiet", "--package", "xtask"]);
-    if release {
-        cargo.arg("--release");
+    if measures {
+        cargo.args(["--profile", "dist"]);
     }
     let status = cargo.args(["--", command]).args(arguments).status().context("cargo does not start")?;
     Ok(workspace::exit_code(status))

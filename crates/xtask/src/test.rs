@@ -4,18 +4,17 @@
 
 mod book;
 mod editors;
+mod tools;
 
 use std::env;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, ExitCode, Stdio};
 
 use anyhow::Context as _;
 
 use crate::workspace;
-
-/// Tools of tests that are no crates, git-ignored. Tests find them there, and skip themselves where they are missing.
-const TOOLS: &str = ".test-tools";
+use tools::{TOOLS, install_from_npm, is_in_path, say};
 
 /// Asks the editor tests for the editors of the system.
 const ALL_EDITORS: &str = "GCHECK_ALL_EDITORS";
@@ -91,10 +90,6 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     Ok(if passed && failed.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE })
 }
 
-fn say(message: &str) {
-    eprintln!("xtask test: {message}");
-}
-
 /// Runs cargo on the workspace; true if it succeeds.
 fn cargo(arguments: &[&str]) -> anyhow::Result<bool> {
     succeeds(cargo_command().args(arguments))
@@ -120,7 +115,8 @@ fn has_cargo_command(name: &str) -> bool {
     probe.is_ok_and(|status| status.success())
 }
 
-/// Installs what is missing; a tool that cannot be had is said, not fatal, because its tests skip themselves.
+/// Installs what is missing; a tool that cannot be installed is reported and not fatal, because its tests skip
+/// themselves.
 fn install_tools() -> anyhow::Result<()> {
     book::install(&workspace::root().join(TOOLS));
     install_interpreter();
@@ -177,11 +173,6 @@ fn install_package(package: &str, program: &str, without: &str) {
     }
 }
 
-fn is_in_path(program: &str) -> bool {
-    let folders = env::var_os("PATH").unwrap_or_default();
-    env::split_paths(&folders).any(|folder| folder.join(program).is_file())
-}
-
 fn install_validator() -> anyhow::Result<()> {
     let without = "SARIF output is not validated";
     if !cfg!(all(target_os = "linux", target_arch = "x86_64")) {
@@ -192,29 +183,6 @@ fn install_validator() -> anyhow::Result<()> {
         make_executable(&package.join("Sarif.Multitool"))?;
     }
     Ok(())
-}
-
-/// Installs an npm package into the folder of tools, unless it is there; its folder if it was installed.
-fn install_from_npm(name: &str, version: &str, without: &str) -> anyhow::Result<Option<PathBuf>> {
-    let tools = workspace::root().join(TOOLS);
-    let package = tools.join("node_modules").join(name);
-    let version_line = format!("\"version\": \"{version}\"");
-    if fs::read_to_string(package.join("package.json")).is_ok_and(|text| text.contains(&version_line)) {
-        return Ok(None);
-    }
-    fs::create_dir_all(&tools)?;
-    say(&format!("installing {name} into {TOOLS}"));
-    let install = Command::new("npm")
-        .args(["install", "--ignore-scripts", "--no-audit", "--no-fund", "--no-package-lock", "--prefix"])
-        .arg(&tools)
-        .arg(format!("{name}@{version}"))
-        .status();
-    match install {
-        Ok(status) if status.success() => return Ok(Some(package)),
-        Ok(_) => say(&format!("npm could not install {name}: {without}")),
-        Err(_) => say(&format!("npm is not installed: {without}")),
-    }
-    Ok(None)
 }
 
 /// npm unpacks the program without its permission to run, because install scripts are off.

@@ -2,49 +2,32 @@
 //!
 //! Knows: the list of checks. Must not know: any law; each check is a module that states its law as data.
 
+mod circles;
 mod deny;
 mod forms;
 mod layers;
 mod links;
+mod modules;
 mod names;
 mod paths;
+mod problem;
+mod prose;
+mod rules_apart;
 mod surroundings;
 mod tokens;
 
-use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
 
+use problem::Problem;
+
+use crate::blind;
 use crate::workspace::{self, TextFile};
-
-/// A place where a law is broken.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Problem {
-    path: String,
-    /// From 1; 0 when the whole file is meant.
-    line: usize,
-    message: String,
-}
-
-impl Problem {
-    fn new(path: impl Into<String>, line: usize, message: impl Into<String>) -> Self {
-        Self { path: path.into(), line, message: message.into() }
-    }
-}
-
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            0 => write!(f, "{}: {}", self.path, self.message),
-            line => write!(f, "{}:{line}: {}", self.path, self.message),
-        }
-    }
-}
 
 /// Runs every check over the repository and prints what is wrong.
 pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     if let Some(argument) = arguments.first() {
-        anyhow::bail!("`{argument}` is no argument of tidy");
+        anyhow::bail!("`{argument}` is not an argument of tidy");
     }
     let problems = check()?;
     for problem in &problems {
@@ -66,30 +49,40 @@ pub(crate) fn check() -> anyhow::Result<Vec<Problem>> {
     let mut problems = layers::problems(&layers::packages(&members));
     problems.extend(deny::bans(&deny));
     problems.extend(deny::licences(&deny, &deny::licences_in_use(&workspace::graph()?)));
-    problems.extend(check_files(&files));
+    problems.extend(check_files(&files)?);
     problems.extend(links::problems(&files, |path| workspace::root().join(path).exists()));
+    let seals = blind::seals().to_string_lossy();
+    problems.extend(
+        blind::broken_seals(&files).into_iter().map(|(line, words)| Problem::new(&*seals, line, words)),
+    );
     problems.sort_by(|a, b| (&a.path, a.line).cmp(&(&b.path, b.line)));
     Ok(problems)
 }
 
-fn check_files(files: &[TextFile]) -> Vec<Problem> {
+fn check_files(files: &[TextFile]) -> anyhow::Result<Vec<Problem>> {
     let banned = names::banned(files);
-    let mut problems = Vec::new();
-    for file in files {
-        problems.extend(paths::problems(file));
-        if Path::new(&file.path).extension().is_none_or(|extension| extension != "rs") {
-            continue;
-        }
+    let mut problems: Vec<Problem> = files.iter().flat_map(paths::problems).collect();
+    let mut rust = Vec::new();
+    for file in files.iter().filter(|file| is_rust(file)) {
         match tokens::RustFile::new(file) {
-            Ok(rust) => {
-                problems.extend(forms::problems(&rust));
-                problems.extend(names::problems(&rust, &banned));
-                problems.extend(surroundings::problems(&rust));
-            }
+            Ok(read) => rust.push(read),
             Err(problem) => problems.push(problem),
         }
     }
-    problems
+    modules::mark_test_files(&mut rust);
+    for file in &rust {
+        problems.extend(forms::problems(file));
+        problems.extend(names::problems(file, &banned));
+        problems.extend(surroundings::problems(file));
+    }
+    problems.extend(rules_apart::problems(&rust));
+    problems.extend(circles::problems(&rust));
+    problems.extend(prose::problems(files, &rust)?);
+    Ok(problems)
+}
+
+fn is_rust(file: &TextFile) -> bool {
+    Path::new(&file.path).extension().is_some_and(|extension| extension == "rs")
 }
 
 #[cfg(test)]

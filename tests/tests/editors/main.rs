@@ -1,8 +1,8 @@
 //! gcheck in real editors: a finding appears, hover tells the state, a fix clears its finding, a rename crosses files.
 //!
-//! Knows: how to start the editors. Must not know: what is tested inside them (`editors/*/test`). `cargo xtask test` installs
-//! VS Code's server, Chromium and Neovim 0.11; what is missing is said, and its test passes over. `cargo xtask test
-//! --editors` runs the editors of the system as well: Neovim as Debian has it, Emacs with eglot.
+//! Knows: how to start the editors. Must not know: what is tested inside them (`editors/*/test`). `cargo xtask test`
+//! installs VS Code's server, Chromium and Neovim 0.11; a message names what is missing, and its test is skipped.
+//! `cargo xtask test --editors` runs the editors of the system as well: Neovim as Debian has it, Emacs with eglot.
 
 #![expect(clippy::expect_used, reason = "a test that meets the unexpected is to fail")]
 #![expect(

@@ -105,7 +105,7 @@ fn programs(root: &Path, folder: &Path, into: &mut BTreeSet<String>) {
     }
 }
 
-/// How `test.sh` runs a program: the files behind `-t` and `-i`.
+/// How `test.sh` runs a program: the files after `-t` and `-i`.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct HowRun {
     table: Option<String>,

@@ -1,10 +1,10 @@
 //! Where we differ from the reference on purpose.
 //!
-//! Knows: the programs that show it, each with the reason, and what of the reference's output is set aside everywhere.
+//! Knows: the programs that show it, each with the reason.
 //! Must not know: how either side executes.
 //!
 //! `fixtures/oracle/deliberate` holds one program for each difference; its first comment says what we do, the next ones what
-//! the reference does and why we do not. Beside it stands what we print, as `.canonical`: `UPDATE_EXPECT=1` rewrites it.
+//! the reference does and why we do not. What we print is beside it, as `.canonical`: `UPDATE_EXPECT=1` rewrites it.
 //! The list stays true: a program on which the reference no longer differs fails.
 
 use std::env;
@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use crate::canonical::{Call, End, Outcome, compare};
+use crate::canonical::{End, Outcome, compare};
 use crate::own::{Program, programs};
 use crate::product;
 use crate::reference::{self, Reference};
@@ -21,18 +21,6 @@ use crate::setup::Setup;
 
 /// The area of these programs.
 pub(crate) const AREA: &str = "deliberate";
-
-/// Drops the tolerance that the reference repeats behind a cycle under exact stop: it says nothing there
-/// (`exact-stop-tolerance`).
-pub(crate) fn without_idle_tolerance(calls: Vec<Call>) -> Vec<Call> {
-    let mut stops = false;
-    let keep = |call: &Call| {
-        let idle = stops && call.name() == "SET_NAIVECAM_TOLERANCE";
-        stops = call.name() == "SET_MOTION_CONTROL_MODE" && call.is_exact_stop();
-        !idle
-    };
-    calls.into_iter().filter(keep).collect()
-}
 
 /// What we print, as it is kept.
 fn shown(outcome: &Outcome) -> String {

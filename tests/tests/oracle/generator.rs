@@ -1,7 +1,7 @@
 //! Random programs that are mostly valid, and some with one mistake.
 //!
 //! Knows: what the dialect accepts, well enough to use all of it. Must not know: what any of it means for the machine
-//! beyond what validity needs (the units, the plane, which axes stand at a known place).
+//! beyond what validity needs (the units, the plane, which axes are at a known place).
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -101,7 +101,7 @@ struct Writer {
     lines: Vec<String>,
     /// Subroutines, written before everything else.
     subs: Vec<Vec<String>>,
-    /// Programs for M98, written behind everything else.
+    /// Programs for M98, written after everything else.
     behind: Vec<Vec<String>>,
     plane: Plane,
     inch: bool,
@@ -111,9 +111,9 @@ struct Writer {
     next_o: i64,
     /// Depth of loops and branches.
     depth: usize,
-    /// Whether percent signs stand around the program.
+    /// Whether percent signs are around the program.
     percent: bool,
-    /// Whether it has a DO, and whether it breaks out of a WHILE: behind such a break the reference runs a DO once only.
+    /// Whether it has a DO, and whether it breaks out of a WHILE: after such a break the reference runs a DO once only.
     has_do: bool,
     has_break: bool,
 }
@@ -235,7 +235,7 @@ impl Writer {
         let end = if self.percent && self.random.one_in(2) { "G0" } else { self.random.pick(&["M2", "M30"]) };
         self.line(end);
         if end == "G0" {
-            // Programs behind a percent sign would not be read, those before it would be run.
+            // Programs after a percent sign would not be read, those before it would be run.
             self.lines.pop();
             self.line("M5");
             if !self.behind.is_empty() {
@@ -672,7 +672,7 @@ impl Writer {
                     " xor ",
                 ]);
                 let (left, right) = (self.expression(depth), self.expression(depth));
-                // A zero behind MOD is a mistake.
+                // A zero after MOD is a mistake.
                 let right = if operator == " mod " { number(self.random.number(1, 9)) } else { right };
                 format!("{left}{operator}{right}")
             }
@@ -854,7 +854,7 @@ impl Writer {
         }
         self.back_to((Plane::Xy, false, false));
         let o = self.o_number();
-        // The reference does not find a program that it passed over on its way to another one: callers stand first.
+        // The reference does not find a program that it passed over on its way to another one: callers are first.
         let place = self.behind.len();
         self.behind.push(Vec::new());
         let mut lines = vec![format!("O{o}")];
@@ -863,7 +863,7 @@ impl Writer {
         if let Some(program) = self.behind.get_mut(place) {
             *program = lines;
         }
-        // Inside a loop or branch the reference does not find its end any more behind `L0`.
+        // Inside a loop or branch the reference does not find its end any more after `L0`.
         let repeats = if self.depth > 1 { ["", " L2", "", " L3"] } else { ["", " L2", " L0", " L3"] };
         let repeats = self.random.pick(&repeats);
         self.line(format!("M98 P{o}{repeats}"));

@@ -2,7 +2,7 @@
 //!
 //! Knows: both command lines and the form they share. Must not know: how either of them executes anything.
 //!
-//! Both print the canonical machining functions of a program, one a line; [`canonical`] says when two outputs are equal:
+//! Both print the canonical machining functions of a program, one a line; [`canonical`](gcheck_tests::canonical) says when two outputs are equal:
 //! names, order and the `N` column exactly, numbers to 1e-4, comments and messages left out, and both end or both refuse.
 //! The installed interpreter decides, but for what is listed as deliberate:
 //!
@@ -22,20 +22,18 @@
 //! (for both) demands it.
 //!
 //! `rs274` keeps its tool table in a file of the home folder that all its processes share, and rewrites its parameter
-//! file: each run has a folder of its own, see [`reference`].
+//! file: each run has a folder of its own, see [`reference`](gcheck_tests::reference).
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
-mod canonical;
 mod corpus;
 mod deliberate;
 mod generated;
 mod generator;
 mod minimise;
 mod own;
-mod process;
 mod product;
 mod random;
-mod reference;
 mod report;
-mod setup;
+
+use gcheck_tests::{canonical, reference, setup};

@@ -70,8 +70,12 @@ fn an_answer_that_nobody_waits_for_is_passed_over() {
 #[test]
 fn unknown_methods_are_refused_and_unknown_notifications_passed_over() {
     let mut session = opened();
-    assert_eq!(session.client.refused("textDocument/moonPhase", json!({}))["code"], METHOD_NOT_FOUND);
+    for method in ["textDocument/moonPhase", "gcheck/moonPhase", "$/moonPhase", "moonPhase", ""] {
+        assert_eq!(session.client.refused(method, json!({}))["code"], METHOD_NOT_FOUND, "{method}");
+        assert_eq!(session.client.refused(method, Value::Null)["code"], METHOD_NOT_FOUND, "{method}");
+    }
     session.client.notify("workspace/didDance", json!({}));
+    session.client.notify("$/moonRise", json!({}));
     session.client.notify("$/setTrace", json!({ "value": "verbose" }));
     is_alive(&mut session, PROGRAM);
 }

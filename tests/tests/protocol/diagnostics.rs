@@ -121,8 +121,8 @@ fn of_a_large_program_the_first_lines_are_told_before_the_rest() {
     let all = session.published("a.nc", 1);
     assert!(first.iter().all(|finding| all.contains(finding)), "{all:?}");
     assert!(all.iter().any(|finding| finding.ends_with("unknown-code")), "{all:?}");
-    assert!(session.client.answer(hover)["result"].to_string().contains("after:"));
-    // Behind that, findings come at once.
+    assert!(session.client.answer(hover)["result"].to_string().contains("in effect:"));
+    // After that, findings come at once.
     session.edit("a.nc", 2, [6, 6, 6, 6], " F100.");
     assert!(!session.published("a.nc", 2).iter().any(|finding| finding.ends_with("feed-missing")));
 }

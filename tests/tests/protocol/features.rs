@@ -3,9 +3,14 @@
 //! Knows: what the protocol wants an answer to look like. Must not know: how features come to their answers; what they say
 //! is tested where they are made.
 
+use std::time::{Duration, Instant};
+
 use serde_json::{Value, json};
 
-use crate::session::{Session, in_bytes, range_of, shown};
+use crate::session::{Session, in_bytes, range_of, shown, usual};
+
+/// The document has changed since the request was sent.
+const CONTENT_MODIFIED: i64 = -32801;
 
 const PROGRAM: &str = "\
 %
@@ -46,13 +51,42 @@ fn hover_tells_of_the_code() {
     let at = session.at("a.nc", 8, 1);
     let hover = ask(&mut session, "textDocument/hover", at);
     assert_eq!(hover["contents"]["kind"], "markdown");
-    assert!(hover["contents"]["value"].as_str().unwrap().contains("G43"), "{hover}");
+    let text = hover["contents"]["value"].as_str().unwrap();
+    assert!(text.contains("G43") && text.contains("gcheck explain G43 --control haas-mill"), "{hover}");
     assert_eq!(shown(&hover["range"]), "8:0-8:3");
 }
 
 #[test]
+fn a_client_that_can_explain_is_given_a_link() {
+    let mut able = usual();
+    able["experimental"] = json!({ "gcheck": { "explainCommand": "gcheck.explain" } });
+    let mut session = Session::with(&able, &[]);
+    session.open("a.nc", PROGRAM);
+    let at = session.at("a.nc", 8, 1);
+    let hover = ask(&mut session, "textDocument/hover", at);
+    let link = "(command:gcheck.explain?%5B%22G43%22,%22haas-mill%22%5D)";
+    assert!(hover["contents"]["value"].as_str().unwrap().contains(link), "{hover}");
+    session.edit("a.nc", 2, [10, 7, 10, 13], "");
+    session.published("a.nc", 2);
+    let offered = actions(&mut session, [10, 0, 10, 2], Some("quickfix"));
+    let explain = offered.iter().find(|action| action["command"]["command"] == "gcheck.explain");
+    assert_eq!(explain.unwrap()["command"]["arguments"], json!(["feed-missing"]), "{offered:#?}");
+}
+
+#[test]
+fn a_hover_leaves_findings_to_the_editor() {
+    let mut session = Session::new(&[]);
+    session.open("a.nc", "%\nO1\n(gcheck: control=haas-mill)\nG90 G1 G0 X1. F100.\nM30\n%\n");
+    let found = session.published("a.nc", 1);
+    assert!(!found.is_empty());
+    let at = session.at("a.nc", 3, 5);
+    let hover = ask(&mut session, "textDocument/hover", at);
+    assert!(!hover["contents"]["value"].as_str().unwrap().contains("docs/rules"), "{hover}");
+}
+
+#[test]
 fn columns_are_those_of_the_client() {
-    // The word behind an emoji: 3 characters beyond the ASCII before it, in 4 units of UTF-16 or 10 bytes.
+    // The word after an emoji: 3 characters beyond the ASCII before it, in 4 units of UTF-16 or 10 bytes.
     let at = |session: &Session, column| session.at("a.nc", 11, column);
     let column = |in_bytes: bool| {
         let line = PROGRAM.lines().nth(11).unwrap();
@@ -79,6 +113,101 @@ fn completion_offers_codes_that_replace_what_is_typed() {
     let items = list["items"].as_array().unwrap();
     let found = items.iter().find(|item| item["label"] == "G83").unwrap_or_else(|| panic!("{list}"));
     assert_eq!(shown(&found["textEdit"]["range"]), "17:0-17:2");
+}
+
+/// What most editors can do, and VS Code with their lists.
+fn with_short_lists() -> Value {
+    let mut all = usual();
+    all["textDocument"]["completion"] = json!({
+        "completionItem": {
+            "snippetSupport": true,
+            "labelDetailsSupport": true,
+            "resolveSupport": { "properties": ["documentation", "detail"] },
+        },
+        "completionList": { "itemDefaults": ["editRange", "data"] },
+    });
+    all
+}
+
+/// A list, and its bytes on the wire.
+fn listed(session: &mut Session, line: u32, character: u32) -> (Value, usize) {
+    let at = session.at("a.nc", line, character);
+    let list = ask(session, "textDocument/completion", at);
+    let size = list.to_string().len();
+    (list, size)
+}
+
+#[test]
+fn a_list_of_all_g_codes_is_short_on_the_wire() {
+    for control in gcheck_controls::names() {
+        let mut session = Session::with(&with_short_lists(), &[]);
+        session.open("a.nc", &format!("%\nO1\n(gcheck: control={control})\nG90\nG\n"));
+        let (list, size) = listed(&mut session, 4, 1);
+        assert!(size <= 10_240, "{control}: {size} bytes");
+        let rows = list["items"].as_array().unwrap();
+        let all = gcheck_controls::load(control).unwrap();
+        let codes = all.codes().filter(|code| code.number().letter() == b'G').count();
+        // Those that do not fit come with the next digit.
+        assert!(rows.len() >= codes.min(90), "{control}: {} rows of {codes} codes", rows.len());
+        session.edit("a.nc", 2, [4, 1, 4, 1], "9");
+        let (narrow, _) = listed(&mut session, 4, 2);
+        assert!(narrow["items"].as_array().unwrap().iter().any(|row| row["label"] == "G98"), "{narrow}");
+        assert_eq!(shown(&list["itemDefaults"]["editRange"]), "4:0-4:1");
+        assert!(rows.iter().all(|row| row["documentation"].is_null()), "{list}");
+        // An editor that knows nothing of short lists is sent the rows that fit best.
+        let mut session = opened();
+        session.edit("a.nc", 2, [17, 0, 17, 3], "G");
+        let (list, size) = listed(&mut session, 17, 1);
+        assert!(size <= 10_240 && list["items"].as_array().unwrap().len() > 30, "{size} bytes");
+    }
+}
+
+#[test]
+fn a_row_of_a_list_says_what_it_is_and_all_about_it_when_it_is_looked_at() {
+    let mut session = Session::with(&with_short_lists(), &[]);
+    session.open("a.nc", PROGRAM);
+    session.edit("a.nc", 2, [17, 0, 17, 3], "G8");
+    let (list, _) = listed(&mut session, 17, 2);
+    let rows = list["items"].as_array().unwrap();
+    let row = rows.iter().find(|row| row["label"] == "G83").unwrap_or_else(|| panic!("{list}"));
+    assert_eq!(row["labelDetails"]["description"], "peck drilling", "{row}");
+    assert!(row["textEdit"].is_null() && row["data"].is_null(), "{row}");
+    // The editor puts our data into the row before it asks.
+    let mut asked = row.clone();
+    asked["data"] = list["itemDefaults"]["data"].clone();
+    let resolved = ask(&mut session, "completionItem/resolve", asked);
+    assert!(resolved["documentation"]["value"].as_str().unwrap().contains("peck"), "{resolved}");
+    assert_eq!(resolved["label"], "G83");
+    // A row of a document that was closed meanwhile stays as it is.
+    let document = session.document("a.nc");
+    session.client.notify("textDocument/didClose", document);
+    let mut asked = row.clone();
+    asked["data"] = list["itemDefaults"]["data"].clone();
+    assert!(ask(&mut session, "completionItem/resolve", asked)["documentation"].is_null());
+    assert!(
+        ask(&mut session, "completionItem/resolve", json!({ "label": "G83" }))["documentation"].is_null()
+    );
+}
+
+#[test]
+fn a_blank_opens_no_list() {
+    let session = opened();
+    let triggers = &session.capabilities["completionProvider"]["triggerCharacters"];
+    assert!(!triggers.as_array().unwrap().contains(&json!(" ")), "{triggers}");
+}
+
+#[test]
+fn help_for_a_block_goes_when_it_is_complete_and_comes_when_it_is_asked_for() {
+    let mut session = opened();
+    let help = |session: &mut Session, character: u32, kind: u32| {
+        let mut params = session.at("a.nc", 16, character);
+        params["context"] = json!({ "triggerKind": kind, "isRetrigger": false });
+        ask(session, "textDocument/signatureHelp", params)
+    };
+    assert_eq!(help(&mut session, 5, 2), Value::Null, "the block has all its words");
+    assert!(help(&mut session, 5, 1)["signatures"].is_array(), "it is asked for");
+    session.edit("a.nc", 2, [16, 0, 16, 30], "G81 X1. Z-5. ");
+    assert!(help(&mut session, 13, 2)["signatures"].is_array(), "R is missing");
 }
 
 #[test]
@@ -202,6 +331,25 @@ fn lenses_tell_what_a_tool_does() {
     assert_eq!(ask(&mut session, "textDocument/codeLens", document), lenses);
 }
 
+#[test]
+fn a_run_for_lenses_ends_with_the_edit_that_outdates_it() {
+    let mut session = Session::new(&[]);
+    // It runs until its fuel is spent, which is a matter of many seconds.
+    session.open("a.nc", "(gcheck: control=haas-mill)\nO1\nN1 G91 G0 X1.\nGOTO 1\nM30\n");
+    let document = session.document("a.nc");
+    let asked = session.client.send_request("textDocument/codeLens", document.clone());
+    // Everything before it is done, so it runs.
+    let at = session.at("a.nc", 0, 0);
+    session.client.request("textDocument/hover", at);
+    session.edit("a.nc", 2, [3, 0, 3, 6], "(NOTE)");
+    let start = Instant::now();
+    let answer = session.client.answer(asked);
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+    assert_eq!(answer["error"]["code"], CONTENT_MODIFIED, "{answer}");
+    let lenses = ask(&mut session, "textDocument/codeLens", document);
+    assert!(!lenses.as_array().unwrap().is_empty(), "{lenses}");
+}
+
 fn actions(session: &mut Session, range: [u32; 4], only: Option<&str>) -> Vec<Value> {
     let mut params = session.document("a.nc");
     params["range"] = range_of(range);
@@ -263,7 +411,15 @@ fn our_own_requests_answer() {
     let at = session.at("a.nc", 11, 5);
     let state = ask(&mut session, "gcheck/stateAt", at);
     assert!(state.is_object(), "{state}");
-    assert!(!state.to_string().contains("\"setAt\":1"), "places are lines and columns: {state}");
+    for side in ["before", "after"] {
+        let modes = state[side]["modes"].as_array().unwrap();
+        let of = |code: &str| {
+            modes.iter().find(|mode| mode["codes"] == json!([code])).unwrap_or_else(|| panic!("{state}"))
+        };
+        assert_eq!(of("G90")["setAt"], json!({ "line": 3, "character": 0 }), "{side}");
+        assert_eq!(of("G54")["setAt"], json!({ "line": 6, "character": 0 }), "{side}");
+        assert_eq!(of("G1")["setAt"], json!({ "line": 10, "character": 0 }), "{side}");
+    }
     let document = session.document("a.nc");
     let path = ask(&mut session, "gcheck/toolpath", document.clone());
     assert!(path.is_object(), "{path}");
@@ -271,6 +427,22 @@ fn our_own_requests_answer() {
     let at = session.at("a.nc", 12, 0);
     let block = ask(&mut session, "gcheck/syntaxTree", at);
     assert!(block.as_str().unwrap().starts_with("BLOCK"), "{block}");
+}
+
+#[test]
+fn rules_and_codes_are_explained() {
+    let mut session = opened();
+    let mut about = |params: Value| ask(&mut session, "gcheck/explain", params);
+    let page = about(json!({ "subject": "feed-missing" }));
+    assert!(page.as_str().unwrap().starts_with("# feed-missing"), "{page}");
+    let page = about(json!({ "subject": "G71", "control": "haas-lathe" }));
+    assert!(page.as_str().unwrap().starts_with("# G71"), "{page}");
+    assert_eq!(about(json!({ "subject": "G4711", "control": "haas-lathe" })), Value::Null);
+    let uri = session.uri("a.nc");
+    let page =
+        ask(&mut session, "gcheck/explain", json!({ "subject": "G143", "textDocument": { "uri": uri } }));
+    assert!(page.as_str().unwrap().contains("Haas mill"), "{page}");
+    session.client.refused("gcheck/explain", json!({ "subject": "G1", "control": "no-such" }));
 }
 
 #[test]

@@ -2,6 +2,8 @@
 //!
 //! Knows: how places of other files are told. Must not know: what calls what.
 
+use std::fs;
+
 use serde_json::{Value, json};
 
 use crate::session::{Session, shown};
@@ -23,7 +25,7 @@ fn a_call_leads_to_the_program_on_disk_or_as_it_is_typed() {
     assert_eq!(found.as_array().unwrap().len(), 1, "{found}");
     assert_eq!(found[0]["uri"], session.uri("100.nc"));
     assert_eq!(found[0]["range"]["start"]["line"], 1);
-    // In the editor it stands a line lower.
+    // In the editor it is a line lower.
     session.open("100.nc", &format!("(A)\n{CALLED}"));
     let found = session.client.request("textDocument/definition", at);
     assert_eq!(found[0]["range"]["start"]["line"], 2);
@@ -98,4 +100,21 @@ fn symbols_of_the_whole_workspace_are_found() {
     uris.sort_by_key(ToString::to_string);
     uris.dedup();
     assert_eq!(uris, [&json!(session.uri("100.nc")), &json!(session.uri("other/100.nc"))]);
+}
+
+#[test]
+fn a_program_of_an_old_code_page_is_read_as_people_wrote_it() {
+    let called: &[u8] = b"(f\xFCr K\xF6ln) O100 (Fr\xE4sen)\nT1 M6 (\xD8 5)\nG1 X1.\nM99\n";
+    let mut session = Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n")]);
+    fs::write(session.path("100.nc"), called).unwrap();
+    session.open("a.nc", CALLER);
+    let found = session.client.request("workspace/symbol", json!({ "query": "" }));
+    let names: Vec<&str> =
+        found.as_array().unwrap().iter().map(|symbol| symbol["name"].as_str().unwrap()).collect();
+    assert!(names.contains(&"T1 \u{d8} 5"), "{names:?}");
+    assert!(names.iter().all(|name| !name.contains('\u{1a}')), "{names:?}");
+    // Columns are those of an editor that shows one character for each byte.
+    let at = session.at("a.nc", 4, 6);
+    let found = session.client.request("textDocument/definition", at);
+    assert_eq!(shown(&found[0]["range"]), "0:11-0:15", "{found}");
 }

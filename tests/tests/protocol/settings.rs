@@ -6,7 +6,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use crate::session::{Session, usual};
+use crate::session::{Session, pulling, usual};
 
 const PROGRAM: &str = "%\nO1\nG21 G17 G40 G49 G80 G90 G94\nG54\nG0 X0.\nG1 X1.\nM30\n%\n";
 
@@ -15,6 +15,14 @@ fn status(session: &mut Session, name: &str) -> (String, String) {
     let status = session.client.notification("gcheck/status", |params| params["uri"] == uri.as_str());
     let text = |member: &str| status[member].as_str().unwrap().to_owned();
     (text("control"), text("source"))
+}
+
+#[test]
+fn the_control_is_told_with_its_title() {
+    let mut session = Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n")]);
+    session.open("a.nc", PROGRAM);
+    let status = session.client.notification("gcheck/status", |params| params["control"] == "haas-mill");
+    assert_eq!(status["title"], "Haas mill (classic control and NGC)");
 }
 
 fn pair(control: &str, source: &str) -> (String, String) {
@@ -101,6 +109,28 @@ fn programs_may_be_checked_when_they_are_saved_only() {
 }
 
 #[test]
+fn a_client_that_asks_for_findings_is_told_those_of_the_saved_text() {
+    let mut session = Session::told(&pulling(), &json!({ "run": "onSave" }), &[]);
+    session.open("a.nc", PROGRAM);
+    // The settings are known once anything is answered after them.
+    let at = session.at("a.nc", 0, 0);
+    session.client.request("textDocument/hover", at);
+    let params = session.document("a.nc");
+    let first = session.pull(&params);
+    session.edit("a.nc", 2, [5, 0, 5, 2], "G999");
+    let mut again = params.clone();
+    again["previousResultId"] = first["resultId"].clone();
+    assert_eq!(session.pull(&again)["kind"], "unchanged");
+    // That some file has changed makes no difference.
+    touched(&mut session, "other.nc");
+    assert_eq!(session.pull(&again)["kind"], "unchanged");
+    session.client.notify("textDocument/didSave", params);
+    let saved = session.pull(&again);
+    assert!(saved["items"].to_string().contains("unknown-code"), "{saved}");
+    assert!(session.client.requests.iter().any(|asked| asked["method"] == "workspace/diagnostic/refresh"));
+}
+
+#[test]
 fn a_configuration_that_changes_is_read_again() {
     let mut session = Session::new(&[("gcheck.toml", "control = \"haas-mill\"\n")]);
     session.open("a.nc", PROGRAM);
@@ -172,7 +202,11 @@ fn the_server_asks_to_be_told_of_changes() {
     let methods: Vec<&str> = registrations.iter().map(|one| one["method"].as_str().unwrap()).collect();
     assert_eq!(methods, ["workspace/didChangeWatchedFiles", "workspace/didChangeConfiguration"]);
     let globs = registrations[0]["registerOptions"]["watchers"].to_string();
-    assert!(globs.contains("gcheck.toml") && globs.contains("nc"), "{globs}");
+    assert!(globs.contains("gcheck.toml"), "{globs}");
+    // Programs are called as their shop does: `PART.NC`, `part.nc`, `o1234`.
+    for pattern in ["[nN][cC]", "[nN][gG][cC]", "[tT][aA][pP]", "**/[oO][0-9]*"] {
+        assert!(globs.contains(pattern), "{pattern} in {globs}");
+    }
 }
 
 #[test]
@@ -180,6 +214,8 @@ fn the_control_can_be_written_into_the_program() {
     let mut session = Session::new(&[]);
     session.open("a.nc", PROGRAM);
     let entries = session.client.request("gcheck/controls", Value::Null);
+    // Some clients always send parameters.
+    assert_eq!(session.client.request("gcheck/controls", json!({})), entries);
     assert!(entries.as_array().unwrap().iter().any(|one| one["name"] == "haas-lathe"), "{entries}");
     let set = |uri: &str, control: &str| json!({ "command": "gcheck.setControl", "arguments": [{ "uri": uri, "control": control }] });
     let uri = session.uri("a.nc");

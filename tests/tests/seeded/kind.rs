@@ -14,7 +14,7 @@ pub(crate) struct Kind {
     pub(crate) says: &'static str,
     /// What comes of it on the machine.
     pub(crate) fear: Fear,
-    /// Where a finding must stand to count.
+    /// Where a finding must be to count.
     pub(crate) place: Place,
     /// The rules that say it.
     pub(crate) found_by: &'static [&'static str],
@@ -87,7 +87,7 @@ impl Fear {
     }
 }
 
-/// Where a finding must stand to count.
+/// Where a finding must be to count.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Place {
     /// Not more than two lines from an edited one.
@@ -120,7 +120,7 @@ impl Seed {
             // Words side by side share the blank between them.
             let start = edit.range.start.max(done);
             result.push_str(&text[done..start]);
-            // A line that is put in begins behind the end of the line above.
+            // A line that is put in begins after the end of the line above.
             let begun = result.clone() + if edit.text.starts_with('\n') { "\n" } else { "" };
             lines.push(begun.matches('\n').count() + 1);
             result.push_str(&edit.text);
@@ -190,7 +190,7 @@ impl Program {
         Edit { range: start..start, text: format!("{}\n", line.as_ref()) }
     }
 
-    /// Something is written behind the last word of the block.
+    /// Something is written after the last word of the block.
     #[expect(clippy::unused_self, reason = "kinds ask the program for every edit")]
     pub(crate) fn behind_words(&self, block: &Block, text: impl AsRef<str>) -> Edit {
         let end = block.end_of_words();

@@ -52,13 +52,13 @@ const HEAD: &str = "\
 Mistakes that machinists fear were put, one at a time, into programs without a mistake, and gcheck was asked whether it sees them.
 The kinds come from manuals, alarm lists and reports of crashes, not from the list of rules: a kind that is not found stays in the table.
 
-A mistake counts as found when a rule that names it speaks, on a line not more than two from the edit; under *where it strikes*, anywhere in the program.
+A mistake counts as found when a rule that names it reports on a line not more than two from the edit; under *where it strikes*, anywhere in the program.
 Two numbers say how many are found by the rules that are on by default, and by those of the set `strict`, which adds what careful programs state; one number, where both are equal.
 
 *Ours* are the programs of `fixtures/clean`, one place of each program for each kind that fits it; they have a machine file.
 *Corpus* are programs of the real-program corpus about which gcheck has nothing to say, four for each kind, without a machine file; kinds that only show against a machine's limits and tools are left out there.
 Places are drawn by hashing names, so that every run makes the same mistakes.
-Rules were mended after it was seen what they missed: the shares say what is found of these mistakes, and promise less of others.
+Rules were fixed after the first results: the shares hold for these mistakes, and promise less for others.
 ";
 
 /// The whole page.
@@ -89,7 +89,7 @@ pub(crate) fn write(ours: &Table, corpus: &Table, others: &Others) -> String {
         let _ = writeln!(page, "| {tool} | {} |", share(given, found));
     }
     for (title, kinds) in kinds::CHAPTERS {
-        let _ = write!(page, "\n## {title}\n\n| mistake | comes of it | found by | ours | corpus |");
+        let _ = write!(page, "\n## {title}\n\n| mistake | result | found by | ours | corpus |");
         let columns: String = others.tools.iter().map(|tool| format!(" {tool} |")).collect();
         let _ = writeln!(page, "{columns}");
         let _ = writeln!(page, "|---|---|---|---|---|{}", "---|".repeat(others.tools.len()));

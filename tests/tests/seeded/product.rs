@@ -41,7 +41,7 @@ pub(crate) fn check_clean(subjects: &[Subject]) -> Vec<String> {
     .collect()
 }
 
-/// The programs about which nothing is said, not even where each stands alone in its folder.
+/// The programs about which nothing is said, not even where each is alone in its folder.
 pub(crate) fn only_clean(subjects: Vec<Subject>) -> Vec<Subject> {
     let files =
         subjects.iter().map(|s| (s.program.control.as_str(), s.config.as_str(), s.program.text.as_str()));

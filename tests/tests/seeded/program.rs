@@ -63,7 +63,7 @@ pub(crate) struct Modes {
     pub(crate) tool: Option<f64>,
     /// How many tool changes came before.
     pub(crate) section: usize,
-    /// Behind the end of the main program, or inside a subroutine.
+    /// After the end of the main program, or inside a subroutine.
     pub(crate) is_subprogram: bool,
 }
 
@@ -241,7 +241,7 @@ impl Block {
             && self.code(&NO_MOVES).is_none()
     }
 
-    /// Where the last word or statement ends: a remark may stand behind.
+    /// Where the last word or statement ends: a remark may be after.
     pub(crate) fn end_of_words(&self) -> usize {
         let words = self.words.iter().map(|word| word.range.end);
         let statements = self.statements.iter().map(|(range, _)| range.end);

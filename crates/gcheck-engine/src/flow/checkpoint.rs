@@ -7,7 +7,8 @@ use std::collections::BTreeSet;
 use super::marks::Marks;
 use super::trace::{Facts, Trace};
 use crate::assumption::Assumption;
-use crate::state::{At, State};
+use crate::origin::At;
+use crate::state::State;
 use crate::value::Abstract;
 
 /// A place where one state stands for all paths, the main program is under way, and nothing in front is come back to: what

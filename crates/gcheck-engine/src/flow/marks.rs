@@ -3,7 +3,7 @@
 //! Knows: blocks by file and number. Must not know: how they are reached. Costs little where few blocks are marked, wherever
 //! they stand.
 
-use crate::state::At;
+use crate::origin::At;
 
 /// A set of blocks: a bit a block, in words of 64; only words with a block are kept, in order.
 #[derive(Debug, Clone, Default)]
@@ -121,7 +121,7 @@ impl Marks {
 #[cfg(test)]
 mod tests {
     use super::Marks;
-    use crate::state::At;
+    use crate::origin::At;
 
     #[test]
     fn the_first_block_that_is_missing_is_found() {

@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use crate::event::Event;
 use crate::model::{Model, Role};
-use crate::state::At;
+use crate::origin::At;
 
 /// A fact whose setting block is kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

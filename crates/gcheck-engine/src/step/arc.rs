@@ -33,10 +33,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn arc(&mut self, counter_clockwise: bool, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         let result = self.arc_to(counter_clockwise, &target, state);
-        if result.is_err() && state.compensation.is_none() {
+        if result.is_err() && !state.compensation.is_followed() {
             // The program means this point, whatever is wrong with the way there.
-            state.position = target;
-            state.actual = self.axes_of(&target, state);
+            state.points.position.put(target);
+            state.points.actual.put(self.axes_of(&target, state));
         }
         result
     }
@@ -56,7 +56,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let turns = if rules.turns { self.count_turns()? } else { 1 };
         let direction = if counter_clockwise { ArcDirection::Ccw } else { ArcDirection::Cw };
-        let start = state.position.xyz();
+        let start = state.position().xyz();
         let end = target.xyz();
         let has_centre = self.words.has(i) || self.words.has(j);
         let radius = self.length(Letter::of('R'), state);
@@ -87,13 +87,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.announce_inverse_time(|_| arc.length().0, state);
         let sign = if counter_clockwise { 1 } else { -1 };
         let turns = sign * i32::try_from(turns).unwrap_or(i32::MAX);
-        if state.compensation.is_some() {
+        if state.compensation.is_followed() {
             return self.compensated_arc(&arc, *target, turns, state);
         }
-        if state.left_compensation.is_some() {
+        if !state.compensation.left.is_no() {
             self.leave_compensation(true, state)?;
         }
-        if self.compensates(state) || state.tool_shift.is_on() {
+        if !state.compensation.on.is_no() || state.tool_shift.is_on() {
             return self.unknown_arc(counter_clockwise, target, state);
         }
         let to = self.axes_of(target, state);
@@ -101,7 +101,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let sweep = if (turns > 0) == counter_clockwise { arc.sweep() } else { -arc.sweep() };
         let event = ArcMove {
             plane,
-            from: state.actual,
+            from: *state.actual(),
             programmed: *target,
             to,
             centre,
@@ -109,8 +109,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep,
             expanded: false,
         };
-        state.actual = to;
-        state.position = *target;
+        state.points.actual.put(to);
+        state.points.position.put(*target);
         self.emit(state, Event::Arc(event));
         Ok(())
     }
@@ -137,12 +137,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn unknown_arc(&mut self, counter_clockwise: bool, target: &Position, state: &mut State<D>) -> Step {
         let plane = state.plane(self.model).unwrap_or(Plane::Xy);
         let mut to = self.axes_of(target, state);
-        if self.compensates(state) {
+        if self.may_run_beside(state) {
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }
         let event = ArcMove {
             plane,
-            from: state.actual,
+            from: *state.actual(),
             programmed: *target,
             to,
             centre: (Mm::UNKNOWN, Mm::UNKNOWN),
@@ -150,8 +150,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep: f64::NAN,
             expanded: false,
         };
-        state.actual = to;
-        state.position = *target;
+        state.points.actual.put(to);
+        state.points.position.put(*target);
         self.emit(state, Event::Arc(event));
         Ok(())
     }
@@ -162,7 +162,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let diameter = state.is_diameter(self.model) == Some(true);
         let mut centre = [Mm(0.0); 2];
         for ((slot, axis), letter) in centre.iter_mut().zip(axes).zip(letters) {
-            let from = state.position.raw(axis);
+            let from = state.position().raw(axis);
             *slot = Mm(match (self.length(letter, state), absolute) {
                 (Some(value), true) if axis == Axis::X && diameter => value / 2.0,
                 (Some(value), true) => value,

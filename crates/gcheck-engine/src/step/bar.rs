@@ -1,10 +1,7 @@
 //! The bar feeder: `G105` pushes the bar for the next part, or loads a new one.
 //!
-//! Knows: the order of cutoff, spindle, chuck and push, when a bar is too short, what of the bar is left. Must not know: which
-//! variables hold its lengths (data), how long anything takes.
-//!
-//! The bar is measured behind the face of the chuck, where what is too short cannot be clamped: a new bar's length less its
-//! first push, less a part for every push after it.
+//! Knows: the order of cutoff, spindle, chuck and push, when a bar is too short. Must not know: which variables hold its lengths
+//! (data), how long anything takes.
 
 use gcheck_controls::{BarFeederRules, CodeIx, Letter};
 use gcheck_geometry::Mm;
@@ -14,137 +11,15 @@ use super::{Count, Ending, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::{BarLengths, Event, Spindle, Units};
 use crate::fault::Fault;
-use crate::machine::Machine;
-use crate::model::Model;
-use crate::number::{either, stands_for};
-use crate::observer::{Observer, Origin};
+use crate::lattice::Flat;
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::position::Axis;
-use crate::state::{At, State};
+use crate::state::{Bar, BarCommand, State};
 use crate::value::{Domain, Truth};
-
-/// The bar in the chuck, and those that wait.
-#[derive(Debug, Clone, Copy)]
-pub struct Bar {
-    /// Behind the face of the chuck, millimetres; NaN unknown.
-    length: f64,
-    /// The bar is whole: its first push is still to be taken off `length`.
-    is_whole: bool,
-    /// Bars in the magazine; infinite when nobody counts them, NaN unknown.
-    waiting: f64,
-    /// The chuck is closed.
-    clamped: Truth,
-}
-
-/// A bar feed as its block commands it, millimetres; NaN unknown.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BarCommand {
-    part: f64,
-    initial: f64,
-    clamping: f64,
-    /// Angle at which the spindle takes a new bar.
-    orient: Option<f64>,
-}
 
 /// Lengths that differ by less are taken for equal: the rest of a bar is a sum of many.
 const EQUAL_WITHIN: f64 = 1e-6;
-
-impl Bar {
-    /// Nothing is known.
-    pub(crate) const UNKNOWN: Self =
-        Self { length: f64::NAN, is_whole: false, waiting: f64::NAN, clamped: Truth::Unknown };
-
-    pub(crate) fn at_start(machine: &Machine) -> Self {
-        let feeder = machine.bar;
-        if !feeder.starts_new {
-            return Self::UNKNOWN;
-        }
-        Self {
-            length: feeder.new_bar.map_or(f64::NAN, |bar| bar.0),
-            is_whole: feeder.new_bar.is_some(),
-            waiting: feeder.bars.map_or(f64::INFINITY, |bars| f64::from(bars.saturating_sub(1))),
-            clamped: Truth::Unknown,
-        }
-    }
-
-    /// What of the bar is behind the face of the chuck; NaN unknown.
-    pub fn length(&self) -> Mm {
-        Mm(if self.is_whole { f64::NAN } else { self.length })
-    }
-
-    /// Is the chuck closed?
-    pub fn clamped(&self) -> Truth {
-        self.clamped
-    }
-
-    fn bits(&self) -> (u64, bool, u64, Truth) {
-        (self.length.to_bits(), self.is_whole, self.waiting.to_bits(), self.clamped)
-    }
-
-    pub(crate) fn join(&self, other: &Self) -> Self {
-        Self {
-            length: if self.is_whole == other.is_whole {
-                either(self.length, other.length)
-            } else {
-                f64::NAN
-            },
-            is_whole: self.is_whole && other.is_whole,
-            waiting: either(self.waiting, other.waiting),
-            clamped: if self.clamped == other.clamped { self.clamped } else { Truth::Unknown },
-        }
-    }
-
-    /// Is what `inner` stands for something that this stands for?
-    pub(crate) fn contains(&self, inner: &Self) -> bool {
-        (self.length.is_nan() || stands_for(self.length, inner.length) && self.is_whole == inner.is_whole)
-            && stands_for(self.waiting, inner.waiting)
-            && (self.clamped == Truth::Unknown || self.clamped == inner.clamped)
-    }
-}
-
-impl PartialEq for Bar {
-    /// Bit by bit, so that unknown equals unknown.
-    fn eq(&self, other: &Self) -> bool {
-        self.bits() == other.bits()
-    }
-}
-
-impl BarCommand {
-    fn bits(&self) -> ([u64; 3], Option<u64>) {
-        ([self.part, self.initial, self.clamping].map(f64::to_bits), self.orient.map(f64::to_bits))
-    }
-
-    pub(crate) fn join(&self, other: &Self) -> Self {
-        Self {
-            part: either(self.part, other.part),
-            initial: either(self.initial, other.initial),
-            clamping: either(self.clamping, other.clamping),
-            orient: match (self.orient, other.orient) {
-                (Some(a), Some(b)) => Some(either(a, b)),
-                (None, None) => None,
-                _ => Some(f64::NAN),
-            },
-        }
-    }
-}
-
-impl PartialEq for BarCommand {
-    /// Bit by bit, so that unknown equals unknown.
-    fn eq(&self, other: &Self) -> bool {
-        self.bits() == other.bits()
-    }
-}
-
-/// A run begins with its first bar: the counters of the feeder start with it, unless they were told.
-pub(crate) fn start_bar_counters<D: Domain>(model: &Model<'_>, machine: &Machine, state: &mut State<D>) {
-    let Some(rules) = model.semantics().bar_feeder.as_ref().filter(|_| machine.bar.starts_new) else {
-        return;
-    };
-    for (number, value) in [(rules.parts, 0.0), (rules.bars, 1.0), (rules.run_length, 0.0)] {
-        if !state.variables.is_written(number) {
-            state.variables.set(number, D::assumed(D::number(value)));
-        }
-    }
-}
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G105`.
@@ -156,8 +31,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(mode) = self.bar_mode(words)? {
             // The feeder is set up: bars come and go, and where they are is its own affair.
             self.assumptions.insert(Assumption::Code(ix));
-            state.bar = Bar::UNKNOWN;
-            state.spindle = state.spindle.filter(|spindle| *spindle == Spindle::Stopped);
+            state.bar.put(Bar::UNKNOWN);
+            if *state.spindle.way != Flat::Known(Spindle::Stopped) {
+                state.spindle.way.put(Flat::Unknown);
+            }
             let mode = if let Count::Known(mode) = mode { Some(mode) } else { None };
             self.emit(state, Event::BarSetup(mode));
             return Ok(());
@@ -173,7 +50,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         match self.count(Letter::of('P'))? {
             None => {}
-            Some(Count::Unknown) => self.lose_everything(state),
+            Some(Count::Unknown) => self.lose_everything(state)?,
             Some(Count::Known(number)) => match self.program.find_number(number, self.origin.at.file) {
                 Some(target) => {
                     self.cut_off_then_feed(target, command);
@@ -206,7 +83,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The cutoff program came back to the bar feed that called it.
-    pub(super) fn feed_behind_cutoff(
+    pub(super) fn feed_after_cutoff(
         &mut self,
         at: At,
         command: &BarCommand,
@@ -239,10 +116,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if feeder.starts_new && feeder.new_bar.is_some() {
             self.assumptions.insert(Assumption::NewBar);
         }
-        if state.bar.is_whole {
-            state.bar.is_whole = false;
-            state.bar.length -= initial;
-        }
+        state.bar.count_first_push(initial);
         self.emit(
             state,
             Event::BarFeed(BarLengths { part: Mm(part), initial: Mm(initial), clamping: Mm(clamping) }),
@@ -255,17 +129,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         {
             return Ok(Some(Ending::BarsUsed));
         }
-        if state.spindle != Some(Spindle::Stopped) {
+        if state.spindle() != Some(Spindle::Stopped) {
             self.spindle(Spindle::Stopped, state)?;
         }
         self.chuck(false, state);
         match self.is_long_enough(command, state) {
             Truth::True => {
-                state.bar.length -= part;
+                let left = state.bar.length().0 - part;
+                state.bar.set_length(left);
                 self.push(part, state);
             }
             Truth::False => {
-                self.emit(state, Event::BarUnload(Mm(state.bar.length)));
+                let left = state.bar.length();
+                self.emit(state, Event::BarUnload(left));
                 if state.bar.waiting < 1.0 || self.is_at_limit(rules.bars, rules.most_bars, state)? {
                     return Ok(Some(Ending::BarsUsed));
                 }
@@ -275,7 +151,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.emit(state, Event::OrientSpindle { angle, way: 0 });
                 }
                 self.emit(state, Event::BarLoad);
-                state.bar.length = feeder.new_bar.map_or(f64::NAN, |bar| bar.0 - initial);
+                state.bar.set_length(feeder.new_bar.map_or(f64::NAN, |bar| bar.0 - initial));
                 self.push(initial, state);
             }
             Truth::Unknown => {
@@ -283,13 +159,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if !self.lenient {
                     self.assumptions.insert(Assumption::BarLength);
                 }
-                state.bar.length = f64::NAN;
+                state.bar.set_length(f64::NAN);
                 state.bar.waiting = f64::NAN;
                 self.write_plain(rules.bars, D::unknown(), state);
                 self.push(part, state);
             }
         }
-        let left = state.bar.length / self.table_unit(state);
+        let left = state.bar.length().0 / self.table_unit(state);
         let left = if left.is_finite() { D::assumed(D::number(left)) } else { D::unknown() };
         self.write_plain(rules.bar_length, left, state);
         self.chuck(true, state);
@@ -299,7 +175,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Is the bar longer than a part and its clamping? Where it is just as long, a new one is the safe choice.
     fn is_long_enough(&mut self, command: &BarCommand, state: &State<D>) -> Truth {
         let BarCommand { part, clamping, .. } = *command;
-        let spare = state.bar.length - part - clamping;
+        let length = state.bar.length().0;
+        let spare = length - part - clamping;
         if spare.abs() <= EQUAL_WITHIN {
             self.assumptions.insert(Assumption::BarAtLimit);
             return Truth::False;
@@ -309,12 +186,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return if part > 0.0 { Truth::from(spare > 0.0) } else { Truth::Unknown };
         }
         // A part that does not even fit in is too long, whatever has to stay clamped.
-        if state.bar.length < part { Truth::False } else { Truth::Unknown }
+        if length < part { Truth::False } else { Truth::Unknown }
     }
 
     /// Does a main program that came to its return make another part? As long as bars are told and known to be left.
     pub(crate) fn starts_again(&self, state: &State<D>) -> bool {
-        self.machine.bar.bars.is_some() && !state.bar.length.is_nan()
+        self.machine.bar.bars.is_some() && state.bar.is_measured()
     }
 
     fn push(&mut self, by: f64, state: &mut State<D>) {

@@ -2,6 +2,8 @@
 //!
 //! Knows: which events wait for the next move. Must not know: how the offset path is computed (`gcheck-geometry`).
 
+use std::rc::Rc;
+
 use gcheck_controls::{CompensationStyle, Effect, Letter, Semantics};
 use gcheck_geometry::{
     Arc, CompensationConfig, CompensationError, Compensator, Cutter, CutterSide, LineKind, Mm, OffsetCourse,
@@ -9,37 +11,16 @@ use gcheck_geometry::{
 };
 
 use super::{Count, Executor, Step};
-use crate::assumption::Assumption;
+use crate::assumption::{Assumption, Unsettled};
 use crate::event::{ArcMove, Event, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
+use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::Origin;
 use crate::position::Position;
-use crate::state::State;
+use crate::state::{Compensation, Course, Programmed, State, ToolData};
 use crate::value::Domain;
-
-/// Cutter compensation that is on, with the moves it holds back.
-#[derive(Debug, Clone)]
-pub struct Compensation {
-    compensator: Compensator<Programmed, (Origin, Event)>,
-    plane: Plane,
-    /// The last point given out, all axes.
-    at: Position,
-}
-
-impl PartialEq for Compensation {
-    /// What is held back makes two of them hardly ever equal; to say "never" is safe.
-    fn eq(&self, _: &Self) -> bool {
-        false
-    }
-}
-
-/// What a programmed move carries through the compensation.
-#[derive(Debug, Clone, Copy)]
-struct Programmed {
-    origin: Origin,
-    target: Position,
-}
 
 type Offset = OffsetEvent<Programmed, (Origin, Event)>;
 
@@ -50,15 +31,15 @@ fn config(semantics: &Semantics) -> CompensationConfig {
     }
 }
 
-#[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// An event while compensation is on: it keeps its place between the moves.
     pub(crate) fn emit_compensated(&mut self, state: &mut State<D>, event: Event) {
-        let Some(mut compensation) = state.compensation.take() else { return };
+        let Some(mut compensation) = state.compensation.take_followed() else { return };
+        let followed = Rc::make_mut(&mut compensation);
         let mut out = Vec::new();
-        compensation.compensator.pass((self.origin(), event), |offset| out.push(offset));
-        self.give_out(&mut compensation, out, state);
-        state.compensation = Some(compensation);
+        followed.compensator.pass((self.origin(), event), |offset| out.push(offset));
+        self.give_out(followed, out, state);
+        state.compensation.follow_path(compensation);
     }
 
     /// `G41`, `G42` and their kin.
@@ -69,6 +50,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.cutter_along_vectors(state);
         }
         self.end_cutter_along_vectors(state);
+        // What the path before holds back comes first.
+        self.flush_compensation(state)?;
+        // On from here, and unless everything about it is known, along a path that is not.
+        state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+        let by_number = matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
         if state.tool_shift.is_on() {
             // Refused along a tilting tool: the path beside the programmed one is not known.
             return self.remember_offset_number(state);
@@ -79,73 +65,79 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let Some(plane) = state.plane(self.model) else {
             // The path is not known; the number of the offset is.
-            let by_number = matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
             return if by_number { self.remember_offset_number(state) } else { Ok(()) };
         };
         if plane == Plane::Yz && self.refuses_incomplete() {
             return Err(Fault::Compensation(CompensationFault::Plane));
         }
-        let by_diameter =
-            matches!(effect, Effect::CompensationLeftByDiameter | Effect::CompensationRightByDiameter);
-        let (radius, orientation) = if by_diameter {
-            let Some(diameter) = self.length(Letter::of('D'), state) else {
-                return Err(Fault::MissingWord(Letter::of('D')));
-            };
-            let orientation = match self.count(Letter::of('L'))? {
-                Some(Count::Known(l @ 0..=9)) => l as u8,
-                None => 0,
-                _ => return Err(Fault::WordRange(Letter::of('L'))),
-            };
-            (diameter / 2.0, orientation)
-        } else {
+        let (radius, orientation) = if by_number {
             self.remember_offset_number(state)?;
             self.cutter_radius(state)?
+        } else {
+            self.cutter_of_block(plane, state)?
         };
-        if orientation != 0 && plane == Plane::Xy && self.refuses_incomplete() && by_diameter {
-            return Err(Fault::Compensation(CompensationFault::Plane));
-        }
-        state.compensation = None;
         let side = if left { CutterSide::Left } else { CutterSide::Right };
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
-        let mut compensation =
-            state.left_compensation.take().filter(|left| left.plane == plane).unwrap_or_else(|| {
-                Box::new(Compensation {
-                    compensator: Compensator::new(config(self.model.semantics())),
-                    plane,
-                    at: state.actual,
-                })
-            });
+        let mut compensation = match state.compensation.left.take() {
+            Perhaps::Yes(left) if left.plane == plane => left,
+            Perhaps::Yes(_) | Perhaps::No => Rc::new(Compensation {
+                compensator: Compensator::new(config(self.model.semantics())),
+                plane,
+                at: *state.actual(),
+            }),
+            Perhaps::Unknown => return Ok(()),
+        };
         // An unknown start or size is no mistake of the program: it is carried as an unknown path.
-        if compensation.compensator.start(cutter, planar(&state.position, plane)).is_ok() {
-            state.compensation = Some(compensation);
+        let start = planar(state.position(), plane);
+        if Rc::make_mut(&mut compensation).compensator.start(cutter, start).is_ok() {
+            state.compensation.follow_path(compensation);
         }
         Ok(())
+    }
+
+    /// Radius and orientation of the cutter whose diameter the block gives.
+    fn cutter_of_block(&mut self, plane: Plane, state: &State<D>) -> Step<(f64, u8)> {
+        let Some(diameter) = self.length(Letter::of('D'), state) else {
+            return Err(Fault::MissingWord(Letter::of('D')));
+        };
+        let orientation = match self.count(Letter::of('L'))? {
+            Some(Count::Known(l @ 0..=9)) => l as u8,
+            None => 0,
+            _ => return Err(Fault::WordRange(Letter::of('L'))),
+        };
+        if orientation != 0 && plane == Plane::Xy && self.refuses_incomplete() {
+            return Err(Fault::Compensation(CompensationFault::Plane));
+        }
+        Ok((diameter / 2.0, orientation))
     }
 
     pub(crate) fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
         if let Some(value) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
-            state.d = value;
+            state.tool.d.put(value);
         } else if self.model.semantics().tools.radius_from_tool {
-            state.d = state.tool.clone();
+            let tool = state.tool().clone();
+            state.tool.d.put(tool);
         }
         Ok(())
     }
 
     /// Radius of the cutter that `D` names, NaN unknown, with the orientation of a lathe tool.
     pub(crate) fn cutter_radius(&mut self, state: &State<D>) -> Step<(f64, u8)> {
-        let Some(number) = D::known(&state.d) else { return Ok((f64::NAN, 0)) };
-        if state.tables.complete && D::known(&state.tool) == Some(number) && !self.words.has(Letter::of('D'))
-        {
-            return Ok((state.loaded.diameter.0 / 2.0, state.loaded.orientation));
+        let Some(number) = D::known(state.d()) else { return Ok((f64::NAN, 0)) };
+        let tables = state.tables();
+        let is_loaded = D::known(state.tool()) == Some(number) && !self.words.has(Letter::of('D'));
+        if tables.is_complete() && is_loaded {
+            let tool = state.tool.loaded.data;
+            return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
         }
         if number == 0.0 {
             return Ok((0.0, 0));
         }
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
-        match state.tables.tool(number) {
+        match tables.tool(number) {
             Some(tool) => {
                 if tool.diameter.0.is_nan() {
                     self.assumptions.insert(Assumption::ToolRadius(number));
@@ -155,9 +147,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 } else {
                     tool.diameter.0 / 2.0
                 };
-                Ok((radius, tool.orientation))
+                Ok(self.oriented(radius, tool, state))
             }
-            None if state.tables.complete => Err(Fault::NoSuchTool(number)),
+            None if tables.is_complete() => Err(Fault::NoSuchTool(number)),
             None => {
                 self.assumptions.insert(Assumption::ToolRadius(number));
                 Ok((f64::NAN, 0))
@@ -165,19 +157,35 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
+    /// A radius with the tool's orientation. On a lathe the path of a tool of unknown orientation is as unknown as that of one
+    /// of unknown size; mills have none.
+    fn oriented(&self, radius: f64, tool: &ToolData, state: &State<D>) -> (f64, u8) {
+        match tool.orientation {
+            Flat::Known(orientation) => (radius, orientation),
+            Flat::Unknown if state.is_diameter(self.model) == Some(false) => (radius, 0),
+            Flat::Unknown => (f64::NAN, 0),
+        }
+    }
+
     /// `G40`.
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
         self.end_cutter_along_vectors(state);
-        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
+        let Some(mut compensation) = state.compensation.take_followed() else {
+            state.compensation.on.put(Perhaps::No);
+            return Ok(());
+        };
+        let followed = Rc::make_mut(&mut compensation);
         let mut out = Vec::new();
-        let result = compensation.compensator.stop(|offset| out.push(offset));
-        self.give_out(&mut compensation, out, state);
+        let result = followed.compensator.stop(|offset| out.push(offset));
+        self.give_out(followed, out, state);
         match result {
             Ok(exit) => {
-                let actual = above(&state.actual, exit.position, compensation.plane);
-                state.actual = state.wrapped.turned(actual);
-                state.position = above(&state.position, exit.programmed, compensation.plane);
-                state.left_compensation = Some(compensation);
+                let actual = above(state.actual(), exit.position, followed.plane);
+                let programmed = above(state.position(), exit.programmed, followed.plane);
+                let actual = state.wrapped().turned(actual);
+                state.points.actual.put(actual);
+                state.points.position.put(programmed);
+                state.compensation.left.put(Perhaps::Yes(compensation));
                 Ok(())
             }
             Err(error) => Err(fault(&error)),
@@ -186,23 +194,40 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The first move after `G40`: whether it may be what it is.
     pub(crate) fn leave_compensation(&mut self, is_arc: bool, state: &mut State<D>) -> Step {
-        match state.left_compensation.take() {
-            Some(mut left) => left.compensator.exit_motion(is_arc).map_err(|error| fault(&error)),
-            None => Ok(()),
+        match state.compensation.left.take() {
+            Perhaps::Yes(mut left) => {
+                Rc::make_mut(&mut left).compensator.exit_motion(is_arc).map_err(|error| fault(&error))
+            }
+            Perhaps::Unknown => {
+                self.assumptions.insert(Assumption::Unsettled(Unsettled::Compensation));
+                Ok(())
+            }
+            Perhaps::No => Ok(()),
         }
     }
 
     /// The program ends, or something needs every move given out.
     pub(crate) fn flush_compensation(&mut self, state: &mut State<D>) -> Step {
-        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
+        let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };
+        let followed = Rc::make_mut(&mut compensation);
         let mut out = Vec::new();
-        let result = compensation.compensator.flush(|offset| out.push(offset));
-        self.give_out(&mut compensation, out, state);
-        state.actual = compensation.at;
-        if result.is_ok() && compensation.compensator.is_on() {
-            state.compensation = Some(compensation);
+        let result = followed.compensator.flush(|offset| out.push(offset));
+        self.give_out(followed, out, state);
+        state.points.actual.put(followed.at);
+        if result.is_ok() && followed.compensator.is_on() {
+            state.compensation.follow_path(compensation);
+        } else {
+            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
         }
         result.map_err(|error| fault(&error))
+    }
+
+    /// May the axes run beside the programmed path, nobody knows where?
+    pub(crate) fn may_run_beside(&mut self, state: &State<D>) -> bool {
+        if state.compensation.on.is_unknown() {
+            self.assumptions.insert(Assumption::Unsettled(Unsettled::Compensation));
+        }
+        !state.compensation.on.is_no()
     }
 
     /// A straight move under compensation.
@@ -212,12 +237,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         target: Position,
         state: &mut State<D>,
     ) -> Step {
-        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
-        let to = planar(&target, compensation.plane);
+        let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };
+        let followed = Rc::make_mut(&mut compensation);
+        let to = planar(&target, followed.plane);
         let line = if kind == TravelKind::Rapid { LineKind::Rapid } else { LineKind::Feed };
         let payload = Programmed { origin: self.origin(), target };
         let mut out = Vec::new();
-        let result = compensation.compensator.line(to, line, payload, |offset| out.push(offset));
+        let result = followed.compensator.line(to, line, payload, |offset| out.push(offset));
         self.finish_compensated(compensation, out, result, target, state)
     }
 
@@ -229,12 +255,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         turns: i32,
         state: &mut State<D>,
     ) -> Step {
-        let Some(mut compensation) = state.compensation.take() else { return Ok(()) };
-        let to = planar(&target, compensation.plane);
+        let Some(mut compensation) = state.compensation.take_followed() else { return Ok(()) };
+        let followed = Rc::make_mut(&mut compensation);
+        let to = planar(&target, followed.plane);
         let (first, second) = arc.centre();
         let payload = Programmed { origin: self.origin(), target };
         let mut out = Vec::new();
-        let result = compensation.compensator.arc(
+        let result = followed.compensator.arc(
             to,
             [first.0, second.0],
             turns > 0,
@@ -247,30 +274,25 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     fn finish_compensated(
         &mut self,
-        mut compensation: Box<Compensation>,
+        mut compensation: Rc<Compensation>,
         out: Vec<Offset>,
         result: Result<(), CompensationError>,
         target: Position,
         state: &mut State<D>,
     ) -> Step {
-        self.give_out(&mut compensation, out, state);
-        state.position = target;
-        match result {
-            Ok(()) => {
-                let actual = above(&target, compensation.compensator.position(), compensation.plane);
-                state.actual = state.wrapped.turned(actual);
-                state.compensation = Some(compensation);
-                Ok(())
-            }
-            Err(CompensationError::NotUsable) => {
-                state.actual = Position::UNKNOWN;
-                Ok(())
-            }
-            Err(error) => {
-                state.actual = Position::UNKNOWN;
-                Err(fault(&error))
-            }
+        let followed = Rc::make_mut(&mut compensation);
+        self.give_out(followed, out, state);
+        state.points.position.put(target);
+        if let Err(error) = result {
+            state.points.actual.put(Position::UNKNOWN);
+            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+            return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
+        let actual = above(&target, followed.compensator.position(), followed.plane);
+        let actual = state.wrapped().turned(actual);
+        state.points.actual.put(actual);
+        state.compensation.follow_path(compensation);
+        Ok(())
     }
 
     fn give_out(&mut self, compensation: &mut Compensation, out: Vec<Offset>, state: &State<D>) {
@@ -300,7 +322,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &State<D>,
     ) {
         let from = compensation.at;
-        let to = state.wrapped.turned(above(&others, segment.end, compensation.plane));
+        let to = state.wrapped().turned(above(&others, segment.end, compensation.plane));
         compensation.at = to;
         let event = match segment.course {
             OffsetCourse::Line(kind) => {

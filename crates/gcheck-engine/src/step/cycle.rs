@@ -88,7 +88,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return Err(Fault::Cycle(CycleFault::Rotary));
             }
         }
-        if D::known(&state.feed) == Some(0.0) {
+        if D::known(state.feed()) == Some(0.0) {
             return Err(Fault::NoFeed);
         }
         Ok(())
@@ -111,7 +111,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | Effect::CycleBoreDwellManual => None,
             _ => return Ok(()),
         };
-        let Some(spindle) = state.spindle else { return Ok(()) };
+        let Some(spindle) = state.spindle() else { return Ok(()) };
         if self.lenient || !self.refuses_incomplete() || !rules.tap_needs_spindle {
             return Ok(());
         }
@@ -126,7 +126,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
-        let mut words = state.cycle;
+        let mut words = *state.cycle();
         // On strict controls -1 stands for no number.
         let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
         for letter in self.words.present().and(LetterSet::of("RZQPIJKEXY")).iter() {
@@ -159,10 +159,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 _ => false,
             };
             words.p = if milliseconds { p / 1000.0 } else { p };
-            words.last_dwell = words.p;
+            words.last_dwell = Some(words.p);
         }
         if !words.has_begun() {
-            words.begin(state.position.raw(depth));
+            words.begin(state.position().raw(depth));
         }
         let relative = match state.is_incremental(self.model) {
             Some(incremental) => incremental && rules.incremental_r,
@@ -199,7 +199,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             words.z = way + if rules.r_is_distance { words.r } else { words.initial };
             words.give(depth.letter());
         }
-        state.cycle = words;
+        state.cycle.put(words);
         if words.word('R', words.r).is_none() && !self.starts_without_r(state) {
             return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
         }
@@ -225,7 +225,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Absolute or incremental is not known, and so are the levels.
     fn unknown_levels(&mut self, mut words: crate::state::CycleWords, state: &mut State<D>) -> Step {
         (words.r, words.z) = (f64::NAN, f64::NAN);
-        state.cycle = words;
+        state.cycle.put(words);
         Ok(())
     }
 
@@ -233,23 +233,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn skip_to_hole(&mut self, plane: [Axis; 2], state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         for axis in plane {
-            state.position.set(axis, target.raw(axis));
+            state.points.position.set(axis, target.raw(axis));
         }
-        state.actual = self.axes_of(&state.position, state);
+        state.points.actual.put(self.axes_of(state.position(), state));
         Ok(())
     }
 
     /// A cycle whose geometry is not followed: the axes it names end at its point, the depth nobody knows where.
     fn lose_cycle(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        state.position = target;
-        state.position.set(Axis::Z, f64::NAN);
+        state.points.position.put(target);
+        state.points.position.set(Axis::Z, f64::NAN);
         if state.plane(self.model).is_none() {
             // Any of the three may be the axis of depth.
-            state.position.set(Axis::X, f64::NAN);
-            state.position.set(Axis::Y, f64::NAN);
+            state.points.position.set(Axis::X, f64::NAN);
+            state.points.position.set(Axis::Y, f64::NAN);
         }
-        state.actual = self.axes_of(&state.position, state);
+        state.points.actual.put(self.axes_of(state.position(), state));
         Ok(())
     }
 
@@ -260,7 +260,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let present = self.words.present();
         // Where the repeats of an axis count from, and how far each goes on.
         let way = |axis: Axis| {
-            let here = state.position.raw(axis);
+            let here = state.position().raw(axis);
             let has_own = present.iter().any(|letter| self.model.axis_of(letter) == Some((axis, true)));
             match incremental {
                 Some(false) if !has_own => (target.raw(axis), 0.0),
@@ -272,13 +272,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let start = (first_start, second_start);
         let most = repeats.min(crate::cycles::MAX_STROKES);
         if state.effect(Role::Polar, self.model) == Some(Effect::PolarOn) && incremental != Some(false) {
-            let here = (state.position.raw(first), state.position.raw(second));
+            let here = (state.position().raw(first), state.position().raw(second));
             let to = (target.raw(first), target.raw(second));
             return self.holes_around(effect, plane, here, to, most, state);
         }
         let turned = [Axis::A, Axis::B, Axis::C].map(|axis| (axis, way(axis)));
         let turned = turned.into_iter().filter(|(axis, (from, step))| {
-            *step != 0.0 || from.to_bits() != state.position.raw(*axis).to_bits()
+            *step != 0.0 || from.to_bits() != state.position().raw(*axis).to_bits()
         });
         let turned: Vec<_> = turned.collect();
         // Step by step: a product would differ in the last bit.
@@ -291,7 +291,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.drill(effect, plane, points, state);
         }
         for (index, at) in points.enumerate() {
-            let mut to = state.position;
+            let mut to = *state.position();
             to.set(first, at.0);
             to.set(second, at.1);
             for (axis, (from, step)) in &turned {
@@ -332,12 +332,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let incremental = state.is_incremental(self.model);
         let rules = &self.model.semantics().cycles;
-        let words = state.cycle;
+        let words = *state.cycle();
         let [i, j, k] = words.ijk;
         let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
         let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
         let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
-        let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.p };
+        let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.word('P', words.p) };
         let units = state.units(self.model).unwrap_or(Units::Mm);
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
@@ -348,15 +348,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 initial: Mm(words.initial),
                 r: Mm(r),
                 bottom: Mm(bottom),
-                dwell: words.word('P', dwell).map(Seconds),
+                dwell: dwell.map(Seconds),
                 peck: words.word('Q', words.q).map(Mm),
                 ijk: [words.word('I', i).map(Mm), words.word('J', j).map(Mm), words.word('K', k).map(Mm)],
                 incremental: incremental == Some(true),
                 return_to_r,
                 first_of_block: turn == 0,
                 overrides: Overrides {
-                    feed: state.feed_override != Truth::False || state.cycle.feed_override_on,
-                    speed: state.speed_override != Truth::False,
+                    feed: *state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
+                    speed: *state.spindle.overridable != Truth::False,
                 },
                 units,
             };
@@ -379,7 +379,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         rules: &gcheck_controls::CycleRules,
         state: &mut State<D>,
     ) -> Step {
-        let from = state.position.xyz();
+        let from = state.position().xyz();
         let mut strokes = std::mem::take(&mut self.stroke_buffer);
         strokes.clear();
         let result = hole(effect, facts, from, rules, &mut |stroke| strokes.push(stroke));
@@ -399,21 +399,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         given_out?;
         match result {
             Ok(end) => {
-                state.position = state.position.with_xyz(end);
-                state.actual = self.axes_of(&state.position, state);
+                state.points.position.put(state.position().with_xyz(end));
+                state.points.actual.put(self.axes_of(state.position(), state));
                 Ok(())
             }
             Err(CycleError::Fault(fault)) => Err(Fault::Cycle(fault)),
             Err(CycleError::Profile(_)) => Err(Fault::Profile),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
-                let mut end = state.position;
+                let mut end = *state.position();
                 let ([first, second, depth], _) = plane_axes(plane);
                 end.set(first, facts.at.0.0);
                 end.set(second, facts.at.1.0);
                 end.set(depth, f64::NAN);
-                state.position = end;
-                state.actual = self.axes_of(&end, state);
+                state.points.position.put(end);
+                state.points.actual.put(self.axes_of(&end, state));
                 Ok(())
             }
         }
@@ -421,22 +421,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The path mode that an operation changed is brought back.
     pub(super) fn end_exact_path(&mut self, state: &mut State<D>) {
-        if std::mem::take(&mut self.passes_exactly) {
-            let mode = self.current_path_mode(state);
+        if std::mem::take(&mut self.passes_exactly)
+            && let Some(mode) = self.current_path_mode(state)
+        {
             self.path_mode(mode, state);
         }
     }
 
     /// Gives out the strokes of an operation.
     pub(super) fn strokes(&mut self, strokes: &[Stroke], plane: Plane, state: &mut State<D>) -> Step {
-        let spindle = state.spindle;
-        let is_direct = self.goes_direct(state);
+        let spindle = state.spindle();
+        let is_direct = Self::goes_direct(state);
         for stroke in strokes {
             match *stroke {
                 Stroke::Rapid(to) | Stroke::Feed(to) => {
                     let rapid = matches!(stroke, Stroke::Rapid(_));
                     let kind = if rapid { TravelKind::Rapid } else { TravelKind::Feed };
-                    let to = state.position.with_xyz(to);
+                    let to = state.position().with_xyz(to);
                     if is_direct {
                         self.travel_direct(kind, &to, true, state);
                     } else {
@@ -444,7 +445,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     }
                 }
                 Stroke::Thread { to, lead } => {
-                    let to = state.position.with_xyz(to);
+                    let to = state.position().with_xyz(to);
                     self.emit(state, Event::SpindleSync { lead: Some(lead), velocity: false });
                     self.travel(TravelKind::Thread, to, true, state)?;
                     self.emit(state, Event::SpindleSync { lead: None, velocity: false });
@@ -452,13 +453,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Stroke::Arc { to, centre, turns } => self.stroke_arc(to, centre, turns, plane, state),
                 Stroke::Dwell(seconds) => self.emit(state, Event::Dwell(seconds)),
                 Stroke::SpindleStop => self.spindle(Spindle::Stopped, state)?,
-                Stroke::SpindleRestart => self.spindle(spindle.unwrap_or(Spindle::Clockwise), state)?,
+                Stroke::SpindleRestart => self.turn_spindle(spindle, state)?,
                 Stroke::SpindleReverse => {
-                    let other = match spindle {
-                        Some(Spindle::CounterClockwise) => Spindle::Clockwise,
-                        _ => Spindle::CounterClockwise,
-                    };
-                    self.spindle(other, state)?;
+                    let other = spindle.map(|spindle| match spindle {
+                        Spindle::CounterClockwise => Spindle::Clockwise,
+                        Spindle::Clockwise | Spindle::Stopped => Spindle::CounterClockwise,
+                    });
+                    self.turn_spindle(other, state)?;
                 }
                 Stroke::SpindleTurn { clockwise } => {
                     let way = if clockwise { Spindle::Clockwise } else { Spindle::CounterClockwise };
@@ -469,14 +470,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.emit(state, Event::OrientSpindle { angle: 0.0, way });
                 }
                 Stroke::ExactPath => {
-                    if !self.passes_exactly && self.current_path_mode(state) != PathMode::ExactPath {
+                    if !self.passes_exactly && self.current_path_mode(state) != Some(PathMode::ExactPath) {
                         self.passes_exactly = true;
                         self.path_mode(PathMode::ExactPath, state);
                     }
                 }
                 Stroke::Sync(lead) => self.emit(state, Event::SpindleSync { lead, velocity: false }),
                 Stroke::FeedOverride(on) => {
-                    state.cycle.feed_override_on = on;
+                    state.cycle.feed_override_on = on.into();
                     self.emit(state, Event::Override { kind: Override::Feed, on });
                 }
                 Stroke::SpeedOverride(on) => self.emit(state, Event::Override { kind: Override::Speed, on }),
@@ -487,10 +488,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn stroke_arc(&mut self, to: [Mm; 3], centre: (Mm, Mm), turns: i32, plane: Plane, state: &mut State<D>) {
-        let programmed = state.position.with_xyz(to);
+        let programmed = state.position().with_xyz(to);
         let end: Position = self.axes_of(&programmed, state);
         let (moved, turns) = self.arc_of_axes(plane, centre, turns, state);
-        let [f0, s0, _] = plane.to_local(state.actual.xyz());
+        let [f0, s0, _] = plane.to_local(state.actual().xyz());
         let [f1, s1, _] = plane.to_local(end.xyz());
         let angle = |f: Mm, s: Mm| (s.0 - moved.1.0).atan2(f.0 - moved.0.0);
         let mut sweep = angle(f1, s1) - angle(f0, s0);
@@ -503,7 +504,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         sweep += turn * f64::from(turns - turns.signum());
         let event = ArcMove {
             plane,
-            from: state.actual,
+            from: *state.actual(),
             programmed,
             to: end,
             centre: moved,
@@ -511,8 +512,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep,
             expanded: true,
         };
-        state.actual = end;
-        state.position = programmed;
+        state.points.actual.put(end);
+        state.points.position.put(programmed);
         self.emit(state, Event::Arc(event));
     }
 }

@@ -7,14 +7,13 @@ use gcheck_controls::{CodeIx, CylinderRules, Letter, LetterSet};
 
 use super::{Executor, Step};
 use crate::assumption::Assumption;
-use crate::cylinder::{Cylinder, Wrapped};
+use crate::cylinder::Cylinder;
 use crate::event::{Event, Units};
 use crate::fault::Fault;
-use crate::modal::ModeSet;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::State;
+use crate::state::{ModeSet, State, Wrapped};
 use crate::value::{Domain, Truth};
 
 /// Angles closer than this are one, degrees.
@@ -40,11 +39,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             || two_sizes && (q.is_some_and(f64::is_nan) || r.is_some_and(f64::is_nan))
         {
             // Words that may be nothing may begin nothing, and may leave one of two.
-            state.diameters.forget();
-            state.wrapped = Wrapped::Unknown;
-            if let Some(mode) = state.modes.get_mut(Role::Cylinder.index()) {
-                *mode = mode.join(&ModeSet::one(ix));
-            }
+            state.mapping.diameters.forget();
+            state.mapping.wrapped.put(Wrapped::Unknown);
+            state.modes.add(Role::Cylinder, &ModeSet::one(ix));
             self.emit(state, Event::Modal(ix));
             return Ok(());
         }
@@ -68,21 +65,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if let Some(size) = size {
             // A size below zero means nothing; rules of words speak of it.
-            state.diameters.set(rotary, if size >= 0.0 { size } else { f64::NAN });
+            state.mapping.diameters.set(rotary, if size >= 0.0 { size } else { f64::NAN });
         }
         let Some(linear) = linear.first().copied() else { return Ok(()) };
         let diameter = self.diameter_of(rotary, rules, state);
         // The same axis on another cylinder goes on with its drawing.
-        if state.wrapped.cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
+        if state.wrapped().cylinder().is_none_or(|cylinder| cylinder.linear != linear) {
             self.unwrap_axis(state);
         }
-        let stands = state.wrapped.standing(state.actual).raw(linear);
+        let stands = state.wrapped().standing(*state.actual()).raw(linear);
         let mut cylinder = Cylinder { linear, rotary, diameter, stands, zero: f64::NAN };
-        cylinder.anchor(&state.actual);
+        cylinder.anchor(state.actual());
         if cylinder.zero.abs() > SAME_ANGLE {
             self.assumptions.insert(Assumption::CylinderStart(rotary));
         }
-        state.wrapped = Wrapped::On(cylinder);
+        state.mapping.wrapped.put(Wrapped::On(cylinder));
         state.set_mode(Role::Cylinder, ix);
         self.emit(state, Event::Modal(ix));
         self.emit(state, Event::Cylinder(Some(cylinder)));
@@ -97,7 +94,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The diameter in effect for a rotary axis: the last one that is not zero, else that of the control's setting.
     fn diameter_of(&mut self, rotary: Axis, rules: &CylinderRules, state: &State<D>) -> f64 {
-        let last = state.diameters.of(rotary);
+        let last = state.diameters().of(rotary);
         if let Some(diameter) = last.filter(|diameter| *diameter != 0.0) {
             return diameter;
         }
@@ -112,10 +109,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Ends mapping: the linear axis is where it stood all along.
     fn unwrap_axis(&mut self, state: &mut State<D>) {
-        if state.wrapped != Wrapped::No {
-            state.actual = state.wrapped.standing(state.actual);
-            state.wrapped = Wrapped::No;
-            state.position = self.programmed_of(&state.actual, state);
+        if *state.wrapped() != Wrapped::No {
+            state.points.actual.put(state.wrapped().standing(*state.actual()));
+            state.mapping.wrapped.put(Wrapped::No);
+            state.points.position.put(self.programmed_of(state.actual(), state));
             self.emit(state, Event::Cylinder(None));
         }
         if state.mode(Role::Cylinder).only() != Some(CodeIx::NONE) {
@@ -125,7 +122,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The end of the program ends mapping where a setting says so.
     pub(super) fn unwrap_at_end(&mut self, state: &mut State<D>) {
-        if state.wrapped == Wrapped::No {
+        if *state.wrapped() == Wrapped::No {
             return;
         }
         let rules = self.model.semantics().cylinder.as_ref();
@@ -149,7 +146,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// A word for the rotary axis turns the part, and the drawing with it.
     pub(super) fn turn_drawing(&mut self, state: &mut State<D>) {
-        let Some(cylinder) = state.wrapped.cylinder() else { return };
+        let Some(cylinder) = state.wrapped().cylinder() else { return };
         let letters: LetterSet =
             self.model.letters_of(cylinder.rotary).filter(|letter| self.words.has(*letter)).collect();
         if letters.is_empty() {
@@ -157,17 +154,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let (rotary, linear) = (cylinder.rotary, cylinder.linear);
         let moves_both = self.model.letters_of(linear).any(|letter| self.words.has(letter));
-        let mut at = state.actual;
+        let mut at = *state.actual();
         at.set(rotary, f64::NAN);
         // Which of two words counts first nobody says, and moves that compensation holds back are of the drawing before.
-        if !moves_both && state.compensation.is_none() {
+        if !moves_both && !state.compensation.is_followed() {
             for letter in letters.iter() {
                 let (Some(value), Some((_, increment))) =
                     (self.words.number(letter), self.model.axis_of(letter))
                 else {
                     continue;
                 };
-                let from = state.actual.raw(rotary);
+                let from = state.actual().raw(rotary);
                 let angle = match (increment, state.is_incremental(self.model)) {
                     (true, _) | (false, Some(true)) => from + value,
                     (false, Some(false)) => value,
@@ -177,7 +174,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         self.assumptions.insert(Assumption::CylinderStart(rotary));
-        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
             cylinder.anchor(&at);
         }
     }
@@ -187,7 +184,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let moves = |axis: Axis| {
             named.iter().filter_map(|letter| self.model.axis_of(letter)).any(|(moved, _)| moved == axis)
         };
-        let Some(cylinder) = state.wrapped.cylinder_mut() else { return };
+        let Some(cylinder) = state.mapping.wrapped.cylinder_mut() else { return };
         if moves(cylinder.linear) {
             cylinder.stands = to.raw(cylinder.linear);
             to.set(cylinder.linear, f64::NAN);

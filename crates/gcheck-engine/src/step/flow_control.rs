@@ -8,15 +8,14 @@ use std::rc::Rc;
 use gcheck_controls::{CodeIx, Effect, Letter, ReturnTo, Unset};
 use gcheck_program::{BlockTable, ExprIx, OKeyword, OLabel, Place, StatementKind, Value, Word};
 
-use super::bar::BarCommand;
 use super::{Count, Ending, Executor, Flow, Outcome, Step};
-use crate::assumption::Assumption;
-use crate::cylinder::Wrapped;
+use crate::assumption::{Assumption, Unsettled};
 use crate::fault::Fault;
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::observer::Observer;
-use crate::state::{At, Frame, FrameKind, ModalCall, State};
+use crate::origin::At;
+use crate::state::{BarCommand, Frame, FrameKind, Kept, Locals, ModalCall, ModalCalls, State};
 use crate::value::{Domain, Truth};
-use crate::variables::Locals;
 
 /// A program about to be entered.
 #[derive(Debug, Clone)]
@@ -24,8 +23,25 @@ pub(super) struct Callee<D: Domain> {
     kind: FrameKind,
     target: At,
     repeats: Option<u32>,
-    arguments: Option<Vec<(u32, D::Value)>>,
-    bar_feed: Option<Rc<BarCommand>>,
+    arguments: Vec<(u32, D::Value)>,
+    bar_feed: Perhaps<Rc<BarCommand>>,
+}
+
+impl<D: Domain> Callee<D> {
+    /// A program that is called without words.
+    fn plain(kind: FrameKind, target: At, repeats: u32) -> Self {
+        Self { kind, target, repeats: Some(repeats), arguments: Vec::new(), bar_feed: Perhaps::No }
+    }
+
+    /// A macro with the words of its call.
+    fn of_macro(target: At, repeats: u32, arguments: Vec<(u32, D::Value)>) -> Self {
+        Self { arguments, ..Self::plain(FrameKind::Macro, target, repeats) }
+    }
+
+    /// The macro of a modal call.
+    fn of_modal(call: &ModalCall<D>) -> Self {
+        Self::of_macro(call.target, call.repeats.saturating_sub(1), call.arguments.clone())
+    }
 }
 
 /// Labels that a computed jump is followed to: one more than an analysis keeps waiting, so that it gives up rather than
@@ -44,6 +60,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Flow::End(ending) => Ok(Outcome::End(ending)),
             Flow::Call(callee) => self.enter(callee, state),
             Flow::Return { label } => self.leave(label, None, state),
+            Flow::ModalCall => self.follow_modal_call(state),
             Flow::MayJump(at) => {
                 Ok(Outcome::Fork(vec![(self.origin.at.next(), state.clone()), (at, state.clone())]))
             }
@@ -176,10 +193,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             repeats = 1;
         }
-        let Count::Known(mut number) = count else {
-            self.lose_everything(state);
-            return Ok(());
-        };
+        let Count::Known(mut number) = count else { return self.lose_everything(state) };
         let at = self.origin.at;
         let (kind, target) = if effect == Effect::CallLocal {
             (FrameKind::Local, self.label(f64::from(number), at)?)
@@ -196,13 +210,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(target) = target else {
             return self.missing_program(number, effect == Effect::CallLocal, state);
         };
-        self.flow = Some(Flow::Call(Callee {
-            kind,
-            target,
-            repeats: Some(repeats - 1),
-            arguments: None,
-            bar_feed: None,
-        }));
+        self.flow = Some(Flow::Call(Callee::plain(kind, target, repeats - 1)));
         Ok(())
     }
 
@@ -228,26 +236,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.refuses_incomplete() {
             return Err(Fault::NoSuchProgram);
         }
-        self.lose_everything(state);
-        Ok(())
+        self.lose_everything(state)
     }
 
     /// Something ran that we do not know.
-    pub(super) fn lose_everything(&mut self, state: &mut State<D>) {
-        state.compensation = None;
-        let frames = state.frames.clone();
-        let shift = state.tool_shift;
-        let unknown = super::super::start::unknown_state::<D>(self.model, self.machine);
-        // What was not wrapped still is not.
-        let wrapped = if state.wrapped == Wrapped::No { Wrapped::No } else { Wrapped::Unknown };
-        *state = unknown;
-        // What was on may still be; of what was off we take it that it is left off.
-        state.tool_shift = shift.or_none();
-        state.wrapped = wrapped;
-        state.frames = frames;
-        if let Some(locals) = state.frames.iter_mut().rev().find_map(|frame| frame.locals.as_mut()) {
-            locals.forget();
-        }
+    pub(super) fn lose_everything(&mut self, state: &mut State<D>) -> Step {
+        // What compensation holds back was commanded before.
+        let flushed = self.flush_compensation(state);
+        state.forget();
+        flushed
     }
 
     /// `G65`, `G66`, a code that is an alias of a macro.
@@ -270,30 +267,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Known(n)) => n.max(1),
             Some(Count::Unknown) => return Err(Fault::Undecidable),
         };
+        let is_modal = effect == Effect::MacroModal;
         let Count::Known(number) = number else {
-            self.lose_everything(state);
-            return Ok(());
+            if is_modal {
+                state.calls.modal.put(ModalCalls::unknown());
+                return Ok(());
+            }
+            return self.lose_everything(state);
         };
         let arguments = self.arguments(words);
         let Some(target) = self.program.find_number(number, self.origin.at.file) else {
-            if effect == Effect::MacroModal {
+            if is_modal {
                 self.assumptions.insert(Assumption::MissingProgram(number));
-                state.macro_modal = None;
+                state.calls.modal.put(ModalCalls::off());
                 return Ok(());
             }
             return self.missing_program(number, false, state);
         };
-        if effect == Effect::MacroModal {
-            state.macro_modal = Some(Rc::new(ModalCall { target, arguments, repeats }));
+        if is_modal {
+            state.calls.modal.put(ModalCalls::on(ModalCall { target, arguments, repeats }));
             return Ok(());
         }
-        self.flow = Some(Flow::Call(Callee {
-            kind: FrameKind::Macro,
-            target,
-            repeats: Some(repeats - 1),
-            arguments: Some(arguments),
-            bar_feed: None,
-        }));
+        self.flow = Some(Flow::Call(Callee::of_macro(target, repeats - 1, arguments)));
         Ok(())
     }
 
@@ -334,69 +329,100 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         arguments
     }
 
-    /// `G66`: the macro runs behind every block that moves, but not behind its own or those of what it calls.
+    /// `G66`: the macro runs after every block that moves, but not after its own or those of what it calls.
     pub(super) fn modal_call(&mut self, state: &State<D>) {
-        let runs = |call: &ModalCall<D>| {
-            state.frames.iter().any(|frame| frame.kind == FrameKind::Macro && frame.entry == call.target)
-        };
-        if let Some(call) = &state.macro_modal
-            && !runs(call)
-        {
-            self.flow = Some(Flow::Call(Callee {
-                kind: FrameKind::Macro,
-                target: call.target,
-                repeats: Some(call.repeats.saturating_sub(1)),
-                arguments: Some(call.arguments.clone()),
-                bar_feed: None,
-            }));
+        if !state.calls.modal.is_off() {
+            self.flow = Some(Flow::ModalCall);
         }
+    }
+
+    /// Calls the macro of `G66`, or goes every way that it may be.
+    fn follow_modal_call(&mut self, state: &mut State<D>) -> Step<Outcome<D>> {
+        let here = self.origin.at.next();
+        let Some(calls) = state.calls.modal.calls().map(<[_]>::to_vec) else {
+            // Any macro may run, or none.
+            self.assumptions.insert(Assumption::Unsettled(Unsettled::ModalCall));
+            let without = state.clone();
+            self.lose_everything(state)?;
+            *state = state.join(&without);
+            return Ok(Outcome::Next);
+        };
+        let runs = |call: &ModalCall<D>, state: &State<D>| {
+            let mut frames = state.calls.frames().iter();
+            frames.any(|frame| frame.kind == FrameKind::Macro && frame.entry == call.target)
+        };
+        let may_be_off = state.calls.modal.may_be_off();
+        if let ([call], false) = (calls.as_slice(), may_be_off) {
+            return if runs(call, state) {
+                Ok(Outcome::Next)
+            } else {
+                self.enter(Callee::of_modal(call), state)
+            };
+        }
+        let mut ways = Vec::new();
+        if may_be_off {
+            let mut without = state.clone();
+            without.calls.modal.put(ModalCalls::off());
+            ways.push((here, without));
+        }
+        let mut refused = None;
+        for call in calls {
+            let mut way = state.clone();
+            way.calls.modal.put(ModalCalls::on((*call).clone()));
+            let outcome = if runs(&call, &way) {
+                Ok(Outcome::Next)
+            } else {
+                self.enter(Callee::of_modal(&call), &mut way)
+            };
+            match outcome {
+                Ok(Outcome::Jump(to)) => ways.push((to, way)),
+                Ok(_) => ways.push((here, way)),
+                Err(fault) => refused = Some(fault),
+            }
+        }
+        if let Some(fault) = refused {
+            if ways.is_empty() {
+                return Err(fault);
+            }
+            self.assumptions.insert(Assumption::Unsettled(Unsettled::ModalCall));
+        }
+        Ok(Outcome::Fork(ways))
     }
 
     fn enter(&mut self, callee: Callee<D>, state: &mut State<D>) -> Step<Outcome<D>> {
         let limit = self.model.control().limits().call_depth.map_or(DEEPEST, usize::from);
-        if state.frames.len() > limit.min(DEEPEST) {
+        if state.calls.depth() > limit.min(DEEPEST) {
             return Err(Fault::TooDeep);
         }
+        let Callee { kind, target, repeats, arguments, bar_feed } = callee;
         let semantics = self.model.semantics();
-        let own_locals = match callee.kind {
+        let own_locals = match kind {
             FrameKind::Macro | FrameKind::OWord => true,
             FrameKind::Subprogram => semantics.locals_per_subprogram,
             FrameKind::Main | FrameKind::Local => false,
         };
-        let locals = own_locals.then(|| {
+        let mut frame = Frame::new(kind, target, self.origin.at, repeats);
+        frame.kept.bar_feed = bar_feed;
+        if own_locals {
             let unset = match semantics.unset {
                 Unset::Vacant => D::vacant(),
                 Unset::Zero => D::number(0.0),
             };
             let mut locals = Locals::new(semantics.locals[1], &unset);
-            for (number, value) in callee.arguments.into_iter().flatten() {
+            for (number, value) in arguments {
                 locals.set(number, value);
             }
-            locals
-        });
-        state.frames.push(Frame {
-            kind: callee.kind,
-            entry: callee.target,
-            caller: self.origin.at,
-            repeats: callee.repeats,
-            locals,
-            counters: Vec::new(),
-            saved: None,
-            restore_on_return: false,
-            wanted_branch: None,
-            bar_feed: callee.bar_feed,
-        });
-        Ok(Outcome::Jump(callee.target))
+            frame.locals = Perhaps::Yes(locals);
+        }
+        state.calls.push(frame);
+        Ok(Outcome::Jump(target))
     }
 
     /// The cutoff program of a bar feed, which goes on when it comes back.
     pub(super) fn cut_off_then_feed(&mut self, target: At, feed: BarCommand) {
         self.flow = Some(Flow::Call(Callee {
-            kind: FrameKind::Subprogram,
-            target,
-            repeats: Some(0),
-            arguments: None,
-            bar_feed: Some(Rc::new(feed)),
+            bar_feed: Perhaps::Yes(Rc::new(feed)),
+            ..Callee::plain(FrameKind::Subprogram, target, 0)
         }));
     }
 
@@ -407,8 +433,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         result: Option<D::Value>,
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
-        if state.frames.len() <= 1 {
+        if state.calls.is_main() {
             return self.leave_main(label, state);
+        }
+        if !state.calls.is_known() {
+            self.assumptions.insert(Assumption::Unsettled(Unsettled::Caller));
+            return Err(Fault::Undecidable);
         }
         let semantics = self.model.semantics();
         if let Some(label) = &label {
@@ -418,25 +448,29 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 ReturnTo::Ignored | ReturnTo::Caller => {}
             }
         }
-        let Some(frame) = state.frames.last_mut() else { return Err(Fault::StrayReturn) };
-        match frame.repeats {
-            Some(0) => {}
-            Some(left) => {
-                frame.repeats = Some(left - 1);
-                frame.counters.clear();
-                return Ok(Outcome::Jump(frame.entry));
+        let Some(entry) = state.calls.last().map(|frame| frame.entry) else { return Err(Fault::StrayReturn) };
+        let Some(kept) = state.calls.kept_mut() else { return Err(Fault::StrayReturn) };
+        match kept.repeats {
+            Flat::Known(0) => {}
+            Flat::Known(left) => {
+                kept.repeats = Flat::Known(left - 1);
+                kept.counters.clear();
+                return Ok(Outcome::Jump(entry));
             }
-            None => {
+            Flat::Unknown => {
                 // Once more, or not.
                 let mut again = state.clone();
-                let entry = again.frames.last_mut().map_or(self.origin.at, |frame| {
-                    frame.counters.clear();
-                    frame.entry
+                if let Some(kept) = again.calls.kept_mut() {
+                    kept.counters.clear();
+                }
+                return Ok(match self.pop(label, result, state)? {
+                    Outcome::Jump(at) => Outcome::Fork(vec![(entry, again), (at, state.clone())]),
+                    Outcome::Fork(mut ways) => {
+                        ways.insert(0, (entry, again));
+                        Outcome::Fork(ways)
+                    }
+                    other => other,
                 });
-                return match self.pop(label, result, state)? {
-                    Outcome::Jump(at) => Ok(Outcome::Fork(vec![(entry, again), (at, state.clone())])),
-                    other => Ok(other),
-                };
             }
         }
         self.pop(label, result, state)
@@ -448,35 +482,64 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         result: Option<D::Value>,
         state: &mut State<D>,
     ) -> Step<Outcome<D>> {
-        let Some(frame) = state.frames.pop() else { return Err(Fault::StrayReturn) };
-        if frame.restore_on_return
-            && let Some(saved) = &frame.saved
-        {
-            self.restore(saved, state);
-        }
-        if frame.kind == FrameKind::OWord {
+        let Some(frame) = state.calls.pop() else { return Err(Fault::StrayReturn) };
+        let Frame { kind, caller, kept, .. } = frame;
+        let mut without = self.restore_on_return(&kept, state);
+        if kind == FrameKind::OWord {
             let returned = f64::from(u8::from(result.is_some()));
             let value = result.unwrap_or_else(|| D::number(0.0));
             let (name, flag) = (self.program.name("_value"), self.program.name("_value_returned"));
-            state.variables.set_named(name, value);
-            state.variables.set_named(flag, D::number(returned));
+            for state in std::iter::once(&mut *state).chain(&mut without) {
+                state.variables.set_named(name, value.clone());
+                state.variables.set_named(flag, D::number(returned));
+            }
         }
-        if let Some(feed) = &frame.bar_feed
-            && let Some(ending) = self.feed_behind_cutoff(frame.caller, feed, state)?
-        {
-            return Ok(Outcome::End(ending));
+        match &kept.bar_feed {
+            Perhaps::No => {}
+            Perhaps::Yes(feed) => {
+                state.calls.note_caller();
+                if let Some(ending) = self.feed_after_cutoff(caller, feed, state)? {
+                    return Ok(Outcome::End(ending));
+                }
+            }
+            Perhaps::Unknown => {
+                self.assumptions.insert(Assumption::Unsettled(Unsettled::BarFeed));
+                self.lose_everything(state)?;
+            }
         }
-        if let Some(label) = label
-            && self.model.semantics().return_to == ReturnTo::Caller
-        {
-            let Some(number) = D::known(&label) else { return Err(Fault::Undecidable) };
-            return match self.label(number, frame.caller)? {
-                Some(at) => Ok(Outcome::Jump(at)),
+        let to = match label {
+            Some(label) if self.model.semantics().return_to == ReturnTo::Caller => {
+                // The block is looked for in the program that called.
+                state.calls.note_caller();
+                let Some(number) = D::known(&label) else { return Err(Fault::Undecidable) };
                 #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
-                None => Err(Fault::NoSuchLabel(number as u32)),
-            };
+                self.label(number, caller)?.ok_or(Fault::NoSuchLabel(number as u32))?
+            }
+            _ => caller.next(),
+        };
+        Ok(match without {
+            None => Outcome::Jump(to),
+            Some(without) => Outcome::Fork(vec![(to, without), (to, state.clone())]),
+        })
+    }
+
+    /// `M73`: brings modes back on return. The state in which they are not, where nobody knows whether they are to be.
+    fn restore_on_return(&mut self, kept: &Kept, state: &mut State<D>) -> Option<State<D>> {
+        if kept.restore_on_return == Truth::False {
+            return None;
         }
-        Ok(Outcome::Jump(frame.caller.next()))
+        match &kept.saved {
+            Perhaps::No => None,
+            Perhaps::Yes(saved) => {
+                let without = (kept.restore_on_return == Truth::Unknown).then(|| state.clone());
+                self.restore(saved, state);
+                without
+            }
+            Perhaps::Unknown => {
+                self.forget_modes(None, state);
+                None
+            }
+        }
     }
 
     /// `M99` in a main program.
@@ -514,7 +577,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             OKeyword::Sub => match links.end {
                 // The body runs only when it is called.
                 Some(end)
-                    if state.frames.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
+                    if state.calls.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
                 {
                     if self.holds_subroutine(at, end) {
                         return Err(Fault::LoopMismatch);
@@ -525,7 +588,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 None => Err(Fault::LoopMismatch),
             },
             OKeyword::EndSub | OKeyword::Return => {
-                let is_called = state.frames.last().is_some_and(|f| f.kind == FrameKind::OWord);
+                let is_called = state.calls.last().is_some_and(|f| f.kind == FrameKind::OWord);
                 if !is_called {
                     return Err(Fault::StrayReturn);
                 }
@@ -569,21 +632,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     }));
                     return Err(Fault::NoSuchProgram);
                 };
-                self.enter(
-                    Callee {
-                        kind: FrameKind::OWord,
-                        target,
-                        repeats: Some(0),
-                        arguments: Some(values),
-                        bar_feed: None,
-                    },
-                    state,
-                )
+                let callee = Callee { arguments: values, ..Callee::plain(FrameKind::OWord, target, 0) };
+                self.enter(callee, state)
             }
             OKeyword::If | OKeyword::ElseIf => {
                 // An ELSEIF met by running into it ends the branch before.
-                if keyword == OKeyword::ElseIf && !self.branch_wanted(at, state) {
-                    return links.end.map_or(Err(Fault::LoopMismatch), |end| Ok(Outcome::Jump(to(end + 1))));
+                if keyword == OKeyword::ElseIf
+                    && let Some(outcome) = self.unwanted_branch(at, links.end, state)?
+                {
+                    return Ok(outcome);
                 }
                 let Some(condition) = first else { return Err(Fault::Malformed) };
                 let Some(next) = links.next.or(links.end) else { return Err(Fault::LoopMismatch) };
@@ -611,12 +668,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             OKeyword::Else => {
-                if self.branch_wanted(at, state) {
-                    self.want_branch(None, state);
-                    Ok(Outcome::Next)
-                } else {
-                    links.end.map_or(Err(Fault::LoopMismatch), |end| Ok(Outcome::Jump(to(end + 1))))
+                if let Some(outcome) = self.unwanted_branch(at, links.end, state)? {
+                    return Ok(outcome);
                 }
+                self.want_branch(None, state);
+                Ok(Outcome::Next)
             }
             OKeyword::EndIf => {
                 if links.head.is_none() {
@@ -663,30 +719,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 match turns {
                     Some(0.0) => Ok(Outcome::Jump(to(end + 1))),
                     Some(turns) => {
-                        self.set_counter(at, Some(turns.min(f64::from(u32::MAX)) as u32), state);
+                        self.set_counter(at, Flat::Known(turns.min(f64::from(u32::MAX)) as u32), state);
                         Ok(Outcome::Next)
                     }
                     None => {
                         let skipped = state.clone();
-                        self.set_counter(at, None, state);
+                        self.set_counter(at, Flat::Unknown, state);
                         Ok(Outcome::Fork(vec![(at.next(), state.clone()), (to(end + 1), skipped)]))
                     }
                 }
             }
             OKeyword::EndRepeat => {
                 let Some(head) = links.head.map(to) else { return Err(Fault::LoopMismatch) };
-                let counter =
-                    state.frames.last().and_then(|f| f.counters.iter().find(|(block, _)| *block == head));
-                match counter.map(|(_, count)| *count) {
-                    Some(Some(left)) if left > 1 => {
-                        self.set_counter(head, Some(left - 1), state);
+                match state.calls.kept().and_then(|kept| kept.counters.get(head)) {
+                    Some(Flat::Known(left)) if left > 1 => {
+                        self.set_counter(head, Flat::Known(left - 1), state);
                         Ok(Outcome::Jump(head.next()))
                     }
-                    Some(Some(_)) | None => {
+                    Some(Flat::Known(_)) | None => {
                         self.drop_counter(head, state);
                         Ok(Outcome::Next)
                     }
-                    Some(None) => {
+                    Some(Flat::Unknown) => {
                         let mut done = state.clone();
                         self.drop_counter(head, &mut done);
                         Ok(Outcome::Fork(vec![(head.next(), state.clone()), (at.next(), done)]))
@@ -730,28 +784,46 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         holds
     }
 
+    /// Where a branch leads that is not wanted: past its `IF`. `None` when it is wanted; both ways when nobody knows.
+    fn unwanted_branch(
+        &mut self,
+        at: At,
+        end: Option<u32>,
+        state: &mut State<D>,
+    ) -> Step<Option<Outcome<D>>> {
+        let wanted = state.calls.kept().map_or(Perhaps::No, |kept| kept.wanted_branch);
+        if wanted.yes() == Some(&at) {
+            return Ok(None);
+        }
+        let past = At { file: at.file, block: end.ok_or(Fault::LoopMismatch)? + 1 };
+        if !wanted.is_unknown() {
+            return Ok(Some(Outcome::Jump(past)));
+        }
+        let mut chosen = state.clone();
+        self.want_branch(Some(at), &mut chosen);
+        self.want_branch(None, state);
+        Ok(Some(Outcome::Fork(vec![(past, state.clone()), (at, chosen)])))
+    }
+
     /// The branch of an IF that was jumped to because the condition before it failed.
     fn want_branch(&mut self, branch: Option<At>, state: &mut State<D>) {
-        if let Some(frame) = state.frames.last_mut() {
-            frame.wanted_branch = branch;
+        let branch = branch.map_or(Perhaps::No, Perhaps::Yes);
+        if state.calls.kept().is_some_and(|kept| kept.wanted_branch != branch)
+            && let Some(kept) = state.calls.kept_mut()
+        {
+            kept.wanted_branch = branch;
         }
     }
 
-    fn branch_wanted(&self, at: At, state: &State<D>) -> bool {
-        state.frames.last().is_some_and(|frame| frame.wanted_branch == Some(at))
-    }
-
-    fn set_counter(&mut self, block: At, count: Option<u32>, state: &mut State<D>) {
-        let Some(frame) = state.frames.last_mut() else { return };
-        match frame.counters.iter_mut().find(|(at, _)| *at == block) {
-            Some((_, slot)) => *slot = count,
-            None => frame.counters.push((block, count)),
+    fn set_counter(&mut self, block: At, turns: Flat<u32>, state: &mut State<D>) {
+        if let Some(kept) = state.calls.kept_mut() {
+            kept.counters.set(block, turns);
         }
     }
 
     fn drop_counter(&mut self, block: At, state: &mut State<D>) {
-        if let Some(frame) = state.frames.last_mut() {
-            frame.counters.retain(|(at, _)| *at != block);
+        if let Some(kept) = state.calls.kept_mut() {
+            kept.counters.remove(block);
         }
     }
 }

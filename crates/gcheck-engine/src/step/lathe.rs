@@ -9,12 +9,9 @@
 
 pub(super) mod profile;
 
-use std::rc::Rc;
-
 use gcheck_controls::{Effect, Letter, LetterSet, Unpointed, WordKind};
 use gcheck_geometry::{Degrees, Mm, Plane};
 
-use super::compensation::Compensation;
 use super::{Executor, Step};
 use crate::assumption::Assumption;
 use crate::cycles::{
@@ -23,11 +20,11 @@ use crate::cycles::{
 };
 use crate::event::{FeedMode, Units};
 use crate::fault::{CycleFault, Fault};
-use crate::modal::ModeSet;
+use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{State, TurningWords};
+use crate::state::{Course, KeptTurningWords, ModeSet, State, TurningWords};
 use crate::value::Domain;
 
 /// Addresses that name the end point of a turning cycle.
@@ -43,7 +40,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn turning_pass(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         let mut words = state.turning();
-        let start = [Axis::X, Axis::Z].map(|axis| Some(state.position.raw(axis)));
+        let start = [Axis::X, Axis::Z].map(|axis| Some(state.position().raw(axis)));
         if start.map(|s| s.map(f64::to_bits)) != words.start.map(|s| s.map(f64::to_bits)) {
             // Every pass ends where it began; from elsewhere another series begins.
             words = TurningWords { start, corner: [None; 2], taper: None, lead: None, ..words };
@@ -69,11 +66,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let lead = Mm(words.lead.or_else(|| self.modal_lead(state)).unwrap_or(f64::NAN));
         let pull_out = if threads { self.pull_out(lead) } else { Mm::ZERO };
         let checked = if threads { Self::check_lead(words.lead, state) } else { self.check_feed(state) };
-        let from = state.position.xyz();
+        let from = state.position().xyz();
         let mut strokes = Vec::new();
         let result =
             box_pass(effect, from, (x, z), taper, lead, pull_out, &mut |stroke| strokes.push(stroke));
-        self.carry_out(&strokes, result, Plane::Zx, state.position, state)?;
+        self.carry_out(&strokes, result, Plane::Zx, *state.position(), state)?;
         checked
     }
 
@@ -109,8 +106,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let checked = self.check_feed(state);
         let held = self.hold_compensation(state)?;
         let mut strokes = Vec::new();
-        let result = grooving(effect, state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
-        let outcome = self.carry_out(&strokes, result, Plane::Zx, state.position, state);
+        let result = grooving(effect, state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
+        let outcome = self.carry_out(&strokes, result, Plane::Zx, *state.position(), state);
         Self::release_compensation(held, state);
         outcome?;
         checked
@@ -140,8 +137,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             };
             let held = self.hold_compensation(state)?;
             let mut strokes = Vec::new();
-            let result = multi_pass_thread(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
-            let outcome = self.carry_out(&strokes, result, Plane::Zx, state.position, state);
+            let result =
+                multi_pass_thread(state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
+            let outcome = self.carry_out(&strokes, result, Plane::Zx, *state.position(), state);
             Self::release_compensation(held, state);
             outcome?;
             return checked;
@@ -284,7 +282,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             units: state.units(self.model).unwrap_or(Units::Mm),
         };
         let mut strokes = Vec::new();
-        let result = tapered_thread(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
+        let result = tapered_thread(state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
         let plane = state.plane(self.model).unwrap_or(Plane::Zx);
         self.carry_out(&strokes, result, plane, target, state)?;
         self.end_motion_cycle(state);
@@ -309,8 +307,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Profile(_)) => Err(Fault::Profile),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
-                state.position = end;
-                state.actual = self.axes_of(&end, state);
+                state.points.position.put(end);
+                state.points.actual.put(self.axes_of(&end, state));
                 Ok(())
             }
         }
@@ -324,15 +322,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.compensates(state) || modes.only().is_none() {
             state.set_mode(Role::Compensation, self.model.code_with(Effect::CompensationOff));
         }
-        Ok(HeldCompensation { compensation: state.compensation.take(), modes })
+        let on = (*state.compensation.on).clone();
+        state.compensation.on.put(Perhaps::No);
+        Ok(HeldCompensation { on, modes })
     }
 
     /// Goes on with what was held.
     pub(super) fn release_compensation(held: HeldCompensation, state: &mut State<D>) {
-        state.compensation = held.compensation;
-        if let Some(slot) = state.modes.get_mut(Role::Compensation.index()) {
-            *slot = held.modes;
-        }
+        state.compensation.on.put(held.on);
+        state.modes.put(Role::Compensation, held.modes);
     }
 
     /// A cycle that is a motion mode of its own, by which no block moves without naming it, has read the block's axis words.
@@ -362,14 +360,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Millimetres a turn from the feed in effect.
     fn modal_lead(&self, state: &State<D>) -> Option<f64> {
         let per_turn = state.feed_mode(self.model) == Some(FeedMode::PerRevolution);
-        D::known(&state.feed).filter(|feed| per_turn && *feed > 0.0)
+        D::known(state.feed()).filter(|feed| per_turn && *feed > 0.0)
     }
 
     /// A thread needs a lead from somewhere.
     fn check_lead(lead: Option<f64>, state: &State<D>) -> Step {
         match lead {
             Some(lead) if lead <= 0.0 => Err(Fault::NoFeed),
-            None if D::known(&state.feed) == Some(0.0) => Err(Fault::NoFeed),
+            None if D::known(state.feed()) == Some(0.0) => Err(Fault::NoFeed),
             _ => Ok(()),
         }
     }
@@ -425,21 +423,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
 /// Cutter compensation set aside while a cycle goes its own way.
 pub(super) struct HeldCompensation {
-    compensation: Option<Box<Compensation>>,
+    on: Perhaps<Course>,
     modes: ModeSet,
 }
 
 impl HeldCompensation {
     /// Leaves the path: compensation stays the mode, but where its path goes on is not known.
     pub(super) fn without_path(self) -> Self {
-        Self { compensation: None, ..self }
+        let on = if self.on.is_no() { Perhaps::No } else { Perhaps::Yes(Course::Unknown) };
+        Self { on, ..self }
     }
 }
 
 /// Keeps words of turning cycles.
 fn keep<D: Domain>(words: &TurningWords, state: &mut State<D>) {
-    if state.turning.as_deref() != Some(words) {
-        state.turning = Some(Rc::new(*words));
+    if state.turning() != *words {
+        state.turning.put(KeptTurningWords::of(words));
     }
 }
 

@@ -12,10 +12,11 @@ use crate::event::{Event, Units};
 use crate::fault::Fault;
 use crate::machine::Machine;
 use crate::model::Model;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::program::Program;
-use crate::state::{At, State};
-use crate::value::{Abstract, AbstractValue, Domain, Truth};
+use crate::state::State;
+use crate::value::{Abstract, AbstractValue};
 
 /// Events of one block that are kept.
 const MOST_EVENTS: usize = 20_000;
@@ -131,12 +132,5 @@ impl<'a, 'p> Look<'a, 'p> {
             Outcome::Fault(fault) => (None, Some(fault)),
         };
         Trial { events, is_cut_short: more, after, fault }
-    }
-}
-
-impl<D: Domain> State<D> {
-    /// Is flood coolant on, is mist?
-    pub fn coolant(&self) -> (Truth, Truth) {
-        (self.flood, self.mist)
     }
 }

@@ -8,12 +8,13 @@ use gcheck_program::{Place, Word};
 
 use super::{Count, Ending, Executor, Flow, Step};
 use crate::assumption::Assumption;
-use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Spindle, Stop, Units};
+use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Units};
 use crate::fault::{CompensationFault, Fault};
+use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
-use crate::position::{Axis, Position};
-use crate::state::State;
+use crate::position::Axis;
+use crate::state::{Blending, ModalCalls, State};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -44,8 +45,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.effect(code.effect, ix, place, words, state)?;
         if code.role == Some(Role::Length) && !(followed && is_upright(state)) {
             // The tip moved against the axes by the length along a turned tool.
-            state.actual = state.actual.with_xyz([Mm::UNKNOWN; 3]);
-            state.position = state.position.with_xyz([Mm::UNKNOWN; 3]);
+            state.points.actual.put(state.actual().with_xyz([Mm::UNKNOWN; 3]));
+            state.points.position.put(state.position().with_xyz([Mm::UNKNOWN; 3]));
         }
         Ok(())
     }
@@ -83,26 +84,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         )
     }
 
-    /// May cutter compensation be on? Of programs that are not here we take it that they leave it off.
-    pub(super) fn may_compensate(&self, state: &State<D>) -> bool {
-        let is_on = |code: &CodeIx| {
-            matches!(
-                self.model.effect(*code),
-                Effect::CompensationLeft
-                    | Effect::CompensationRight
-                    | Effect::CompensationLeftByDiameter
-                    | Effect::CompensationRightByDiameter
-            )
-        };
-        state.mode(Role::Compensation).alternatives().iter().any(is_on)
-    }
-
     /// Makes a code the one in effect of its role.
     fn switch(&mut self, role: Role, ix: CodeIx, lasts: bool, state: &mut State<D>) {
         match role {
             Role::Motion => {
                 if !matches!(self.model.effect(ix), Effect::NurbsOpen | Effect::SplineCubic) {
-                    state.nurbs = None;
+                    state.curve.put(Perhaps::No);
                 }
                 state.set_mode(Role::Motion, ix);
                 if self.model.semantics().cycles.motion_ends_cycle {
@@ -117,15 +104,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Role::Cycle => {
                 match state.active_cycle(self.model) {
-                    None => state.cycle = state.cycle.unknown(),
-                    Some(CodeIx::NONE) => state.cycle = state.cycle.series(false),
+                    None => state.cycle.put(state.cycle.unknown()),
+                    Some(CodeIx::NONE) => state.cycle.put(state.cycle.series(false)),
                     // Levels of one axis mean nothing along another.
                     Some(cycle) if self.model.drills_across(cycle) != self.model.drills_across(ix) => {
-                        state.cycle = state.cycle.series(false);
+                        state.cycle.put(state.cycle.series(false));
                     }
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
-                        state.cycle = state.cycle.series(true);
+                        state.cycle.put(state.cycle.series(true));
                     }
                     Some(_) => {}
                 }
@@ -181,6 +168,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::ExactPath => self.path_mode(PathMode::ExactPath, state),
             E::ExactStop => self.path_mode(PathMode::ExactStop, state),
             E::PathBlending => self.blending(state),
+            E::ExactStopOnce => self.emit(state, Event::ExactStop),
+            E::Smoothing => self.smoothing(state),
+            E::ContourControl => self.contour_control(Letter::of('Q'), Some(Letter::of('R')), state),
+            E::LookAheadControl => self.contour_control(Letter::of('P'), None, state),
             E::SurfaceSpeed | E::ConstantSpeed => self.spindle_mode(effect, state)?,
             E::CompensationOff => self.compensation_off(state)?,
             E::CompensationLeft
@@ -213,7 +204,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.end_tilted_plane(ix, state);
                 }
             }
-            E::PolarOn | E::PolarOff => state.polar = [0.0; 2],
             E::CylinderMapping => self.cylinder(ix, state)?,
             E::PolarInterpolationOn
             | E::PolarInterpolationOff
@@ -249,7 +239,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.measure(effect, state)?;
             }
 
-            E::KeepTouch => state.kept_touch = state.touched,
+            E::KeepTouch => state.probe.kept.put(state.touched()),
 
             E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
                 self.profile_cycle(effect, ix, state)?;
@@ -266,7 +256,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::NurbsClose => self.nurbs_close(state)?,
 
             E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
-            E::MacroModalOff => state.macro_modal = None,
+            E::MacroModalOff => state.calls.modal.put(ModalCalls::off()),
             E::CallProgram | E::CallLocal => self.call_code(effect, state)?,
             E::Return => {
                 let label = self.words.get(Letter::of('P'));
@@ -298,8 +288,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.save_modes(effect == E::SaveModesUntilReturn, state);
             }
             E::ForgetModes => {
-                if let Some(frame) = state.frames.last_mut() {
-                    frame.saved = None;
+                if let Some(kept) = state.calls.kept_mut() {
+                    kept.saved = Perhaps::No;
                 }
             }
             E::RestoreModes => self.restore_modes(state)?,
@@ -317,8 +307,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::SpindleStop => self.spindle(Spindle::Stopped, state)?,
             E::SpindleOrient => self.orient(state)?,
-            E::LiveToolOn => state.live_tool = Truth::True,
-            E::LiveToolOff => state.live_tool = Truth::False,
+            E::LiveToolOn => state.spindle.live_tool.put(Truth::True),
+            E::LiveToolOff => state.spindle.live_tool.put(Truth::False),
             E::ToolChange => self.tool_change(state)?,
             E::SetToolNumber => self.set_tool_number(state)?,
             E::MistOn => self.coolant(Coolant::Mist, true, state),
@@ -331,9 +321,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::OverridesOn | E::OverridesOff => {
                 let on = effect == E::OverridesOn;
-                state.feed_override = if on { Truth::True } else { Truth::False };
-                state.speed_override = state.feed_override;
-                state.cycle.feed_override_on = false;
+                state.feed.overridable.put(on.into());
+                state.spindle.overridable.put(on.into());
+                state.cycle.feed_override_on = Truth::False;
                 self.emit(state, Event::Override { kind: Override::Feed, on });
                 self.emit(state, Event::Override { kind: Override::Speed, on });
             }
@@ -356,8 +346,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn feed_mode(&mut self, mode: FeedMode, state: &mut State<D>) {
         self.emit(state, Event::FeedMode(mode));
         if self.model.semantics().feed_mode_clears_feed {
-            state.feed = D::number(0.0);
-            state.feed_word = D::number(0.0);
+            state.feed.clear();
             if mode != FeedMode::InverseTime {
                 self.emit(state, Event::FeedRate(0.0));
             }
@@ -369,27 +358,50 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn blending(&mut self, state: &mut State<D>) {
-        let tolerance = self.words.number(Letter::of('P')).map_or(0.0, |p| p.max(0.0));
-        let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0);
-        state.blending = (tolerance, naive);
+        let not_below_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
+        let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
+        let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
+        state.blending.put(Blending { tolerance, naive });
         let mode = self.blending_mode(state);
         self.path_mode(mode, state);
     }
 
-    /// The path mode in effect, as it is announced.
-    pub(super) fn current_path_mode(&self, state: &State<D>) -> PathMode {
-        match state.effect(Role::PathControl, self.model) {
-            Some(Effect::ExactPath) => PathMode::ExactPath,
-            Some(Effect::ExactStop) => PathMode::ExactStop,
+    fn smoothing(&mut self, state: &mut State<D>) {
+        let unit = self.unit(state);
+        let tolerance = self.words.number(Letter::of('E')).filter(|e| *e > 0.0).map(|e| Mm(e * unit));
+        let smoothing = Smoothing { level: self.level(Letter::of('P')), tolerance };
+        self.emit(state, Event::Smoothing(smoothing));
+    }
+
+    fn contour_control(&mut self, switch: Letter, level: Option<Letter>, state: &mut State<D>) {
+        // What is unknown, or has other meanings on other series, switches nothing.
+        let Some(switched) = self.words.number(switch) else { return };
+        let on = switched > 0.0;
+        let level = level.and_then(|letter| self.level(letter)).filter(|_| on);
+        self.emit(state, Event::ContourControl { on, level });
+    }
+
+    /// A small whole number.
+    fn level(&self, letter: Letter) -> Option<u8> {
+        #[expect(clippy::cast_sign_loss, reason = "in range")]
+        self.words.number(letter).filter(|level| (0.0..=99.0).contains(level)).map(|level| level as u8)
+    }
+
+    /// The path mode in effect, as it is announced; `None` when it is not known.
+    pub(super) fn current_path_mode(&self, state: &State<D>) -> Option<PathMode> {
+        let mode = state.mode(Role::PathControl).only()?;
+        Some(match self.model.effect(mode) {
+            Effect::ExactPath => PathMode::ExactPath,
+            Effect::ExactStop => PathMode::ExactStop,
             _ => self.blending_mode(state),
-        }
+        })
     }
 
     /// Blending as it is announced: its numbers count in the program's present units.
     fn blending_mode(&self, state: &State<D>) -> PathMode {
         let unit = self.unit(state);
         let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
-        let (tolerance, naive) = state.blending;
+        let Blending { tolerance, naive } = *state.blending;
         PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
 
@@ -398,20 +410,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let truth = if on { Truth::True } else { Truth::False };
         let kind = match effect {
             Effect::FeedOverride => {
-                state.feed_override = truth;
-                state.cycle.feed_override_on = false;
+                state.feed.overridable.put(truth);
+                state.cycle.feed_override_on = Truth::False;
                 Override::Feed
             }
             Effect::SpeedOverride => {
-                state.speed_override = truth;
+                state.spindle.overridable.put(truth);
                 Override::Speed
             }
             Effect::AdaptiveFeed => {
-                state.adaptive = truth;
+                state.feed.adaptive.put(truth);
                 Override::Adaptive
             }
             _ => {
-                state.feed_hold = truth;
+                state.feed.hold.put(truth);
                 Override::FeedStop
             }
         };
@@ -421,8 +433,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
         let truth = if on { Truth::True } else { Truth::False };
         match kind {
-            Coolant::Mist => state.mist = truth,
-            Coolant::Flood => state.flood = truth,
+            Coolant::Mist => state.coolant.mist.put(truth),
+            Coolant::Flood => state.coolant.flood.put(truth),
             Coolant::Through => {}
         }
         self.emit(state, Event::Coolant { kind, on });
@@ -434,24 +446,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if on {
             self.assumptions.insert(Assumption::Code(ix));
         }
-        let mut unknown = state.actual.with_xyz([Mm::UNKNOWN; 3]);
+        let mut unknown = state.actual().with_xyz([Mm::UNKNOWN; 3]);
         if matches!(effect, Effect::PolarInterpolationOn | Effect::PolarInterpolationOff) {
             // X and a rotary axis make the moves of the plane; Z stays its own.
-            unknown.set(Axis::Z, state.actual.raw(Axis::Z));
+            unknown.set(Axis::Z, state.actual().raw(Axis::Z));
             for axis in self.model.axes.iter().filter(|axis| axis.is_rotary()) {
                 unknown.set(*axis, f64::NAN);
             }
         }
-        state.actual = unknown;
-        state.position = unknown;
+        state.points.actual.put(unknown);
+        state.points.position.put(unknown);
     }
 
     /// Some controls end a tilted plane and a rotation with one code.
     fn end_tilted_plane(&mut self, ix: CodeIx, state: &mut State<D>) {
         let group = |ix: CodeIx| self.model.code(ix).map(|code| code.group);
         let tilts =
-            |code: &CodeIx| self.model.effect(*code) == Effect::TiltedPlaneOn && group(*code) == group(ix);
-        if state.mode(Role::TiltedPlane).alternatives().iter().any(tilts) {
+            |code: CodeIx| self.model.effect(code) == Effect::TiltedPlaneOn && group(code) == group(ix);
+        if state.mode(Role::TiltedPlane).may(tilts) {
             state.set_mode(Role::TiltedPlane, CodeIx::NONE);
             self.unknown_frame(ix, false, state);
         }
@@ -460,8 +472,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Work done by the machine that gcheck does not follow: the axes end nobody knows where.
     pub(super) fn opaque_operation(&mut self, ix: CodeIx, state: &mut State<D>) {
         self.assumptions.insert(Assumption::Code(ix));
-        state.actual = Position::UNKNOWN;
-        state.position = Position::UNKNOWN;
+        state.points.lose();
     }
 
     fn user_command(&mut self, ix: CodeIx, state: &mut State<D>) {

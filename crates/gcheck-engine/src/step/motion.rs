@@ -10,12 +10,14 @@ use gcheck_geometry::{Bezier, Mm};
 use nalgebra::Point2;
 
 use super::{Executor, Step};
+use crate::assumption::{Assumption, Unsettled};
 use crate::event::{Curve, CurvePiece, Event, FeedMode, Spindle, Travel, TravelKind};
 use crate::fault::{CompensationFault, Fault};
+use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::State;
+use crate::state::{ControlPoints, State};
 use crate::value::Domain;
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -24,7 +26,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn motion(&mut self, state: &mut State<D>) -> Step {
         self.turn_drawing(state);
         self.active_motion(state)?;
-        if state.macro_modal.is_some() && self.words.present().intersects(self.model.axis_letters) {
+        if !state.calls.modal.is_off() && self.words.present().intersects(self.model.axis_letters) {
             self.modal_call(state);
         }
         Ok(())
@@ -107,7 +109,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// spindle.
     pub(super) fn tap_here(&mut self, clockwise: bool, state: &mut State<D>) -> Step {
         let bottom = self.target(state)?;
-        let start = state.position;
+        let start = *state.position();
         let checked = self.held(self.check_feed(state))?;
         let (inward, outward) = if clockwise {
             (Spindle::Clockwise, Spindle::CounterClockwise)
@@ -136,8 +138,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn lose_position(&mut self, state: &mut State<D>) -> Step {
         for letter in self.words.present().iter() {
             if let Some((axis, _)) = self.model.axis_of(letter) {
-                state.position.set(axis, f64::NAN);
-                state.actual.set(axis, f64::NAN);
+                state.points.position.set(axis, f64::NAN);
+                state.points.actual.set(axis, f64::NAN);
             }
         }
         Ok(())
@@ -145,10 +147,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The programmed point of the block: axes that it does not name stay.
     pub(super) fn target(&mut self, state: &State<D>) -> Step<Position> {
-        let mut target = state.position;
-        if let Some(cylinder) = state.wrapped.cylinder() {
+        let mut target = *state.position();
+        if let Some(cylinder) = state.wrapped().cylinder() {
             // It turns though no word of the program names it.
-            target.set(cylinder.rotary, state.actual.raw(cylinder.rotary));
+            target.set(cylinder.rotary, state.actual().raw(cylinder.rotary));
         }
         let incremental = state.is_incremental(self.model);
         let unit = self.unit(state);
@@ -184,7 +186,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `@` and `^`: distance and angle from the XY origin.
     fn polar_target(&mut self, target: &mut Position, state: &State<D>) -> Step {
-        let (x, y) = (state.position.raw(Axis::X), state.position.raw(Axis::Y));
+        let (x, y) = (state.position().raw(Axis::X), state.position().raw(Axis::Y));
         if self.words.has(Letter::of('X')) || self.words.has(Letter::of('Y')) || self.machine_coordinates {
             return Err(Fault::Conflict);
         }
@@ -223,7 +225,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !self.words.has(first.letter()) && !self.words.has(second.letter()) {
             return;
         }
-        let (x, y) = (state.position.raw(*first), state.position.raw(*second));
+        let (x, y) = (state.position().raw(*first), state.position().raw(*second));
         let stands_at = y.atan2(x).to_degrees();
         let radius = self.words.number(first.letter()).map(|radius| radius * self.unit(state));
         let angle = self.words.number(second.letter());
@@ -267,15 +269,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             Some(FeedMode::PerRevolution) => {
-                if D::known(&state.feed) == Some(0.0) {
+                if D::known(state.feed()) == Some(0.0) {
                     return Err(Fault::NoFeed);
                 }
-                if self.refuses_incomplete() && D::known(&state.speed) == Some(0.0) {
+                if self.refuses_incomplete() && D::known(state.speed()) == Some(0.0) {
                     return Err(Fault::SpindleStopped);
                 }
             }
             _ => {
-                if D::known(&state.feed) == Some(0.0) {
+                if D::known(state.feed()) == Some(0.0) {
                     return Err(Fault::NoFeed);
                 }
             }
@@ -290,7 +292,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) {
         if state.feed_mode(self.model) == Some(FeedMode::InverseTime) {
-            let rate = D::known(&state.feed).unwrap_or(f64::NAN) * length(state);
+            let rate = D::known(state.feed()).unwrap_or(f64::NAN) * length(state);
             let least = self.model.semantics().least_inverse_feed * self.unit(state);
             self.emit(state, Event::FeedRate(if rate < least { least } else { rate }));
         }
@@ -318,7 +320,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let target = state.from_machine(&machine, self.model);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
         // Axes that the block does not name stay where they are, known or not.
-        let mut to = state.actual;
+        let mut to = *state.actual();
         for axis in Axis::ALL {
             let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
             if named.contains(axis.letter()) || rotated {
@@ -327,7 +329,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.moved_off_drawing(named, &mut to, state);
         self.travel_to(kind, &to, &to, false, state);
-        state.position = self.programmed_of(&to, state);
+        state.points.position.put(self.programmed_of(&to, state));
         checked
     }
 
@@ -339,35 +341,32 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         expanded: bool,
         state: &mut State<D>,
     ) -> Step {
-        if state.compensation.is_some() {
+        if state.compensation.is_followed() {
             if kind == TravelKind::Feed {
                 let unit = self.unit(state);
-                self.announce_inverse_time(|state| straight_length(&state.position, &target, unit), state);
+                self.announce_inverse_time(|state| straight_length(state.position(), &target, unit), state);
             }
             return self.compensated_line(kind, target, state);
         }
-        if state.left_compensation.is_some() {
+        if !state.compensation.left.is_no() {
             self.leave_compensation(false, state)?;
         }
         let mut to = self.axes_of(&target, state);
         if !expanded {
             self.keep_unnamed(&mut to, state);
         }
-        if self.may_compensate(state) {
+        if self.may_run_beside(state) {
             // Compensation by a tool of unknown size: the path beside the programmed one is not known.
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }
         self.travel_to(kind, &target, &to, expanded, state);
-        state.position = target;
+        state.points.position.put(target);
         Ok(())
     }
 
     /// Do the axes go where the program says, without compensation or mapping in between?
-    pub(super) fn goes_direct(&self, state: &State<D>) -> bool {
-        state.compensation.is_none()
-            && state.left_compensation.is_none()
-            && !self.may_compensate(state)
-            && state.transform.is_off()
+    pub(super) fn goes_direct(state: &State<D>) -> bool {
+        state.compensation.is_off() && state.transform.is_off()
     }
 
     /// [`Self::travel`] where [`Self::goes_direct`] holds.
@@ -379,7 +378,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) {
         self.travel_to(kind, target, target, expanded, state);
-        state.position = *target;
+        state.points.position.put(*target);
     }
 
     fn travel_to(
@@ -392,11 +391,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) {
         if kind == TravelKind::Feed {
             let unit = self.unit(state);
-            self.announce_inverse_time(|state| straight_length(&state.actual, to, unit), state);
+            self.announce_inverse_time(|state| straight_length(state.actual(), to, unit), state);
         }
-        let travel = Travel { kind, from: state.actual, programmed: *programmed, to: *to, expanded };
-        state.actual = *to;
-        self.emit(state, Event::Travel(travel));
+        let from = *state.actual();
+        let event = Event::Travel(Travel { kind, from, programmed: *programmed, to: *to, expanded });
+        state.points.actual.put(*to);
+        self.emit(state, event);
     }
 
     /// `G33`, `G33.1`, lathe `G32`.
@@ -406,7 +406,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let by_feed = self.motion_reads(Letter::of('F'), state);
         let lead = k
             .filter(|_| !by_feed)
-            .or_else(|| self.lead(state).or_else(|| D::known(&state.feed).filter(|f| *f > 0.0)));
+            .or_else(|| self.lead(state).or_else(|| D::known(state.feed()).filter(|f| *f > 0.0)));
         let Some(lead) = lead else {
             let missing = if self.refuses_incomplete() { 'K' } else { 'F' };
             let missing = self.held(Err(Fault::MissingWord(Letter::of(missing))))?;
@@ -420,18 +420,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if self.refuses_incomplete()
                 && [Axis::X, Axis::Y]
                     .into_iter()
-                    .any(|a| target.raw(a).to_bits() != state.position.raw(a).to_bits())
+                    .any(|a| target.raw(a).to_bits() != state.position().raw(a).to_bits())
             {
                 return Err(Fault::Conflict);
             }
             let scale = self.words.number(Letter::of('I')).unwrap_or(1.0);
             self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
-            self.emit(state, Event::RigidTap { from: state.actual, to: target, scale });
+            self.emit(state, Event::RigidTap { from: *state.actual(), to: target, scale });
             self.emit(state, Event::SpindleSync { lead: None, velocity: false });
             return Ok(());
         }
         let change = k.filter(|_| by_feed).unwrap_or(0.0);
-        let lead = mean_lead(lead, change, &state.position, &target);
+        let lead = mean_lead(lead, change, state.position(), &target);
         self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
         self.travel(TravelKind::Thread, target, false, state)?;
         self.emit(state, Event::SpindleSync { lead: None, velocity: false });
@@ -461,27 +461,31 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let offset = |letter: char| self.length(Letter::of(letter), state);
         let (i, j) = (offset('I'), offset('J'));
         let (p, q) = (offset('P'), offset('Q'));
-        let start = [state.position.raw(Axis::X), state.position.raw(Axis::Y)];
+        let start = [state.position().raw(Axis::X), state.position().raw(Axis::Y)];
         let end = [target.raw(Axis::X), target.raw(Axis::Y)];
         let points = if effect == Effect::SplineQuadratic {
             let (Some(i), Some(j)) = (i, j) else { return Err(Fault::MissingWord(Letter::of('I'))) };
             vec![start, [start[0] + i, start[1] + j], end]
         } else {
             let (Some(p), Some(q)) = (p, q) else { return Err(Fault::MissingWord(Letter::of('P'))) };
-            let first = match (i, j, &state.nurbs) {
+            let first = match (i, j, &*state.curve) {
                 (Some(i), Some(j), _) => [i, j],
-                (None, None, Some(last)) => last.first().map_or([0.0; 2], |l| [-l[0], -l[1]]),
-                (None, None, None) => [0.0; 2],
+                (None, None, Perhaps::Yes(last)) => last.0.first().map_or([0.0; 2], |l| [-l[0], -l[1]]),
+                (None, None, Perhaps::No) => [0.0; 2],
+                (None, None, Perhaps::Unknown) => {
+                    self.assumptions.insert(Assumption::Unsettled(Unsettled::Curve));
+                    [f64::NAN; 2]
+                }
                 _ => return Err(Fault::MissingWord(Letter::of('I'))),
             };
-            state.nurbs = Some(Rc::new(vec![[p, q, 0.0]]));
+            state.curve.put(Perhaps::Yes(ControlPoints(Rc::new(vec![[p, q, 0.0]]))));
             vec![start, [start[0] + first[0], start[1] + first[1]], [end[0] + p, end[1] + q], end]
         };
         let count = points.len() as u32;
         let chords = chords(&points);
-        let curve = Curve { from: state.actual, to: target, points: count, pieces: chords };
-        state.actual = target;
-        state.position = target;
+        let curve = Curve { from: *state.actual(), to: target, points: count, pieces: chords };
+        state.points.actual.put(target);
+        state.points.position.put(target);
         self.emit(state, Event::Curve(curve));
         if self.refuses_incomplete() {
             // A curve is no mode that lasts.
@@ -518,14 +522,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn nurbs_point(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         let weight = self.words.number(Letter::of('P'));
-        let open = state.nurbs.take();
+        let open = match state.curve.take() {
+            Perhaps::No => None,
+            Perhaps::Yes(ControlPoints(points)) => Some(points),
+            Perhaps::Unknown => {
+                // Whether this is its first point or another one, the curve is not known.
+                self.assumptions.insert(Assumption::Unsettled(Unsettled::Curve));
+                state.curve.put(Perhaps::Unknown);
+                return Ok(());
+            }
+        };
         let opens = open.is_none();
         // The first entry is the start, with the curve's order instead of a weight.
         let mut points = match open {
             Some(points) => (*points).clone(),
             None => {
                 self.check_feed(state)?;
-                vec![[state.position.raw(Axis::X), state.position.raw(Axis::Y), LEAST_ORDER]]
+                vec![[state.position().raw(Axis::X), state.position().raw(Axis::Y), LEAST_ORDER]]
             }
         };
         if let (Some(order), Some([_, _, slot])) = (self.words.number(Letter::of('L')), points.first_mut()) {
@@ -547,30 +560,37 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             points.push([target.raw(Axis::X), target.raw(Axis::Y), weight.unwrap_or(1.0)]);
         }
-        state.nurbs = Some(Rc::new(points));
+        state.curve.put(Perhaps::Yes(ControlPoints(Rc::new(points))));
         Ok(())
     }
 
     /// `G5.3`: the curve is cut.
     pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
-        let Some(points) = state.nurbs.take() else { return Err(Fault::NoMotionMode) };
-        if points
-            .first()
-            .is_some_and(|[_, _, order]| f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX)) < *order)
-        {
-            return Err(Fault::TooFewPoints);
+        let (to, polygon) = match state.curve.take() {
+            Perhaps::No => return Err(Fault::NoMotionMode),
+            Perhaps::Yes(ControlPoints(points)) => {
+                let count = f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX));
+                if points.first().is_some_and(|[_, _, order]| count < *order) {
+                    return Err(Fault::TooFewPoints);
+                }
+                let end = points.last().map(|[x, y, _]| [*x, *y]);
+                (end, points.iter().map(|[x, y, _]| [*x, *y]).collect())
+            }
+            Perhaps::Unknown => {
+                self.assumptions.insert(Assumption::Unsettled(Unsettled::Curve));
+                (Some([f64::NAN; 2]), Vec::new())
+            }
+        };
+        let mut end = *state.position();
+        if let Some([x, y]) = to {
+            end.set(Axis::X, x);
+            end.set(Axis::Y, y);
         }
-        let mut to = state.position;
-        if let Some([x, y, _]) = points.last() {
-            to.set(Axis::X, *x);
-            to.set(Axis::Y, *y);
-        }
-        let polygon: Vec<[f64; 2]> = points.iter().map(|[x, y, _]| [*x, *y]).collect();
-        let pieces: Rc<[CurvePiece]> =
-            polygon.iter().skip(1).map(|[x, y]| CurvePiece::Line([Mm(*x), Mm(*y)])).collect();
-        let curve = Curve { from: state.actual, to, points: points.len() as u32, pieces };
-        state.actual = to;
-        state.position = to;
+        let line = |[x, y]: &[f64; 2]| CurvePiece::Line([Mm(*x), Mm(*y)]);
+        let pieces: Rc<[CurvePiece]> = polygon.iter().skip(1).map(line).collect();
+        let curve = Curve { from: *state.actual(), to: end, points: polygon.len() as u32, pieces };
+        state.points.actual.put(end);
+        state.points.position.put(end);
         self.emit(state, Event::Curve(curve));
         state.set_mode(Role::Motion, CodeIx::NONE);
         Ok(())

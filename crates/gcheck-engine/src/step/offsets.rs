@@ -4,8 +4,6 @@
 //!
 //! The axes stay where they are, so the position in work coordinates changes by what the offsets change.
 
-use std::rc::Rc;
-
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_geometry::Mm;
 
@@ -13,56 +11,55 @@ use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::{Event, ToolEntry};
 use crate::fault::{CompensationFault, Fault};
+use crate::lattice::{Flat, Lattice, Perhaps};
 use crate::machine::WorkOffset;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{State, rotate};
-use crate::value::Domain;
+use crate::state::{State, ToolData};
+use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Changes offsets while the axes stand still.
     fn reframe(&mut self, state: &mut State<D>, change: impl FnOnce(&mut State<D>)) {
-        let before = Frame::of(state);
-        let old = state.actual;
+        let before = Placement::of(state);
+        let old = *state.actual();
         change(state);
-        let after = Frame::of(state);
+        let after = Placement::of(state);
         if before.same(&after) {
             return;
         }
-        state.actual = if before.rotation == 0.0 && after.rotation == 0.0 {
-            old + before.less(&after)
-        } else {
-            after.work_of_machine(&before.to_machine(&old))
-        };
-        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+        let here = before.moved(&old, &after);
+        state.points.actual.put(here);
+        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
             // The axis that is wrapped stands still as all the others do.
             let linear = cylinder.linear;
             let mut standing = old;
             standing.set(linear, cylinder.stands);
-            let moved = if before.rotation == 0.0 && after.rotation == 0.0 {
-                standing + before.less(&after)
-            } else {
-                after.work_of_machine(&before.to_machine(&standing))
-            };
-            cylinder.stands = moved.raw(linear);
-            cylinder.anchor(&state.actual);
+            cylinder.stands = before.moved(&standing, &after).raw(linear);
+            cylinder.anchor(&here);
         }
-        state.position = self.programmed_of(&state.actual, state);
+        let programmed = self.programmed_of(&here, state);
+        state.points.position.put(programmed);
     }
 
     /// `G54` and its kin.
     pub(super) fn select_work_offset(&mut self, number: Option<u16>, state: &mut State<D>) {
-        if number.is_some() && number == state.work && self.refuses_incomplete() {
+        if number.is_some() && number == state.work() && self.refuses_incomplete() {
             // The system in use stays as it is.
             return;
         }
         self.reframe(state, |state| {
-            state.work = number;
-            state.in_effect = number.map_or(WorkOffset::UNKNOWN, |n| state.tables.offset(n));
+            let offset = number.map_or(WorkOffset::UNKNOWN, |n| state.tables().offset(n));
+            state.offsets.work.put(number.into());
+            state.offsets.in_effect.put(offset);
         });
+        if number.is_none() {
+            // One unknown system may have taken the place of another.
+            state.points.lose();
+        }
         if let Some(number) = number
-            && !state.tables.offset(number).origin.is_known()
+            && !state.tables().offset(number).origin.is_known()
         {
             self.assumptions.insert(Assumption::WorkOffset(number));
         }
@@ -74,7 +71,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(super) fn announce_offset(&mut self, state: &mut State<D>) {
         let WorkOffset { origin, rotation } = state.work_offset();
-        let number = state.work.unwrap_or(0);
+        let number = state.work().unwrap_or(0);
         self.emit(state, Event::WorkOffset { number, offset: origin, rotation });
     }
 
@@ -110,26 +107,37 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if named.is_empty() {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
         }
-        let position = if state.compensation.is_some() { state.position } else { state.actual };
+        let position = if state.compensation.is_followed() { *state.position() } else { *state.actual() };
         for (axis, value) in &named {
             // Machine = work + shift stays, so the shift grows by what the position loses.
-            let base = if state.shift_on || !self.shifts_are_one() { state.shift.raw(*axis) } else { 0.0 };
-            state.shift.set(*axis, base + position.raw(*axis) - value);
-            state.actual.set(*axis, *value);
-            state.position.set(*axis, *value);
-        }
-        if !state.shift_on {
-            for axis in Axis::ALL {
-                if !named.iter().any(|(a, _)| *a == axis) {
-                    state.shift.set(axis, 0.0);
+            let counts = if self.shifts_are_one() { *state.offsets.shift_on } else { Truth::True };
+            let base = match (counts, state.offsets.shift.raw(*axis)) {
+                (Truth::True, shift) => shift,
+                (Truth::False, _) => 0.0,
+                (Truth::Unknown, shift) => {
+                    if shift == 0.0 {
+                        0.0
+                    } else {
+                        f64::NAN
+                    }
                 }
-            }
-            state.shift_on = true;
+            };
+            state.offsets.shift.set(*axis, base + position.raw(*axis) - value);
+            state.points.actual.set(*axis, *value);
+            state.points.position.set(*axis, *value);
         }
-        if let Some(cylinder) = state.wrapped.cylinder_mut() {
+        // What is suspended does not come back on other axes.
+        let unnamed = |axis: &Axis| !named.iter().any(|(a, _)| a == axis);
+        let in_effect = state.offsets.shift_in_effect();
+        for axis in Axis::ALL.into_iter().filter(unnamed) {
+            state.offsets.shift.set(axis, in_effect.raw(axis));
+        }
+        state.offsets.shift_on.put(Truth::True);
+        let here = *state.actual();
+        if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
             // The drawing has a new zero; what that says of the axis that stands still is in no page.
             cylinder.stands = f64::NAN;
-            cylinder.anchor(&state.actual);
+            cylinder.anchor(&here);
         }
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
@@ -144,16 +152,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let shared = self.shifts_are_one();
         self.reframe(state, |state| {
-            if shared && !state.shift_on {
+            if shared {
                 // What is suspended does not come back with another axis.
-                state.shift = Position::ZERO;
-                state.shift_on = true;
+                let in_effect = state.offsets.shift_in_effect();
+                state.offsets.shift.put(in_effect);
+                state.offsets.shift_on.put(Truth::True);
             }
             for (axis, value) in &named {
                 if shared {
-                    state.shift.set(*axis, *value);
+                    state.offsets.shift.set(*axis, *value);
                 } else {
-                    state.local.set(*axis, *value);
+                    state.offsets.local.set(*axis, *value);
                 }
             }
         });
@@ -165,9 +174,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G92.1`, `G92.2`.
     pub(super) fn clear_shift(&mut self, state: &mut State<D>, keep: bool) {
         self.reframe(state, |state| {
-            state.shift_on = false;
+            state.offsets.shift_on.put(Truth::False);
             if !keep {
-                state.shift = Position::ZERO;
+                state.offsets.shift.put(Position::ZERO);
             }
         });
         let shift = state.shift();
@@ -176,7 +185,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G92.3`.
     pub(super) fn restore_shift(&mut self, state: &mut State<D>) {
-        self.reframe(state, |state| state.shift_on = true);
+        self.reframe(state, |state| state.offsets.shift_on.put(Truth::True));
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
     }
@@ -196,7 +205,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 let named = self.named(state);
                 // Axes that are not named keep their offsets.
-                let mut length = state.length;
+                let mut length = *state.length();
                 for (axis, value) in named {
                     length.set(axis, value);
                 }
@@ -214,39 +223,40 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn length_number(&mut self, sign: f64, state: &mut State<D>) -> Step {
         let rules = self.model.semantics().tools;
         match self.count(Letter::of('H'))? {
-            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables.complete => {
-                self.loaded_length(sign, state)
+            None | Some(Count::Known(0)) if rules.length_from_tool && state.tables().is_complete() => {
+                self.loaded_length(sign, state);
+                Ok(())
             }
             Some(Count::Known(number)) => {
                 if number == 0 && !rules.length_from_tool {
                     // H0 is length zero, and ends the compensation on some controls.
-                    state.h = D::number(0.0);
+                    state.tool.h.put(D::number(0.0));
                     self.set_length(Position::ZERO, state);
                     return Ok(());
                 }
                 self.apply_length(number, sign, state)
             }
             Some(Count::Unknown) => {
-                state.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
+                state.tool.h.put(self.words.get(Letter::of('H')).unwrap_or_else(D::unknown));
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
-            None if rules.length_from_tool => match D::known(&state.tool) {
+            None if rules.length_from_tool => match D::known(state.tool()) {
                 #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
                 Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
                 Some(_) => {
-                    state.h = D::number(0.0);
+                    state.tool.h.put(D::number(0.0));
                     self.set_length(Position::ZERO, state);
                     Ok(())
                 }
                 None => {
-                    state.h = D::unknown();
+                    state.tool.h.put(D::unknown());
                     self.set_length(self.unknown_length(state), state);
                     Ok(())
                 }
             },
             // H stays in effect from before.
-            None => match D::known(&state.h) {
+            None => match D::known(state.h()) {
                 #[expect(clippy::cast_sign_loss, reason = "offset numbers are counts")]
                 Some(h) if h > 0.0 => self.apply_length(h as u32, sign, state),
                 _ => {
@@ -258,14 +268,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The length of the tool in the spindle, as it was loaded.
-    pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) -> Step {
-        state.h = state.tool.clone();
-        let mut length = state.loaded.offset;
+    pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) {
+        let number = state.tool().clone();
+        state.tool.h.put(number);
+        let mut length = state.tool.loaded.data.offset;
         for axis in Axis::ALL {
             length.set(axis, sign * length.raw(axis));
         }
         self.set_length(length, state);
-        Ok(())
+    }
+
+    /// Any length may be in effect, of any number.
+    pub(super) fn lose_length(&mut self, state: &mut State<D>) {
+        state.tool.h.put(D::unknown());
+        let length = self.unknown_length(state);
+        self.set_length(length, state);
     }
 
     /// Offsets of a tool of which nothing is known: only along Z on mills.
@@ -279,15 +296,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn apply_length(&mut self, number: u32, sign: f64, state: &mut State<D>) -> Step {
-        state.h = D::number(f64::from(number));
+        state.tool.h.put(D::number(f64::from(number)));
         if number == 0 && !self.model.semantics().tools.length_from_tool {
             self.set_length(Position::ZERO, state);
             return Ok(());
         }
-        let length = match state.tables.tool(number) {
+        let length = match state.tables().tool(number) {
             Some(tool) => tool.offset,
             None if number == 0 => Position::ZERO,
-            None if state.tables.complete => return Err(Fault::NoSuchTool(number)),
+            None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => self.unknown_length(state),
         };
         if !length.is_known() {
@@ -309,15 +326,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => {}
         }
         let added = match self.count(Letter::of('H'))? {
-            Some(Count::Known(number)) => match state.tables.tool(number) {
+            Some(Count::Known(number)) => match state.tables().tool(number) {
                 Some(tool) => tool.offset,
-                None if state.tables.complete => return Err(Fault::NoSuchTool(number)),
+                None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
                 None => self.unknown_length(state),
             },
             Some(Count::Unknown) => self.unknown_length(state),
             None => {
                 // The interpreter looks for a tool all the same.
-                if self.refuses_incomplete() && state.tables.complete && !self.lenient {
+                if self.refuses_incomplete() && state.tables().is_complete() && !self.lenient {
                     return Err(Fault::MissingWord(Letter::of('H')));
                 }
                 let mut added = Position::ZERO;
@@ -327,25 +344,25 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 added
             }
         };
-        let length = state.length + added;
+        let length = *state.length() + added;
         self.set_length(length, state);
         Ok(())
     }
 
     pub(super) fn cancel_length(&mut self, state: &mut State<D>) {
-        state.h = D::number(0.0);
+        state.tool.h.put(D::number(0.0));
         self.set_length(Position::ZERO, state);
     }
 
     pub(super) fn set_length(&mut self, length: Position, state: &mut State<D>) {
         self.end_length_along_tool(state);
-        let old = state.length;
-        self.reframe(state, |state| state.length = length);
+        let old = *state.length();
+        self.reframe(state, |state| state.tool.length.put(length));
         for axis in Axis::ALL {
             // One unknown length took the place of another.
             if old.raw(axis).is_nan() && length.raw(axis).is_nan() {
-                state.actual.set(axis, f64::NAN);
-                state.position.set(axis, f64::NAN);
+                state.points.actual.set(axis, f64::NAN);
+                state.points.position.set(axis, f64::NAN);
             }
         }
         self.emit(state, Event::LengthOffset(length));
@@ -416,23 +433,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G10 L0`: the table of tools is read again, which a tool in the spindle forbids.
     fn reload_tools(&mut self, state: &mut State<D>) -> Step {
-        let loaded = D::known(&state.tool).is_some_and(|tool| tool != 0.0);
+        let loaded = D::known(state.tool()).is_some_and(|tool| tool != 0.0);
         if loaded { Err(Fault::NotNow(self.model.code_with(Effect::WriteOffsets), None)) } else { Ok(()) }
     }
 
     pub(super) fn forget_offsets(&mut self, state: &mut State<D>) {
+        let turns = self.words.has(Letter::of('R'));
         self.reframe(state, |state| {
-            Rc::make_mut(&mut state.tables).unsure = true;
-            state.in_effect = WorkOffset::UNKNOWN;
+            state.offsets.tables_mut().forget_offsets(turns);
+            state.offsets.in_effect.origin = Position::UNKNOWN;
+            if turns {
+                state.offsets.in_effect.rotation = f64::NAN;
+            }
         });
         // One unknown offset may have taken the place of another.
-        state.actual = Position::UNKNOWN;
-        state.position = Position::UNKNOWN;
+        state.points.lose();
     }
 
     fn write_work_offset(&mut self, number: Option<Count>, here: bool, state: &mut State<D>) -> Step {
         let system = match number {
-            Some(Count::Known(0)) if self.refuses_incomplete() => state.work,
+            Some(Count::Known(0)) if self.refuses_incomplete() => state.work(),
             // P0 is the shift of all systems on other controls.
             Some(Count::Known(0)) => return Ok(()),
             Some(Count::Known(p)) => match u16::try_from(p) {
@@ -441,13 +461,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             },
             Some(Count::Unknown) => None,
             None if self.refuses_incomplete() => return Err(Fault::MissingWord(Letter::of('P'))),
-            None => state.work,
+            None => state.work(),
         };
         let of_tools = LetterSet::of(if here { "IJR" } else { "IJ" });
         if self.words.present().intersects(of_tools) && self.refuses_incomplete() {
             return Err(Fault::Conflict);
         }
-        if system.is_some() && system == state.work && self.refuses_incomplete() && self.compensates(state) {
+        if system.is_some() && system == state.work() && self.refuses_incomplete() && self.compensates(state)
+        {
             return Err(Fault::Compensation(CompensationFault::NotWhileOn));
         }
         self.write_work_system(system, here, state);
@@ -463,21 +484,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let named = self.named(state);
         let incremental = state.is_incremental(self.model) == Some(true) && !self.refuses_incomplete();
         let rotation = self.words.number(Letter::of('R')).filter(|_| !here);
-        let old = state.tables.offset(system);
+        let old = state.tables().offset(system);
         let mut offset = old;
         if let Some(rotation) = rotation {
             offset.rotation = rotation;
         }
         if here {
             // Machine position without the shift and tool, turned into the system's own directions.
-            let machine = state.machine(self.model) - state.length;
-            let turned = rotate(machine, -offset.rotation);
-            let origin = rotate(offset.origin, -offset.rotation);
+            let machine = state.machine(self.model) - *state.length();
+            let turned = machine.turned(-offset.rotation);
+            let origin = offset.origin.turned(-offset.rotation);
             let mut wanted = origin;
             for (axis, value) in &named {
                 wanted.set(*axis, turned.raw(*axis) - value - state.shift().raw(*axis));
             }
-            let back = rotate(wanted, offset.rotation);
+            let back = wanted.turned(offset.rotation);
             for axis in Axis::ALL {
                 let turned = offset.rotation != 0.0 && matches!(axis, Axis::X | Axis::Y);
                 if turned || named.iter().any(|(a, _)| *a == axis) {
@@ -490,28 +511,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 offset.origin.set(*axis, base + value);
             }
         }
-        let active = state.work == Some(system);
-        let here = state.actual;
+        let active = state.work() == Some(system);
+        let here = *state.actual();
         self.reframe(state, |state| {
-            Rc::make_mut(&mut state.tables).set_offset(system, offset);
+            state.offsets.tables_mut().set_offset(system, offset);
             if active {
-                state.in_effect = offset;
+                state.offsets.in_effect.put(offset);
             }
         });
         if active && self.refuses_incomplete() && old.rotation.to_bits() != offset.rotation.to_bits() {
             // A mistake of the interpreter, but what the machine then does: it turns its position without the shift.
-            let turned = rotate(rotate(here, old.rotation) + old.origin - offset.origin, -offset.rotation);
+            let turned = (here.turned(old.rotation) + old.origin - offset.origin).turned(-offset.rotation);
             for axis in [Axis::X, Axis::Y] {
-                state.actual.set(axis, turned.raw(axis));
+                state.points.actual.set(axis, turned.raw(axis));
             }
-            state.position = self.programmed_of(&state.actual, state);
+            state.points.position.put(self.programmed_of(state.actual(), state));
         }
         if active {
             for (axis, _) in &named {
                 // One unknown offset took the place of another.
                 if offset.origin.raw(*axis).is_nan() {
-                    state.actual.set(*axis, f64::NAN);
-                    state.position.set(*axis, f64::NAN);
+                    state.points.actual.set(*axis, f64::NAN);
+                    state.points.position.set(*axis, f64::NAN);
                 }
             }
             self.announce_offset(state);
@@ -523,18 +544,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn write_tool(&mut self, kind: u32, number: Option<Count>, state: &mut State<D>) -> Step {
         let Some(number) = number else { return Err(Fault::MissingWord(Letter::of('P'))) };
         let Count::Known(number) = number else {
-            let tables = Rc::make_mut(&mut state.tables);
-            for (_, tool) in &mut tables.tools {
-                tool.offset = Position::UNKNOWN;
-                tool.diameter = Mm::UNKNOWN;
-            }
-            tables.complete = false;
+            state.offsets.tables_mut().forget_tools();
             return Ok(());
         };
         if !self.refuses_incomplete() {
             return self.write_register(kind, number, state);
         }
-        if number == 0 || state.tables.complete && state.tables.tool(number).is_none() {
+        if number == 0 || state.tables().lacks_tool(number) {
             return Err(Fault::NoSuchTool(number));
         }
         let named = self.named(state);
@@ -544,8 +560,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let machine = state.machine(self.model);
         let work = state.work_offset();
         let shift = state.shift();
-        let fixture = state.tables.offset(9);
-        let tool = Rc::make_mut(&mut state.tables).tool_mut(number);
+        let fixture = state.tables().offset(9);
+        let tool = state.offsets.tables_mut().tool_mut(number);
         if kind == 1 {
             for (axis, value) in &named {
                 tool.offset.set(*axis, *value);
@@ -554,12 +570,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // So that the present position reads as programmed, with the offsets in effect or with the last system's. In
             // a turned system that is worked out in its own directions.
             let (frame, shift) = if kind == 10 { (work, shift) } else { (fixture, Position::ZERO) };
-            let here = rotate(machine - frame.origin, -frame.rotation) - shift;
-            let mut turned = rotate(tool.offset, -frame.rotation);
+            let here = (machine - frame.origin).turned(-frame.rotation) - shift;
+            let mut turned = tool.offset.turned(-frame.rotation);
             for (axis, value) in &named {
                 turned.set(*axis, here.raw(*axis) - value);
             }
-            tool.offset = rotate(turned, frame.rotation);
+            tool.offset = turned.turned(frame.rotation);
         }
         if let Some(radius) = radius {
             tool.diameter = Mm(2.0 * radius);
@@ -570,28 +586,42 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         match orientation {
-            Some(Count::Known(q @ 0..=9)) => tool.orientation = q as u8,
+            Some(Count::Known(q @ 0..=9)) => tool.orientation = Flat::Known(q as u8),
             Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('Q'))),
-            _ => {}
+            Some(Count::Unknown) => tool.orientation = Flat::Unknown,
+            None => {}
         }
         let written = *tool;
-        let row = state.tables.tools.iter().position(|(n, _)| *n == number).map_or(0, |row| row as u32 + 1);
-        let tool = &written;
+        self.announce_tool(number, &written, state);
+        Ok(())
+    }
+
+    /// A tool's entry was written: it is that of the tool in the spindle, too, where that was loaded from it.
+    fn announce_tool(&mut self, number: u32, written: &ToolData, state: &mut State<D>) {
+        let ToolData { offset, diameter, corner_radius: _, angles, orientation } = *written;
         let entry = ToolEntry {
-            pocket: row,
+            pocket: state.tables().row_of(number),
             tool: number,
-            offset: tool.offset,
-            diameter: tool.diameter,
-            angles: tool.angles,
-            orientation: tool.orientation,
+            offset,
+            diameter,
+            angles,
+            orientation: orientation.known().unwrap_or(0),
         };
         self.emit(state, Event::ToolTableEntry(entry));
-        if state.loaded_row == row {
-            state.loaded = written;
-            state.tool = D::number(f64::from(number));
-            self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
+        match state.tool.loaded.entry {
+            Perhaps::Yes(loaded) if loaded == number => {
+                state.tool.loaded.data = *written;
+                state.tool.number.put(D::number(f64::from(number)));
+                self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
+            }
+            Perhaps::Unknown => {
+                let either = state.tool.loaded.data.join(written);
+                state.tool.loaded.data = either;
+                let either = state.tool().join(&D::number(f64::from(number)));
+                state.tool.number.put(either);
+            }
+            Perhaps::Yes(_) | Perhaps::No => {}
         }
-        Ok(())
     }
 
     /// Registers of other controls: length (L10), its wear (L11, L1), size (L12) and its wear (L13), by `R`.
@@ -599,7 +629,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(value) = self.length(Letter::of('R'), state) else { return Ok(()) };
         let incremental = state.is_incremental(self.model) == Some(true);
         let is_diameter = self.offsets_are_diameters();
-        let tool = Rc::make_mut(&mut state.tables).tool_mut(number);
+        let tool = state.offsets.tables_mut().tool_mut(number);
         match kind {
             10 => {
                 let base = if incremental { tool.offset.raw(Axis::Z) } else { 0.0 };
@@ -633,49 +663,72 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
 /// Everything between work and machine coordinates.
 #[derive(Debug, Clone, Copy)]
-struct Frame {
+struct Placement {
     work: Option<u16>,
-    origin: Position,
-    rotation: f64,
+    offset: WorkOffset,
     shift: Position,
     local: Position,
     length: Position,
 }
 
-impl Frame {
+impl Placement {
     fn of<D: Domain>(state: &State<D>) -> Self {
-        let WorkOffset { origin, rotation } = state.work_offset();
-        let shift = if state.shift_on { state.shift } else { Position::ZERO };
-        Self { work: state.work, origin, rotation, shift, local: state.local, length: state.length }
+        Self {
+            work: state.work(),
+            offset: state.work_offset(),
+            shift: state.offsets.shift_in_effect(),
+            local: *state.offsets.local,
+            length: *state.length(),
+        }
     }
 
     fn same(&self, other: &Self) -> bool {
-        self.work == other.work
-            && self.origin == other.origin
-            && self.rotation.to_bits() == other.rotation.to_bits()
-            && self.shift == other.shift
-            && self.local == other.local
-            && self.length == other.length
+        let Self { work, offset, shift, local, length } = self;
+        *work == other.work
+            && offset.same(&other.offset)
+            && shift.same(&other.shift)
+            && local.same(&other.local)
+            && length.same(&other.length)
+    }
+
+    /// Where a point in work coordinates is after this placement has become another, the axes standing still.
+    fn moved(&self, point: &Position, after: &Self) -> Position {
+        let (before, turned) = (self.offset.rotation, after.offset.rotation);
+        let still_turned = before.same(&turned) && before.is_nan() && self.is_level_with(after);
+        if before == 0.0 && turned == 0.0 || still_turned {
+            *point + self.less(after)
+        } else {
+            after.work_of_machine(&self.to_machine(point))
+        }
+    }
+
+    /// Is the same all that a rotation turns: what is between it and the machine, in X and Y?
+    fn is_level_with(&self, after: &Self) -> bool {
+        let known = self.work.is_some() && self.work == after.work;
+        let same = |a: &Position, b: &Position| {
+            [Axis::X, Axis::Y].into_iter().all(|axis| a.raw(axis).same(&b.raw(axis)))
+        };
+        known && same(&self.offset.origin, &after.offset.origin) && same(&self.length, &after.length)
     }
 
     fn to_machine(self, work: &Position) -> Position {
-        rotate(*work + self.shift + self.local, self.rotation) + self.origin + self.length
+        let WorkOffset { origin, rotation } = self.offset;
+        (*work + self.shift + self.local).turned(rotation) + origin + self.length
     }
 
     fn work_of_machine(self, machine: &Position) -> Position {
-        rotate(*machine - self.length - self.origin, -self.rotation) - self.shift - self.local
+        let WorkOffset { origin, rotation } = self.offset;
+        (*machine - self.length - origin).turned(-rotation) - self.shift - self.local
     }
 
-    /// What a position in work coordinates gains when this frame becomes another. Parts that did not change cancel out, known
-    /// or not; an unknown part that was replaced leaves its axes unknown.
+    /// What a position in work coordinates gains when this placement becomes another. Parts that did not change cancel out,
+    /// known or not; an unknown part that was replaced leaves its axes unknown.
     fn less(&self, after: &Self) -> Position {
-        let part = |old: &Position, new: &Position, same: bool| {
-            if same && old == new { Position::ZERO } else { per_axis(old, new, same) }
-        };
-        part(&self.origin, &after.origin, self.work.is_some() && self.work == after.work)
-            + part(&self.shift, &after.shift, true)
-            + part(&self.local, &after.local, true)
-            + part(&self.length, &after.length, true)
+        let same_system = self.work.is_some() && self.work == after.work;
+        per_axis(&self.offset.origin, &after.offset.origin, same_system)
+            + per_axis(&self.shift, &after.shift, true)
+            + per_axis(&self.local, &after.local, true)
+            + per_axis(&self.length, &after.length, true)
     }
 }
 
@@ -683,7 +736,7 @@ impl Frame {
 fn per_axis(old: &Position, new: &Position, same: bool) -> Position {
     let mut difference = *old - *new;
     for axis in Axis::ALL {
-        if same && old.raw(axis).to_bits() == new.raw(axis).to_bits() {
+        if same && old.raw(axis).same(&new.raw(axis)) {
             difference.set(axis, 0.0);
         }
     }

@@ -18,8 +18,9 @@ use crate::event::{Clearing, Event, TravelKind};
 use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
+use crate::origin::At;
 use crate::position::{Axis, Position};
-use crate::state::{At, Frame, FrameKind, State};
+use crate::state::{Frame, FrameKind, State};
 use crate::value::Domain;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -40,7 +41,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         };
         let deeper = match incremental {
-            Some(true) => target.raw(Axis::Z) - state.position.raw(Axis::Z),
+            Some(true) => target.raw(Axis::Z) - state.position().raw(Axis::Z),
             Some(false) => 0.0,
             None => f64::NAN,
         };
@@ -58,7 +59,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let checked = self.check_feed(state);
         let held = self.hold_compensation(state)?;
         let mut strokes = Vec::new();
-        let result = circular_pocket(state.position.xyz(), &words, &mut |stroke| strokes.push(stroke));
+        let result = circular_pocket(state.position().xyz(), &words, &mut |stroke| strokes.push(stroke));
         // The tool is left in the centre of the floor, whatever the way there was.
         let mut end = target;
         end.set(Axis::Z, target.raw(Axis::Z) + deeper * f64::from(rounds.saturating_sub(1)));
@@ -92,7 +93,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             step_y: length('J'),
             finish: length('K').unwrap_or(Mm::ZERO),
             tool_radius: Mm::ZERO,
-            feed: MmPerMin(D::known(&state.feed).unwrap_or(f64::NAN)),
+            feed: MmPerMin(D::known(state.feed()).unwrap_or(f64::NAN)),
         };
         match (words.step_x, words.step_y) {
             (Some(_), Some(_)) => return Err(Fault::Conflict),
@@ -107,7 +108,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return self.pockets_by_increments(&target, state).and(checked);
         }
         let mut start = target;
-        start.set(Axis::Z, state.position.raw(Axis::Z));
+        start.set(Axis::Z, state.position().raw(Axis::Z));
         let outline = self.outline(program, &start, state)?;
         let plan = outline.map_or(Err(CycleError::Unknown), |outline| general_pocket(&outline, &words));
         let mut strokes = Vec::new();
@@ -137,7 +138,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if outcome.is_ok()
             && let Some((cleared, over_hole)) = cleared.zip(over_hole)
         {
-            self.emit(state, Event::Cleared(Clearing { at: state.actual, ..cleared }));
+            self.emit(state, Event::Cleared(Clearing { at: *state.actual(), ..cleared }));
             self.assumptions.insert(Assumption::PocketEnd);
             outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
         }
@@ -153,15 +154,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Known(repeats)) => f64::from(repeats.max(1)),
             Some(Count::Unknown) => f64::NAN,
         };
-        let mut end = state.position;
+        let mut end = *state.position();
         for axis in [Axis::X, Axis::Y] {
-            let step = target.raw(axis) - state.position.raw(axis);
-            end.set(axis, state.position.raw(axis) + step * if step == 0.0 { 1.0 } else { repeats });
+            let step = target.raw(axis) - state.position().raw(axis);
+            end.set(axis, state.position().raw(axis) + step * if step == 0.0 { 1.0 } else { repeats });
         }
         end.set(Axis::Z, f64::NAN);
         let held = self.hold_compensation(state)?;
-        state.position = end;
-        state.actual = self.axes_of(&end, state);
+        state.points.position.put(end);
+        state.points.actual.put(self.axes_of(&end, state));
         Self::release_compensation(held.without_path(), state);
         Ok(())
     }
@@ -185,22 +186,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
         let blocks = ProfileBlocks { file: first.file, first: first.block, last: last.saturating_sub(1) };
         let mut drawn = state.clone();
-        drawn.position = *start;
-        drawn.actual = *start;
+        drawn.points.position.put(*start);
+        drawn.points.actual.put(*start);
         // It is read as a called program is.
-        drawn.frames.push(Frame {
-            kind: if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram },
-            entry: first,
-            caller: at,
-            repeats: Some(0),
-            locals: None,
-            counters: Vec::new(),
-            saved: None,
-            restore_on_return: false,
-            wanted_branch: None,
-            bar_feed: None,
-        });
-        let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
+        let kind = if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram };
+        drawn.calls.push(Frame::new(kind, first, at, Some(0)));
+        let read = self.read_profile(blocks, Plane::Xy, &mut drawn);
+        state.note_reads_of(&drawn);
+        let profile = read?;
         Ok(Some(profile.segments).filter(|_| profile.complete))
     }
 
@@ -208,15 +201,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn pocket_tool_radius(&mut self, state: &mut State<D>) -> Step<f64> {
         if let Some(d) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
-            state.d = d;
+            state.tool.d.put(d);
         }
-        let Some(number) = D::known(&state.d) else { return Ok(f64::NAN) };
+        let Some(number) = D::known(state.d()) else { return Ok(f64::NAN) };
         if number == 0.0 {
             return Ok(0.0);
         }
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
-        let radius = state.tables.tool(number).map_or(f64::NAN, |tool| tool.diameter.0 / 2.0);
+        let radius = state.tables().tool(number).map_or(f64::NAN, |tool| tool.diameter.0 / 2.0);
         if radius.is_nan() {
             self.assumptions.insert(Assumption::ToolRadius(number));
         }
@@ -225,9 +218,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Repeats that nobody knows: the tool ends over the point, at a depth nobody knows.
     fn lose_operation(&mut self, target: &Position, state: &mut State<D>) {
-        state.position = *target;
-        state.position.set(Axis::Z, f64::NAN);
-        state.actual = self.axes_of(&state.position, state);
+        state.points.position.put(*target);
+        state.points.position.set(Axis::Z, f64::NAN);
+        state.points.actual.put(self.axes_of(state.position(), state));
     }
 
     // ---- patterns ----
@@ -261,16 +254,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Fault(fault)) => return Err(Fault::Cycle(fault)),
             Err(CycleError::TooManyStrokes) => return Err(Fault::Cycle(CycleFault::Geometry)),
             Err(_) => {
-                state.position.set(first, f64::NAN);
-                state.position.set(second, f64::NAN);
-                state.actual = self.axes_of(&state.position, state);
+                state.points.position.set(first, f64::NAN);
+                state.points.position.set(second, f64::NAN);
+                state.points.actual.put(self.axes_of(state.position(), state));
                 return Ok(());
             }
         };
         let Some(cycle) = self.cycle_of_pattern(depth, state)? else {
             // Without a cycle the tool only goes from point to point.
             for (a, b) in points {
-                let mut to = state.position;
+                let mut to = *state.position();
                 to.set(first, a.0);
                 to.set(second, b.0);
                 self.travel(TravelKind::Rapid, to, true, state)?;
@@ -288,7 +281,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let named = self.words.codes().iter().copied().find(is_cycle);
         if let Some(ix) = named.filter(|ix| self.model.effect(*ix) != Effect::CycleCancel) {
             let effect = self.model.effect(ix);
-            let kept = state.cycle;
+            let kept = *state.cycle();
             self.cycle_words(effect, depth, state)?;
             state.cycle.take_back_ijk(&kept);
             return Ok(Some(effect));

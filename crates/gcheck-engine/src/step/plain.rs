@@ -1,4 +1,4 @@
-//! Blocks that only move, one behind the other: nearly all of a large program.
+//! Blocks that only move, one after the other: nearly all of a large program.
 //!
 //! Knows: when a block of axis words and nothing else is a straight move without any more to it, and makes it. Must not know:
 //! what such a block means when there is more to it; then it does nothing, and the step does. What it does is what the step
@@ -8,12 +8,12 @@ use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_program::{Block, Value, Word};
 
 use super::{Cursor, Executor};
-use crate::cylinder::Wrapped;
 use crate::event::{Event, FeedMode, Travel, TravelKind, Units};
 use crate::model::Role;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::position::Axis;
-use crate::state::{At, State};
+use crate::state::{State, Wrapped};
 use crate::value::Domain;
 
 /// What blocks that only move need of the state, and none of them changes.
@@ -41,9 +41,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => return None,
         };
         let goes_straight = state.active_cycle(self.model) == Some(CodeIx::NONE)
-            && self.goes_direct(state)
-            && state.macro_modal.is_none()
-            && state.wrapped == Wrapped::No
+            && Self::goes_direct(state)
+            && state.calls.modal.is_off()
+            && *state.wrapped() == Wrapped::No
             && !state.tool_shift.is_on()
             && MAPPINGS.iter().all(|role| self.is_unmapped(*role, state));
         let feeds = kind == TravelKind::Rapid
@@ -91,7 +91,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !block.letters.without(moves.letters).is_empty() {
             return false;
         }
-        let mut target = state.position;
+        let mut target = *state.position();
         for word in words {
             let (Some((axis, _)), Value::Number(number)) = (self.model.axis_of(word.letter), word.value)
             else {
@@ -120,11 +120,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             n: None,
         };
         self.observer.before(self.origin, state);
-        let travel =
-            Travel { kind: moves.kind, from: state.actual, programmed: target, to: target, expanded: false };
-        state.actual = target;
-        self.observer.event(self.origin, state, &Event::Travel(travel));
-        state.position = target;
+        let event = Event::Travel(Travel {
+            kind: moves.kind,
+            from: *state.actual(),
+            programmed: target,
+            to: target,
+            expanded: false,
+        });
+        state.points.actual.put(target);
+        self.observer.event(self.origin, state, &event);
+        state.points.position.put(target);
         self.observer.after(self.origin, state);
         true
     }
@@ -140,7 +145,7 @@ const MAPPINGS: [Role; 6] = [
     Role::Length,
 ];
 
-/// The block at `at`, if it stands in the chunk that execution is in and there is nothing about it but words with numbers.
+/// The block at `at`, if it is in the chunk that execution is in and there is nothing about it but words with numbers.
 fn plain_block<'c, 'p>(
     cursor: Option<&'c Cursor<'p>>,
     at: At,

@@ -2,8 +2,6 @@
 //!
 //! Knows: targets, and that where the probe touches is known to nobody beforehand. Must not know: calibration.
 
-use std::rc::Rc;
-
 use gcheck_controls::{Effect, Letter};
 use gcheck_geometry::Mm;
 
@@ -13,8 +11,7 @@ use crate::event::{Event, FeedMode, TravelKind};
 use crate::fault::Fault;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::State;
-use crate::touch::{Touch, Way, Ways};
+use crate::state::{State, Touch, Way, Ways};
 use crate::value::{Domain, Truth};
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -25,7 +22,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Probe);
         }
         let mode = state.feed_mode(self.model);
-        if D::known(&state.feed) == Some(0.0) || mode == Some(FeedMode::InverseTime) {
+        if D::known(state.feed()) == Some(0.0) || mode == Some(FeedMode::InverseTime) {
             return Err(Fault::NoFeed);
         }
         if mode == Some(FeedMode::PerRevolution) && self.refuses_incomplete() {
@@ -33,7 +30,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let distance = [Axis::X, Axis::Y, Axis::Z]
             .into_iter()
-            .map(|axis| target.raw(axis) - state.position.raw(axis))
+            .map(|axis| target.raw(axis) - state.position().raw(axis))
             .fold(0.0_f64, |sum, d| sum + d * d)
             .sqrt();
         if distance < self.least_probe_distance(state) {
@@ -58,19 +55,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The probe moves. With a start that is known throughout, a run goes on as if nothing was touched, which is what a
     /// simulation without a workpiece does; else the axes that moved end nobody knows where.
     fn probing(&mut self, kind: TravelKind, target: Position, state: &mut State<D>) -> Step {
-        state.touched = Touch::Made(self.ways_to(&target, state));
+        state.probe.touched.put(Touch::Made(self.ways_to(&target, state)));
         self.emit(state, Event::Probe(true));
         let mut moved: Vec<Axis> = Axis::ALL
             .into_iter()
-            .filter(|axis| target.raw(*axis).to_bits() != state.position.raw(*axis).to_bits())
+            .filter(|axis| target.raw(*axis).to_bits() != state.position().raw(*axis).to_bits())
             .collect();
-        let (from, stood) = (state.position, state.actual);
+        let (from, stood) = (*state.position(), *state.actual());
         self.travel(kind, target, false, state)?;
         self.emit(state, Event::Probe(false));
-        state.probed = state.actual;
+        state.probe.point.put(*state.actual());
         if self.has_code(Effect::AlarmIfTouched) {
             // Who goes on behind this block has not touched anything: the move came to its end.
-            state.probe_result = Truth::False;
+            state.probe.result.put(Truth::False);
             return Ok(());
         }
         self.assumptions.insert(Assumption::ProbeTouch);
@@ -78,22 +75,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
             // before it: what a simulation of the reference interpreter does.
             self.stop_short(from, 0.254, state);
-            state.probe_result = Truth::False;
+            state.probe.result.put(Truth::False);
             return Ok(());
         }
         // Under a rotation an axis moves that the block does not name.
         moved.extend(
             Axis::ALL
                 .into_iter()
-                .filter(|axis| stood.raw(*axis).to_bits() != state.actual.raw(*axis).to_bits()),
+                .filter(|axis| stood.raw(*axis).to_bits() != state.actual().raw(*axis).to_bits()),
         );
         for axis in moved {
-            state.actual.set(axis, f64::NAN);
-            state.position.set(axis, f64::NAN);
-            state.probed.set(axis, f64::NAN);
+            state.points.actual.set(axis, f64::NAN);
+            state.points.position.set(axis, f64::NAN);
+            state.probe.point.set(axis, f64::NAN);
         }
         let touches = self.has_code(Effect::AlarmIfNotTouched);
-        state.probe_result = if touches { Truth::True } else { Truth::Unknown };
+        state.probe.result.put(if touches { Truth::True } else { Truth::Unknown });
         Ok(())
     }
 
@@ -110,24 +107,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Some(incremental) => incremental || is_increment,
                 None => is_increment,
             });
-            ways.set(axis, Way::of(increment.unwrap_or(target.raw(axis) - state.position.raw(axis))));
+            ways.set(axis, Way::of(increment.unwrap_or(target.raw(axis) - state.position().raw(axis))));
         }
         ways
     }
 
     fn stop_short(&mut self, from: Position, distance: f64, state: &mut State<D>) {
         let length = Axis::ALL
-            .map(|axis| state.position.raw(axis) - from.raw(axis))
+            .map(|axis| state.position().raw(axis) - from.raw(axis))
             .iter()
             .map(|d| d * d)
             .sum::<f64>()
             .sqrt();
         if length > distance {
             for axis in Axis::ALL {
-                let (start, end) = (from.raw(axis), state.position.raw(axis));
-                state.position.set(axis, end - (end - start) * distance / length);
+                let (start, end) = (from.raw(axis), state.position().raw(axis));
+                state.points.position.set(axis, end - (end - start) * distance / length);
             }
-            state.actual = self.axes_of(&state.position, state);
+            state.points.actual.put(self.axes_of(state.position(), state));
         }
     }
 
@@ -161,22 +158,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 axes.push(axis);
             }
         }
-        let Some(number) = state.work else { return self.forget_offsets(state) };
-        let mut offset = state.tables.offset(number);
+        let Some(number) = state.work() else { return self.forget_offsets(state) };
+        let mut offset = state.tables().offset(number);
         for axis in axes {
             offset.origin.set(axis, f64::NAN);
-            state.in_effect.origin.set(axis, f64::NAN);
-            state.actual.set(axis, f64::NAN);
-            state.position.set(axis, f64::NAN);
+            state.offsets.in_effect.origin.set(axis, f64::NAN);
+            state.points.actual.set(axis, f64::NAN);
+            state.points.position.set(axis, f64::NAN);
         }
-        Rc::make_mut(&mut state.tables).set_offset(number, offset);
+        state.offsets.tables_mut().set_offset(number, offset);
         self.announce_offset(state);
     }
 
     /// The length or the size of a tool is set: of the number in H or D, else of the one in effect.
     fn measure_tool(&mut self, effect: Effect, axes: &[Axis], state: &mut State<D>) {
         let is_length = effect == Effect::ProbeLength;
-        let (letter, in_effect) = if is_length { ('H', &state.h) } else { ('D', &state.d) };
+        let (letter, in_effect) = if is_length { ('H', state.h()) } else { ('D', state.d()) };
         let in_effect = D::known(in_effect);
         let written = self.words.number(Letter::of(letter)).or(in_effect).filter(|n| *n >= 1.0);
         let may_be = |number: Option<f64>| match (number, written) {
@@ -187,8 +184,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !self.model.semantics().tools.offset_in_t {
             lengths.push(Axis::Z);
         }
-        for (number, tool) in &mut Rc::make_mut(&mut state.tables).tools {
-            if !may_be(Some(f64::from(*number))) {
+        for (number, tool) in state.offsets.tables_mut().tools_mut() {
+            if !may_be(Some(f64::from(number))) {
                 continue;
             }
             if is_length {
@@ -201,11 +198,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if is_length && may_be(in_effect) {
             for axis in lengths {
-                state.length.set(axis, f64::NAN);
-                state.actual.set(axis, f64::NAN);
-                state.position.set(axis, f64::NAN);
+                state.tool.length.set(axis, f64::NAN);
+                state.points.actual.set(axis, f64::NAN);
+                state.points.position.set(axis, f64::NAN);
             }
-            let length = state.length;
+            let length = *state.length();
             self.emit(state, Event::LengthOffset(length));
         }
     }

@@ -8,12 +8,15 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_geometry::Plane;
 
 use super::{Executor, Outcome, Step};
-use crate::event::{Coolant, Event, FeedMode, Override, Spindle, Units};
+use crate::assumption::{Assumption, Unsettled};
+use crate::event::{Coolant, Event, FeedMode, Override, Spindle};
 use crate::fault::Fault;
+use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
+use crate::origin::At;
 use crate::position::Position;
-use crate::state::{At, SavedModes, State};
+use crate::state::{Blending, Course, ModeSet, SavedModes, State};
 use crate::step::Ending;
 use crate::value::{Domain, Truth};
 
@@ -28,7 +31,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.reset_to(ix, state);
         }
         if self.model.semantics().end_clears_feed {
-            state.feed = D::number(0.0);
+            state.feed.rate.put(D::number(0.0));
         }
         if pallet {
             self.emit(state, Event::PalletChange);
@@ -48,10 +51,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match effect {
             Effect::WorkOffset(number) => {
                 let machine = state.machine(self.model);
-                state.work = Some(number);
-                state.in_effect = state.tables.offset(number);
-                state.actual = state.from_machine(&machine, self.model);
-                state.position = self.programmed_of(&state.actual, state);
+                state.offsets.work.put(Flat::Known(number));
+                let offset = state.tables().offset(number);
+                state.offsets.in_effect.put(offset);
+                state.points.actual.put(state.from_machine(&machine, self.model));
+                state.points.position.put(self.programmed_of(state.actual(), state));
                 self.announce_offset(state);
                 self.announce_rotation(state);
             }
@@ -62,22 +66,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::FeedRate(0.0));
             }
             Effect::OverridesOn => {
-                if state.feed_override != Truth::True {
-                    state.feed_override = Truth::True;
+                if *state.feed.overridable != Truth::True {
+                    state.feed.overridable.put(Truth::True);
                     self.emit(state, Event::Override { kind: Override::Feed, on: true });
                 }
-                state.speed_override = Truth::True;
+                state.spindle.overridable.put(Truth::True);
             }
             Effect::SpindleStop => {
-                state.spindle = Some(Spindle::Stopped);
+                state.spindle.way.put(Flat::Known(Spindle::Stopped));
                 self.emit(state, Event::Spindle(Spindle::Stopped));
             }
             Effect::ConstantSpeed => self.emit(state, Event::SpindleMode(None)),
             Effect::CoolantOff => {
-                if state.mist != Truth::False {
+                if *state.coolant.mist != Truth::False {
                     self.coolant(Coolant::Mist, false, state);
                 }
-                if state.flood != Truth::False {
+                if *state.coolant.flood != Truth::False {
                     self.coolant(Coolant::Flood, false, state);
                 }
             }
@@ -87,9 +91,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Execution ran past the last block of a text.
     pub(super) fn end_of_text(&mut self, at: At, state: &mut State<D>) -> Outcome<D> {
-        let depth = state.frames.len();
         self.origin = super::Origin { at, ..self.origin };
-        if depth > 1 {
+        if !state.calls.is_main() {
             return Outcome::Fault(Fault::NoProgramEnd);
         }
         if let Err(fault) = self.flush_compensation(state) {
@@ -100,35 +103,43 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(super) fn saved_modes(&self, state: &State<D>) -> SavedModes {
         SavedModes {
-            modes: state.modes,
-            feed: D::known(&state.feed).unwrap_or(f64::NAN),
-            speed: D::known(&state.speed).unwrap_or(f64::NAN),
-            spindle: state.spindle,
-            mist: state.mist,
-            flood: state.flood,
-            length: state.length,
-            feed_override: state.feed_override,
-            speed_override: state.speed_override,
-            blending: state.blending,
-            speed_limit: state.speed_limit,
-            adaptive: state.adaptive,
-            feed_hold: state.feed_hold,
+            modes: state.modes.all(),
+            feed: D::known(state.feed()).unwrap_or(f64::NAN),
+            speed: D::known(state.speed()).unwrap_or(f64::NAN),
+            spindle: *state.spindle.way,
+            mist: *state.coolant.mist,
+            flood: *state.coolant.flood,
+            length: *state.length(),
+            feed_override: *state.feed.overridable,
+            speed_override: *state.spindle.overridable,
+            blending: *state.blending,
+            speed_limit: state.speed_limit(),
+            adaptive: *state.feed.adaptive,
+            feed_hold: *state.feed.hold,
         }
     }
 
     /// `M70`, `M73`.
     pub(super) fn save_modes(&mut self, until_return: bool, state: &mut State<D>) {
         let saved = Rc::new(self.saved_modes(state));
-        if let Some(frame) = state.frames.last_mut() {
-            frame.saved = Some(saved);
-            frame.restore_on_return = until_return;
+        if let Some(kept) = state.calls.kept_mut() {
+            kept.saved = Perhaps::Yes(saved);
+            kept.restore_on_return = until_return.into();
         }
     }
 
     /// `M72`.
     pub(super) fn restore_modes(&mut self, state: &mut State<D>) -> Step {
-        let saved = state.frames.last().and_then(|frame| frame.saved.clone());
-        let Some(saved) = saved else { return Err(Fault::NoSavedModes) };
+        let saved = match state.calls.kept().map(|kept| kept.saved.clone()) {
+            None | Some(Perhaps::No) => return Err(Fault::NoSavedModes),
+            Some(Perhaps::Yes(saved)) => saved,
+            Some(Perhaps::Unknown) => {
+                self.forget_modes(None, state);
+                self.lose_position(state)?;
+                self.rest_is_lost = true;
+                return Ok(());
+            }
+        };
         let before = self.saved_modes(state);
         self.restore(&saved, state);
         // The interpreter restores by blocks of its own, which take the place of the one under way.
@@ -146,68 +157,24 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Brings saved modes back into effect, telling each that changes, in the interpreter's order.
     pub(super) fn restore(&mut self, saved: &SavedModes, state: &mut State<D>) {
+        let was = self.saved_modes(state);
+        if !is_settled(&was) || !is_settled(saved) {
+            self.forget_modes(Some(saved), state);
+            return;
+        }
         // The control writes itself a block, which has no number of its own.
         let number = self.origin.n.take();
-        let was = self.saved_modes(state);
-        let differs = |role: Role| was.modes.get(role.index()) != saved.modes.get(role.index());
-        let set = |state: &mut State<D>, role: Role| {
-            if let (Some(slot), Some(mode)) =
-                (state.modes.get_mut(role.index()), saved.modes.get(role.index()))
-            {
-                *slot = *mode;
-            }
-        };
-        let (units, feed_mode, spindle_mode) =
-            (differs(Role::Units), differs(Role::FeedMode), differs(Role::SpindleMode));
-        for role in Role::ALL {
-            if !matches!(role, Role::WorkOffset | Role::Motion | Role::Cycle | Role::Length) {
-                set(state, role);
-            }
-        }
-        if units && let Some(units) = state.units(self.model) {
-            self.emit(
-                state,
-                Event::Units(match units {
-                    Units::Inch => Units::Inch,
-                    Units::Mm => Units::Mm,
-                }),
-            );
-        }
-        if feed_mode && let Some(mode) = state.feed_mode(self.model) {
-            self.emit(state, Event::FeedMode(mode));
-        }
-        // A change of the feed mode leaves no feed; else the saved one is in effect again.
-        let feed = if feed_mode { 0.0 } else { saved.feed };
-        state.feed = known::<D>(feed);
-        state.feed_given_under = *state.mode(Role::FeedMode);
-        state.speed = known::<D>(saved.speed);
-        if (feed_mode || was.feed.to_bits() != saved.feed.to_bits())
-            && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
-        {
-            self.emit(state, Event::FeedRate(feed));
-        }
-        if spindle_mode {
-            let surface = state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed);
-            self.emit(state, Event::SpindleMode(surface.then_some(saved.speed_limit)));
-        }
-        if was.speed.to_bits() != saved.speed.to_bits() {
-            self.emit(state, Event::SpindleSpeed(saved.speed));
-        }
-        if was.spindle != saved.spindle {
-            state.spindle = saved.spindle;
-            if let Some(spindle) = saved.spindle {
-                self.emit(state, Event::Spindle(spindle));
-            }
-        }
+        self.restore_modal_codes(&was, saved, state);
         // The first M code stands in one block with the G codes and acts before them; the others follow in blocks of their
         // own.
+        let differs = |role: Role| was.modes.get(role.index()) != saved.modes.get(role.index());
         let restores_path = differs(Role::PathControl) || was.blending != saved.blending;
         let mut switches = changed_switches(&was, saved).into_iter();
         if was.spindle == saved.spindle
             && let Some(first) = switches.next()
         {
             let blends = state.effect(Role::PathControl, self.model) == Some(Effect::PathBlending);
-            let p = (restores_path && blends).then_some(saved.blending.0);
+            let p = (restores_path && blends).then_some(saved.blending.tolerance);
             self.restore_switch(first, p, state);
         }
         if differs(Role::Plane)
@@ -215,31 +182,113 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         {
             self.emit(state, Event::Plane(plane));
         }
-        if was.length != saved.length {
-            set(state, Role::Length);
-            // What it saves is whether there is a length, not which: `G43` brings that of the tool in the spindle.
-            if saved.length == Position::ZERO {
-                self.cancel_length(state);
-            } else {
-                // It cannot fail: nothing is looked up.
-                let _ = self.loaded_length(1.0, state);
-            }
-        }
-        if differs(Role::WorkOffset) {
-            set(state, Role::WorkOffset);
-            if let Some(Effect::WorkOffset(n)) = state.effect(Role::WorkOffset, self.model) {
-                self.select_work_offset(Some(n), state);
-            }
-        }
+        self.restore_offsets(&was, saved, state);
         if restores_path {
-            state.blending = saved.blending;
-            let mode = self.current_path_mode(state);
-            self.path_mode(mode, state);
+            state.blending.put(saved.blending);
+            if let Some(mode) = self.current_path_mode(state) {
+                self.path_mode(mode, state);
+            }
         }
         for switch in switches {
             self.restore_switch(switch, None, state);
         }
         self.origin.n = number;
+    }
+
+    /// Modes, feed, speed and spindle of a saved state.
+    fn restore_modal_codes(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
+        let differs = |role: Role| was.modes.get(role.index()) != saved.modes.get(role.index());
+        let (units, feed_mode) = (differs(Role::Units), differs(Role::FeedMode));
+        for (role, mode) in Role::ALL.into_iter().zip(saved.modes) {
+            if !matches!(role, Role::WorkOffset | Role::Motion | Role::Cycle | Role::Length) {
+                state.modes.put(role, mode);
+            }
+        }
+        if state.compensation.on.is_no() && self.compensates(state) {
+            // The mode is back, the path beside the programmed one is not.
+            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+        }
+        if units && let Some(units) = state.units(self.model) {
+            self.emit(state, Event::Units(units));
+        }
+        if feed_mode && let Some(mode) = state.feed_mode(self.model) {
+            self.emit(state, Event::FeedMode(mode));
+        }
+        // A change of the feed mode leaves no feed; else the saved one is in effect again.
+        let feed = if feed_mode { 0.0 } else { saved.feed };
+        state.feed.rate.put(known::<D>(feed));
+        let mode = *state.mode(Role::FeedMode);
+        state.feed.given_under.put(mode);
+        state.spindle.speed.put(known::<D>(saved.speed));
+        if (feed_mode || was.feed.to_bits() != saved.feed.to_bits())
+            && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
+        {
+            self.emit(state, Event::FeedRate(feed));
+        }
+        if differs(Role::SpindleMode) {
+            let surface = state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed);
+            self.emit(state, Event::SpindleMode(surface.then_some(saved.speed_limit)));
+        }
+        if was.speed.to_bits() != saved.speed.to_bits() {
+            self.emit(state, Event::SpindleSpeed(saved.speed));
+        }
+        if was.spindle != saved.spindle {
+            state.spindle.way.put(saved.spindle);
+            if let Flat::Known(spindle) = saved.spindle {
+                self.emit(state, Event::Spindle(spindle));
+            }
+        }
+    }
+
+    /// Tool length and work offset of a saved state.
+    fn restore_offsets(&mut self, was: &SavedModes, saved: &SavedModes, state: &mut State<D>) {
+        let mode = |role: Role| saved.modes.get(role.index()).copied().unwrap_or(ModeSet::ANY);
+        if was.length != saved.length {
+            state.modes.put(Role::Length, mode(Role::Length));
+            // What it saves is whether there is a length, not which: `G43` brings that of the tool in the spindle.
+            if saved.length == Position::ZERO {
+                self.cancel_length(state);
+            } else if saved.length.values().iter().any(|length| !length.is_nan() && *length != 0.0) {
+                self.loaded_length(1.0, state);
+            } else {
+                self.lose_length(state);
+            }
+        }
+        if was.modes.get(Role::WorkOffset.index()) != saved.modes.get(Role::WorkOffset.index()) {
+            state.modes.put(Role::WorkOffset, mode(Role::WorkOffset));
+            if let Some(Effect::WorkOffset(n)) = state.effect(Role::WorkOffset, self.model) {
+                self.select_work_offset(Some(n), state);
+            }
+        }
+    }
+
+    /// Which modes come back nobody knows: everything that they may change is unknown, or one of what it is and what was saved.
+    pub(super) fn forget_modes(&mut self, saved: Option<&SavedModes>, state: &mut State<D>) {
+        self.assumptions.insert(Assumption::Unsettled(Unsettled::SavedModes));
+        for role in Role::ALL {
+            match saved.and_then(|saved| saved.modes.get(role.index())) {
+                _ if matches!(role, Role::Motion | Role::Cycle) => {}
+                Some(mode) => state.modes.add(role, mode),
+                None => state.modes.put(role, ModeSet::UNKNOWN),
+            }
+        }
+        if state.mode(Role::Compensation).only().is_none() {
+            state.compensation.on.put(Perhaps::Unknown);
+        }
+        state.feed.forget();
+        let mode = *state.mode(Role::FeedMode);
+        state.feed.given_under.put(mode);
+        let limit = state.speed_limit();
+        let live_tool = state.live_tool();
+        state.spindle.forget();
+        state.spindle.limit.put(limit);
+        state.spindle.live_tool.put(live_tool);
+        state.coolant.forget();
+        state.blending.put(Blending::UNKNOWN);
+        self.lose_length(state);
+        if state.mode(Role::WorkOffset).only().is_none() {
+            self.select_work_offset(None, state);
+        }
     }
 
     /// One M code of a restored state. `p` is what a `G64` of its block gives it by accident.
@@ -257,27 +306,56 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return;
             }
             Switch::Overrides => {
-                state.feed_override = Truth::True;
-                state.speed_override = Truth::True;
+                state.feed.overridable.put(Truth::True);
+                state.spindle.overridable.put(Truth::True);
                 self.emit(state, Event::Override { kind: Override::Feed, on: true });
                 self.emit(state, Event::Override { kind: Override::Speed, on: true });
                 return;
             }
             Switch::Speed => {
-                state.speed_override = truth;
+                state.spindle.overridable.put(truth);
                 Override::Speed
             }
             Switch::Adaptive => {
-                state.adaptive = truth;
+                state.feed.adaptive.put(truth);
                 Override::Adaptive
             }
             Switch::FeedStop => {
-                state.feed_hold = truth;
+                state.feed.hold.put(truth);
                 Override::FeedStop
             }
         };
         self.emit(state, Event::Override { kind, on });
     }
+}
+
+/// Is everything known that decides what is brought back, and in which order? Speed and feed may be unknown numbers.
+fn is_settled(modes: &SavedModes) -> bool {
+    let SavedModes {
+        modes,
+        feed: _,
+        speed: _,
+        spindle,
+        mist,
+        flood,
+        length: _,
+        feed_override,
+        speed_override: _,
+        blending,
+        speed_limit: _,
+        adaptive,
+        feed_hold,
+    } = modes;
+    let restored = Role::ALL
+        .into_iter()
+        .zip(modes)
+        .filter(|(role, _)| !matches!(role, Role::Motion | Role::Cycle | Role::Length));
+    restored.into_iter().all(|(_, mode)| mode.only().is_some())
+        && *spindle != Flat::Unknown
+        && [mist, flood, feed_override, adaptive, feed_hold]
+            .into_iter()
+            .all(|switch| *switch != Truth::Unknown)
+        && !blending.tolerance.is_nan()
 }
 
 /// An M code by which the interpreter restores a switch.

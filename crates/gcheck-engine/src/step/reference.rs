@@ -35,11 +35,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let through = self.target(state)?;
         self.travel(TravelKind::Rapid, through, true, state)?;
         for axis in &axes {
-            state.passed.set(*axis, through.raw(*axis));
+            state.points.passed.set(*axis, through.raw(*axis));
         }
         // The axes that return are given in machine coordinates; the others stay where they are.
         let target = state.from_machine(&reference, self.model);
-        let mut to = state.actual;
+        let mut to = *state.actual();
         for axis in &axes {
             to.set(*axis, target.raw(*axis));
         }
@@ -48,7 +48,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let programmed = self.programmed_of(&to, state);
         self.travel(TravelKind::Rapid, programmed, true, state)?;
         // Beyond the turning of unknown coordinates, this is where the axes stand.
-        state.actual = to;
+        state.points.actual.put(to);
         if self.model.semantics().reference_cancels_length {
             self.cancel_length(state);
         }
@@ -66,7 +66,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Unknown) if number == 2 => return Ok(Position::UNKNOWN),
             _ => number,
         };
-        let known = state.tables.references.get(usize::from(number.saturating_sub(1)));
+        let known = state.offsets.tables.references.get(usize::from(number.saturating_sub(1)));
         let reference = known.copied().unwrap_or(Position::UNKNOWN);
         if !reference.is_known() {
             self.assumptions.insert(Assumption::ReferencePosition(number));
@@ -77,9 +77,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G29`: to the block's point, by the point that the last `G28` passed on the axes that the block names.
     pub(super) fn return_from_reference(&mut self, state: &mut State<D>) -> Step {
         let named = self.words.present().and(self.model.axis_letters);
-        let mut through = state.position;
+        let mut through = *state.position();
         for (axis, _) in named.iter().filter_map(|letter| self.model.axis_of(letter)) {
-            through.set(axis, state.passed.raw(axis));
+            through.set(axis, state.points.passed.raw(axis));
         }
         self.travel(TravelKind::Rapid, through, true, state)?;
         // Increments count from the point passed.
@@ -90,7 +90,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G28.1`, `G30.1`.
     pub(super) fn store_reference(&mut self, number: u8, state: &mut State<D>) {
         let machine = state.machine(self.model);
-        let tables = std::rc::Rc::make_mut(&mut state.tables);
+        let tables = state.offsets.tables_mut();
         if let Some(slot) = tables.references.get_mut(usize::from(number.saturating_sub(1)).min(1)) {
             *slot = machine;
         }

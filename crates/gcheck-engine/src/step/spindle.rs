@@ -8,10 +8,11 @@ use gcheck_geometry::Seconds;
 use super::{Count, Executor, Step};
 use crate::event::{Event, FeedMode, Spindle};
 use crate::fault::Fault;
+use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Position;
-use crate::state::State;
+use crate::state::{Loaded, State, ToolData};
 use crate::value::Domain;
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -22,19 +23,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if D::known(&value).is_some_and(|f| f < 0.0) {
             return Err(Fault::WordRange(Letter::of('F')));
         }
-        state.feed_word = value.clone();
-        state.feed_given_under = *state.mode(Role::FeedMode);
+        state.feed.word.put(value.clone());
+        state.feed.given_under.put(*state.mode(Role::FeedMode));
         let mode = state.feed_mode(self.model);
-        state.feed = match (mode, D::known(&value)) {
+        state.feed.rate.put(match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
             (_, Some(0.0)) => D::number(0.0),
             // Moves a minute have no unit, and it may be those.
             (None, Some(_)) if state.mode(Role::FeedMode).only().is_none() => D::unknown(),
             (_, Some(number)) => D::number(number * self.unit(state)),
             (_, None) => D::unknown(),
-        };
+        });
         if mode != Some(FeedMode::InverseTime) {
-            let rate = D::known(&state.feed).unwrap_or(f64::NAN);
+            let rate = D::known(state.feed()).unwrap_or(f64::NAN);
             self.emit(state, Event::FeedRate(rate));
         }
         Ok(())
@@ -53,7 +54,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         let rate = D::known(&value).unwrap_or(f64::NAN);
-        state.speed = value;
+        state.spindle.speed.put(value);
         self.emit(state, Event::SpindleSpeed(rate));
         Ok(())
     }
@@ -65,27 +66,40 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         if let Some(limit) = self.words.number(Letter::of('D')) {
-            state.speed_limit = limit.abs();
+            state.spindle.limit.put(limit.abs());
         } else if self.model.semantics().feed_mode_clears_feed {
-            state.speed_limit = f64::INFINITY;
+            state.spindle.limit.put(f64::INFINITY);
         }
-        self.emit(state, Event::SpindleMode(Some(state.speed_limit)));
+        let limit = state.speed_limit();
+        self.emit(state, Event::SpindleMode(Some(limit)));
         Ok(())
     }
 
     /// `G50 S` of lathes: the limit holds at once where constant surface speed is on.
     pub(super) fn limit_speed(&mut self, state: &mut State<D>) {
-        state.speed_limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
+        state.spindle.limit.put(self.words.number(Letter::of('S')).unwrap_or(f64::NAN));
         if state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed) {
-            self.emit(state, Event::SpindleMode(Some(state.speed_limit)));
+            let limit = state.speed_limit();
+            self.emit(state, Event::SpindleMode(Some(limit)));
         }
     }
 
     /// `M3`, `M4`, `M5`.
     pub(super) fn spindle(&mut self, spindle: Spindle, state: &mut State<D>) -> Step {
-        state.spindle = Some(spindle);
+        state.spindle.way.put(Flat::Known(spindle));
         self.emit(state, Event::Spindle(spindle));
         Ok(())
+    }
+
+    /// The spindle turns as it did at another time, where that is known.
+    pub(super) fn turn_spindle(&mut self, spindle: Option<Spindle>, state: &mut State<D>) -> Step {
+        match spindle {
+            Some(spindle) => self.spindle(spindle, state),
+            None => {
+                state.spindle.way.put(Flat::Unknown);
+                Ok(())
+            }
+        }
     }
 
     /// `M19`.
@@ -105,7 +119,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if timeout.is_some_and(|timeout| timeout <= 0.0) {
             return Err(Fault::WordRange(Letter::of('Q')));
         }
-        state.spindle = Some(Spindle::Stopped);
+        state.spindle.way.put(Flat::Known(Spindle::Stopped));
         self.emit(state, Event::OrientSpindle { angle, way });
         if let Some(timeout) = timeout {
             self.emit(state, Event::WaitOrient(Seconds(timeout)));
@@ -146,12 +160,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = self.model.semantics().tools;
         let Some(word) = self.count(Letter::of('T'))? else { return Ok(()) };
         let Count::Known(mut number) = word else {
-            state.selected = self.words.get(Letter::of('T')).unwrap_or_else(D::unknown);
+            state.tool.selected.put(self.words.get(Letter::of('T')).unwrap_or_else(D::unknown));
             self.emit(state, Event::SelectTool(None));
             if rules.change_by_t {
-                state.tool = D::unknown();
-                state.length = Position::UNKNOWN;
-                state.h = D::unknown();
+                state.tool.number.put(D::unknown());
+                state.tool.length.put(Position::UNKNOWN);
+                state.tool.h.put(D::unknown());
                 self.emit(state, Event::ToolChange(None));
             }
             return Ok(());
@@ -164,17 +178,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // `T1` is tool 0, offset 1 on some controls, tool 1 on others: the tool stays unknown.
             offset = None;
         }
-        if state.tables.complete && number != 0 && state.tables.tool(number).is_none() {
+        if state.tables().is_complete() && number != 0 && state.tables().tool(number).is_none() {
             return Err(Fault::NoSuchTool(number));
         }
-        state.selected = D::number(f64::from(number));
+        state.tool.selected.put(D::number(f64::from(number)));
         self.emit(state, Event::SelectTool(Some(number)));
         if rules.change_by_t {
             self.put_tool(Some(number), state);
         }
         if let Some(offset) = offset {
             self.apply_length(offset, 1.0, state)?;
-            state.d = D::number(f64::from(offset));
+            state.tool.d.put(D::number(f64::from(offset)));
         }
         Ok(())
     }
@@ -185,7 +199,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.model.semantics().compensation.freezes_modes && self.compensates(state) {
             return Err(Fault::Compensation(crate::fault::CompensationFault::NotWhileOn));
         }
-        if rules.change_needs_t && D::known(&state.selected).is_some_and(|t| t < 0.0) {
+        if rules.change_needs_t && D::known(state.selected()).is_some_and(|t| t < 0.0) {
             return Err(Fault::NoToolSelected);
         }
         self.emit(state, Event::StartChange);
@@ -196,7 +210,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             clippy::cast_sign_loss,
             reason = "a tool number is a count: negative ones were refused at `T`"
         )]
-        let number = D::known(&state.selected).map(|t| t.max(0.0) as u32);
+        let number = D::known(state.selected()).map(|t| t.max(0.0) as u32);
         self.put_tool(number, state);
         if rules.change_cancels_length {
             self.cancel_length(state);
@@ -205,48 +219,44 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {
-        state.tool = number.map_or_else(D::unknown, |n| D::number(f64::from(n)));
+        state.tool.number.put(number.map_or_else(D::unknown, |n| D::number(f64::from(n))));
         self.load(number, state);
         self.emit(state, Event::ToolChange(number));
     }
 
     /// The tool's data come with it. No tool leaves those of the last one where they are.
     fn load(&mut self, number: Option<u32>, state: &mut State<D>) {
+        let unknown = ToolData { offset: self.unknown_length(state), ..ToolData::UNKNOWN };
         match number {
             Some(0) => {}
             Some(number) => {
-                let row = state.tables.tools.iter().position(|(n, _)| *n == number);
-                state.loaded_row = row.map_or(0, |row| row as u32 + 1);
-                match state.tables.tool(number) {
-                    Some(tool) => state.loaded = *tool,
-                    None => {
-                        state.loaded.offset = self.unknown_length(state);
-                        state.loaded.diameter = gcheck_geometry::Mm::UNKNOWN;
-                    }
-                }
+                let data = state.tables().tool(number).copied().unwrap_or(unknown);
+                let entry = Self::entry_of(number, state);
+                state.tool.loaded.put(Loaded { data, entry });
             }
-            None => {
-                state.loaded.offset = self.unknown_length(state);
-                state.loaded.diameter = gcheck_geometry::Mm::UNKNOWN;
-            }
+            None => state.tool.loaded.put(Loaded { data: unknown, entry: Perhaps::Unknown }),
         }
+    }
+
+    /// The entry of the table that a tool's data come from.
+    fn entry_of(number: u32, state: &State<D>) -> Perhaps<u32> {
+        if state.tables().row_of(number) == 0 { Perhaps::No } else { Perhaps::Yes(number) }
     }
 
     /// `M61`.
     pub(super) fn set_tool_number(&mut self, state: &mut State<D>) -> Step {
         match self.rounded(Letter::of('Q'))? {
             Some(Count::Known(number)) => {
-                if state.tables.complete && number != 0 && state.tables.tool(number).is_none() {
+                if state.tables().is_complete() && number != 0 && state.tables().tool(number).is_none() {
                     return Err(Fault::NoSuchTool(number));
                 }
-                state.tool = D::number(f64::from(number));
+                state.tool.number.put(D::number(f64::from(number)));
                 // Only its number: the data of the tool that was loaded stay in effect.
-                let row = state.tables.tools.iter().position(|(n, _)| *n == number);
-                state.loaded_row = row.map_or(0, |row| row as u32 + 1);
+                state.tool.loaded.entry = Self::entry_of(number, state);
                 self.emit(state, Event::SetToolNumber(Some(number)));
             }
             Some(Count::Unknown) => {
-                state.tool = D::unknown();
+                state.tool.number.put(D::unknown());
                 self.emit(state, Event::SetToolNumber(None));
             }
             None => return Err(Fault::MissingWord(Letter::of('Q'))),
@@ -303,6 +313,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Does anything turn that could cut?
     pub(super) fn spindle_turns(state: &State<D>) -> Option<bool> {
-        state.spindle.map(|s| s != Spindle::Stopped)
+        state.spindle().map(|s| s != Spindle::Stopped)
     }
 }

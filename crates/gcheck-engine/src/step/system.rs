@@ -2,8 +2,6 @@
 //!
 //! Knows: positions, offsets, modes and tools behind variable numbers. Must not know: which control has which number (data).
 
-use std::rc::Rc;
-
 use gcheck_controls::{CodeNumber, Effect, Letter, SystemValue, SystemVariable, Unset};
 
 use super::{Ending, Executor, Outcome, Step};
@@ -50,35 +48,35 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(match variable.holds {
             // No page says which point they show while the axes stand beside it.
             V::WorkPosition | V::EndPosition | V::LengthOffset if state.tool_shift.is_on() => D::unknown(),
-            V::WorkPosition | V::EndPosition => coordinate(&state.actual),
+            V::WorkPosition | V::EndPosition => coordinate(state.actual()),
             V::MachinePosition => coordinate(&state.machine(self.model)),
-            V::ProbePosition => coordinate(&state.probed),
-            V::ProbeResult => truth(state.probe_result),
-            V::LengthOffset => coordinate(&state.length),
+            V::ProbePosition => coordinate(&state.probe.point),
+            V::ProbeResult => truth(*state.probe.result),
+            V::LengthOffset => coordinate(&state.tool.length),
             V::WorkOffset => {
                 let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
-                machine_units(&state.tables.offset((first + row) as u16).origin)
+                machine_units(&state.tables().offset((first + row) as u16).origin)
             }
-            V::WorkRotation => number(state.tables.offset((row + 1) as u16).rotation),
-            V::Shift => machine_units(&state.shift),
-            V::ShiftActive => D::number(f64::from(u8::from(state.shift_on))),
-            V::WorkOffsetNumber => state.work.map_or_else(D::unknown, |n| {
+            V::WorkRotation => number(state.tables().offset((row + 1) as u16).rotation),
+            V::Shift => machine_units(&state.offsets.shift),
+            V::ShiftActive => truth(*state.offsets.shift_on),
+            V::WorkOffsetNumber => state.work().map_or_else(D::unknown, |n| {
                 if variable.name.is_some() { self.work_code(n) } else { D::number(f64::from(n)) }
             }),
-            V::Reference1 => machine_units(&state.tables.references[0]),
-            V::Reference2 => machine_units(&state.tables.references[1]),
-            V::ToolNumber => state.tool.clone(),
-            V::SelectedTool => state.selected.clone(),
+            V::Reference1 => machine_units(&state.tables().references[0]),
+            V::Reference2 => machine_units(&state.tables().references[1]),
+            V::ToolNumber => state.tool().clone(),
+            V::SelectedTool => state.selected().clone(),
             V::ToolLength | V::ToolDiameter | V::ToolRadius => {
                 let tool = match &variable.of {
                     // A table by tool number.
                     Some(first) => Some(first.parse::<u32>().unwrap_or(1) + column),
                     #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
-                    None => D::known(&state.tool).map(|t| t as u32),
+                    None => D::known(state.tool()).map(|t| t as u32),
                 };
                 let Some(tool) = tool else { return Ok(D::unknown()) };
-                let Some(entry) = state.tables.tool(tool) else {
-                    return Ok(if state.tables.complete { D::number(0.0) } else { D::unknown() });
+                let Some(entry) = state.tables().tool(tool) else {
+                    return Ok(if state.tables().is_complete() { D::number(0.0) } else { D::unknown() });
                 };
                 match variable.holds {
                     V::ToolLength => match (&variable.of, axis) {
@@ -93,15 +91,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             V::ModalCode => self.modal_code(variable, state),
             V::LastWord => match variable.of.as_deref() {
-                Some("F") => state.feed_word.clone(),
-                Some("S") => state.speed.clone(),
-                Some("T") => state.selected.clone(),
-                Some("H") => state.h.clone(),
-                Some("D") => state.d.clone(),
+                Some("F") => state.feed_word().clone(),
+                Some("S") => state.speed().clone(),
+                Some("T") => state.selected().clone(),
+                Some("H") => state.h().clone(),
+                Some("D") => state.d().clone(),
                 _ => D::unknown(),
             },
-            V::Feed => state.feed_word.clone(),
-            V::Speed => state.speed.clone(),
+            V::Feed => state.feed_word().clone(),
+            V::Speed => state.speed().clone(),
             V::IsMetric => flag(state.units(self.model).map(|u| u == Units::Mm)),
             V::IsInch => flag(state.units(self.model).map(|u| u == Units::Inch)),
             V::IsAbsolute => flag(state.is_incremental(self.model).map(|i| !i)),
@@ -109,11 +107,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::IsInverseTime => flag(state.feed_mode(self.model).map(|m| m == FeedMode::InverseTime)),
             V::IsPerMinute => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerMinute)),
             V::IsPerRevolution => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerRevolution)),
-            V::SpindleOn => flag(state.spindle.map(|s| s != Spindle::Stopped)),
-            V::SpindleClockwise => flag(state.spindle.map(|s| s == Spindle::Clockwise)),
-            V::MistOn => truth(state.mist),
-            V::FloodOn => truth(state.flood),
-            V::CompensationOn => flag(Some(self.compensates(state))),
+            V::SpindleOn => flag(state.spindle().map(|s| s != Spindle::Stopped)),
+            V::SpindleClockwise => flag(state.spindle().map(|s| s == Spindle::Clockwise)),
+            V::MistOn => truth(*state.coolant.mist),
+            V::FloodOn => truth(*state.coolant.flood),
+            V::CompensationOn => {
+                let mode = state.mode(Role::Compensation).only();
+                flag(mode.map(|_| self.compensates(state)))
+            }
             V::CodeActive => {
                 let number = variable.of.as_deref().and_then(CodeNumber::parse);
                 let code = number.map(|n| self.model.control().code_ix(n));
@@ -123,12 +124,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     _ => D::unknown(),
                 }
             }
-            V::FeedOverrideOn => truth(state.feed_override),
-            V::SpeedOverrideOn => truth(state.speed_override),
-            V::AdaptiveFeedOn => truth(state.adaptive),
-            V::FeedStopOn => truth(state.feed_hold),
+            V::FeedOverrideOn => truth(*state.feed.overridable),
+            V::SpeedOverrideOn => truth(*state.spindle.overridable),
+            V::AdaptiveFeedOn => truth(*state.feed.adaptive),
+            V::FeedStopOn => truth(*state.feed.hold),
             V::LengthOffsetOn => {
-                let length = state.length.values();
+                let length = state.tool.length.values();
                 flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
             }
             V::LineNumber => self.file(self.origin.at.file).map_or_else(D::unknown, |file| {
@@ -137,7 +138,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::Constant => {
                 variable.of.as_deref().and_then(|of| of.parse().ok()).map_or_else(D::unknown, D::number)
             }
-            V::CallLevel => D::number(f64::from(u32::try_from(state.frames.len()).unwrap_or(1) - 1)),
+            V::CallLevel => D::number(f64::from(u32::try_from(state.calls.depth()).unwrap_or(1) - 1)),
             V::Alarm | V::StopWithMessage => match self.model.semantics().unset {
                 Unset::Vacant => D::vacant(),
                 Unset::Zero => D::number(0.0),
@@ -234,7 +235,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             SystemValue::WorkOffset | SystemValue::WorkRotation => {
                 let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
                 let system = (first + row) as u16;
-                let mut offset = state.tables.offset(system);
+                let mut offset = state.tables().offset(system);
                 let value = known.unwrap_or(f64::NAN);
                 match (variable.holds, axis) {
                     (SystemValue::WorkRotation, _) => offset.rotation = value,
@@ -242,18 +243,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     _ => {}
                 }
                 // Written, but in effect only when the system is chosen again; elsewhere at once.
-                if state.work == Some(system) && !self.refuses_incomplete() {
-                    state.in_effect = offset;
-                    state.actual = Position::UNKNOWN;
-                    state.position = Position::UNKNOWN;
+                if state.work() == Some(system) && !self.refuses_incomplete() {
+                    state.offsets.in_effect.put(offset);
+                    state.points.actual.put(Position::UNKNOWN);
+                    state.points.position.put(Position::UNKNOWN);
                 }
-                Rc::make_mut(&mut state.tables).set_offset(system, offset);
+                state.offsets.tables_mut().set_offset(system, offset);
             }
             SystemValue::Reference1 | SystemValue::Reference2 => {
                 if let Some(axis) = axis {
                     let value = self.millimetres_of_table(axis, known.unwrap_or(f64::NAN), state);
                     let index = usize::from(variable.holds == SystemValue::Reference2);
-                    if let Some(slot) = Rc::make_mut(&mut state.tables).references.get_mut(index) {
+                    if let Some(slot) = state.offsets.tables_mut().references.get_mut(index) {
                         slot.set(axis, value);
                     }
                 }
@@ -262,7 +263,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
                 let tool = first.parse::<u32>().unwrap_or(1) + column;
                 let value = self.millimetres_of_table(Axis::Z, known.unwrap_or(f64::NAN), state);
-                let entry = Rc::make_mut(&mut state.tables).tool_mut(tool);
+                let entry = state.offsets.tables_mut().tool_mut(tool);
                 match variable.holds {
                     SystemValue::ToolLength => {
                         entry.offset.set(Axis::Z, value);
@@ -279,7 +280,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             SystemValue::Shift => {
                 if let Some(axis) = axis {
                     let value = self.millimetres_of_table(axis, known.unwrap_or(f64::NAN), state);
-                    state.shift.set(axis, value);
+                    state.offsets.shift.set(axis, value);
                 }
             }
             _ => self.write_plain(number, value, state),

@@ -12,11 +12,11 @@ use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::event::Event;
 use crate::fault::Fault;
-use crate::modal::ModeSet;
+use crate::lattice::Perhaps;
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::{State, Transform};
+use crate::state::{ModeSet, State, Transform};
 use crate::value::Domain;
 
 /// X, Y and Z, in the order of shifts.
@@ -45,18 +45,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return Ok(());
             }
             Some(Count::Known(number)) => {
-                state.h = D::number(f64::from(number));
+                state.tool.h.put(D::number(f64::from(number)));
                 self.length_of_tool(number, state)?
             }
             Some(Count::Unknown) => {
-                state.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
+                state.tool.h.put(self.words.get(Letter::of('H')).unwrap_or_else(D::unknown));
                 // It may be the zero that ends the mode.
                 let off = ModeSet::one(self.model.code_with(Effect::LengthOff));
-                state.join_mode(Role::Length, &off);
+                state.modes.add(Role::Length, &off);
                 f64::NAN
             }
             // H stays in effect from before.
-            None => match D::known(&state.h) {
+            None => match D::known(state.h()) {
                 #[expect(clippy::cast_sign_loss, reason = "offset numbers are counts")]
                 Some(h) if h > 0.0 => self.length_of_tool(h as u32, state)?,
                 _ => f64::NAN,
@@ -68,7 +68,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.assumptions.insert(Assumption::UprightTool);
         self.flush_compensation(state)?;
         // Refused beside a length along the tool: the path of the two together is not known.
-        state.compensation = None;
+        state.compensation.lose_path();
         // What is along the tool is no offset along Z besides.
         self.set_length(Position::ZERO, state);
         state.tool_shift.along = Some(length);
@@ -77,9 +77,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn length_of_tool(&mut self, number: u32, state: &State<D>) -> Step<f64> {
-        let length = match state.tables.tool(number) {
+        let length = match state.tables().tool(number) {
             Some(tool) => tool.offset.raw(Axis::Z),
-            None if state.tables.complete => return Err(Fault::NoSuchTool(number)),
+            None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => f64::NAN,
         };
         if length.is_nan() {
@@ -106,7 +106,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G141`: the size of `D` along the vector of each block.
     pub(super) fn cutter_along_vectors(&mut self, state: &mut State<D>) -> Step {
         self.flush_compensation(state)?;
-        state.compensation = None;
+        state.compensation.on.put(Perhaps::No);
         let (radius, _) = self.cutter_radius(state)?;
         state.tool_shift.cutter = Some(radius);
         self.stand_beside(state);
@@ -129,7 +129,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.length_along_tool(state)?;
             } else {
                 // On or off: the word may be read, or not.
-                state.h = D::unknown();
+                state.tool.h.put(D::unknown());
                 state.tool_shift.along = Some(f64::NAN);
                 self.stand_beside(state);
             }
@@ -139,7 +139,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.remember_offset_number(state)?;
                 state.tool_shift.cutter = Some(self.cutter_radius(state)?.0);
             } else {
-                state.d = D::unknown();
+                state.tool.d.put(D::unknown());
                 state.tool_shift.cutter = Some(f64::NAN);
             }
         }
@@ -196,12 +196,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Axes that the block does not name stand still under a length along the tool.
     pub(super) fn keep_unnamed(&self, to: &mut Position, state: &State<D>) {
-        if state.tool_shift.along.is_none() || state.transform != Transform::NONE {
+        if state.tool_shift.along.is_none() || *state.transform() != Transform::NONE {
             return;
         }
         for axis in XYZ {
             if !self.words.has(axis.letter()) {
-                to.set(axis, state.actual.raw(axis));
+                to.set(axis, state.actual().raw(axis));
             }
         }
     }
@@ -212,11 +212,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Of the last point's vector nothing is kept.
             Some(radius) if radius != 0.0 => [f64::NAN; 3],
             _ => {
-                let here = state.actual;
+                let here = *state.actual();
                 self.tool_shift(&here, state)
             }
         };
-        state.position = self.programmed_of(&state.actual, state);
+        state.points.position.put(self.programmed_of(state.actual(), state));
     }
 
     /// After a block: how far the axes stand beside the programmed point.
@@ -224,9 +224,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if !state.tool_shift.is_on() {
             return;
         }
-        let plain = self.transformed(&state.position, state);
+        let plain = self.transformed(state.position(), state);
+        let here = *state.actual();
         for (slot, axis) in state.tool_shift.beside.iter_mut().zip(XYZ) {
-            *slot = state.actual.raw(axis) - plain.raw(axis);
+            *slot = here.raw(axis) - plain.raw(axis);
         }
     }
 }

@@ -18,6 +18,7 @@ use gcheck_program::{BinaryOp, Function};
 use self::interval::Range;
 use super::{ConcreteValue, Domain, Truth, is_comparison, scalar};
 use crate::fault::ValueFault;
+use crate::lattice::Lattice;
 
 /// The domain of all paths.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -133,7 +134,7 @@ impl AbstractValue {
     }
 
     /// Does the value of a run agree with it? A value that the run does not know contradicts nothing.
-    pub fn covers(&self, value: ConcreteValue) -> bool {
+    pub fn allows(&self, value: ConcreteValue) -> bool {
         match value {
             ConcreteValue::Vacant => self.may_be_vacant(),
             ConcreteValue::Number(x) => self.may_be_number(x),
@@ -365,36 +366,6 @@ impl Domain for Abstract {
         }
     }
 
-    fn join(left: &AbstractValue, right: &AbstractValue) -> AbstractValue {
-        if left == right {
-            return left.clone();
-        }
-        let vacant = left.may_be_vacant() || right.may_be_vacant();
-        if let (Some(a), Some(b)) = (left.few(), right.few()) {
-            return AbstractValue::numbers(a.iter().chain(b).copied(), vacant);
-        }
-        match (left.range(), right.range()) {
-            (Some(a), Some(b)) => a.hull(b).with_vacancy(vacant),
-            (Some(range), None) | (None, Some(range)) => range.with_vacancy(vacant),
-            (None, None) => AbstractValue::Vacant,
-        }
-    }
-
-    fn widen(old: &AbstractValue, new: &AbstractValue) -> AbstractValue {
-        if Self::contains(old, new) {
-            return old.clone();
-        }
-        let joined = Self::join(old, new);
-        // Sets grow to `NumberSet::MOST` at most, so they need no help to come to an end.
-        if joined.few().is_some() {
-            return joined;
-        }
-        match (old.range(), joined.range()) {
-            (Some(before), Some(after)) => before.widened_to(after).with_vacancy(joined.may_be_vacant()),
-            _ => joined,
-        }
-    }
-
     fn assume(
         value: &AbstractValue,
         op: BinaryOp,
@@ -424,20 +395,57 @@ impl Domain for Abstract {
             None => value.range().map(|range| range.with_vacancy(false)),
         }
     }
+}
 
-    fn contains(outer: &AbstractValue, inner: &AbstractValue) -> bool {
-        if inner.may_be_vacant() && !outer.may_be_vacant() {
+impl Lattice for AbstractValue {
+    fn join(&self, other: &Self) -> Self {
+        if self == other {
+            return self.clone();
+        }
+        let vacant = self.may_be_vacant() || other.may_be_vacant();
+        if let (Some(a), Some(b)) = (self.few(), other.few()) {
+            return Self::numbers(a.iter().chain(b).copied(), vacant);
+        }
+        match (self.range(), other.range()) {
+            (Some(a), Some(b)) => a.hull(b).with_vacancy(vacant),
+            (Some(range), None) | (None, Some(range)) => range.with_vacancy(vacant),
+            (None, None) => Self::Vacant,
+        }
+    }
+
+    /// A bound that moved goes to the next threshold, then to infinity.
+    fn widen(&self, newer: &Self) -> Self {
+        if self.covers(newer) {
+            return self.clone();
+        }
+        let joined = self.join(newer);
+        // Sets grow to `NumberSet::MOST` at most, so they need no help to come to an end.
+        if joined.few().is_some() {
+            return joined;
+        }
+        match (self.range(), joined.range()) {
+            (Some(before), Some(after)) => before.widened_to(after).with_vacancy(joined.may_be_vacant()),
+            _ => joined,
+        }
+    }
+
+    fn covers(&self, inner: &Self) -> bool {
+        if inner.may_be_vacant() && !self.may_be_vacant() {
             return false;
         }
         match inner.few() {
-            Some(numbers) => numbers.iter().all(|x| outer.may_be_number(*x)),
+            Some(numbers) => numbers.iter().all(|x| self.may_be_number(*x)),
             // An interval has more numbers than a set.
-            None if outer.few().is_some() => false,
-            None => match (outer.range(), inner.range()) {
+            None if self.few().is_some() => false,
+            None => match (self.range(), inner.range()) {
                 (Some(outer), Some(inner)) => outer.lo <= inner.lo && inner.hi <= outer.hi,
                 _ => false,
             },
         }
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
     }
 }
 

@@ -9,6 +9,7 @@ use gcheck_program::{BinaryOp, Function};
 
 use super::{Domain, Truth, scalar};
 use crate::fault::ValueFault;
+use crate::lattice::Lattice;
 
 /// The domain of a run.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -156,14 +157,6 @@ impl Domain for Concrete {
         }
     }
 
-    fn join(left: &ConcreteValue, right: &ConcreteValue) -> ConcreteValue {
-        if left == right { *left } else { ConcreteValue::Unknown }
-    }
-
-    fn widen(old: &ConcreteValue, new: &ConcreteValue) -> ConcreteValue {
-        Self::join(old, new)
-    }
-
     fn assume(
         value: &ConcreteValue,
         op: BinaryOp,
@@ -185,9 +178,23 @@ impl Domain for Concrete {
             _ => Some(*value),
         }
     }
+}
 
-    fn contains(outer: &ConcreteValue, inner: &ConcreteValue) -> bool {
-        *outer == ConcreteValue::Unknown || outer == inner
+impl Lattice for ConcreteValue {
+    fn join(&self, other: &Self) -> Self {
+        if self == other { *self } else { Self::Unknown }
+    }
+
+    fn widen(&self, newer: &Self) -> Self {
+        self.join(newer)
+    }
+
+    fn covers(&self, inner: &Self) -> bool {
+        *self == Self::Unknown || self == inner
+    }
+
+    fn same(&self, other: &Self) -> bool {
+        self == other
     }
 }
 

@@ -197,7 +197,7 @@ impl<M: Clone, E> Compensator<M, E> {
         } else {
             let end = PathPoint::above(self.state.planned.planar(), to.normal);
             if let Some(last) = self.state.last.as_mut().filter(|last| last.stopped) {
-                // Behind a program stop this line stands for the segment before the corner.
+                // After a program stop this line stands for the segment before the corner.
                 last.curve = Curve::Line { point: end.planar(), direction: last.tangent };
             }
             self.queue.push_back(Queued::Move(Waiting {
@@ -285,7 +285,7 @@ impl<M: Clone, E> Compensator<M, E> {
         self.state.planned = end;
     }
 
-    /// A segment behind another: settles the end of the one before and holds the new one back.
+    /// A segment after another: settles the end of the one before and holds the new one back.
     fn corner(
         &mut self,
         last: Last,
@@ -441,7 +441,7 @@ impl<M: Clone, E> Compensator<M, E> {
         Ok(())
     }
 
-    /// Moves the end of everything held back that stands at the last corner.
+    /// Moves the end of everything held back that is at the last corner.
     fn move_end(&mut self, to: Vector) {
         let mut moved = false;
         for queued in &mut self.queue {

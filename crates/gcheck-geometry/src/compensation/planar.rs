@@ -91,7 +91,7 @@ pub(super) fn sweep(from: Vector, to: Vector, ccw: bool) -> f64 {
 }
 
 /// A directed curve that an offset segment lies on.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Curve {
     /// `direction` has length one.
     Line {

@@ -1,6 +1,6 @@
 //! Specifications of compensation, by example.
 //!
-//! The expectations of [`CompensationStyle::TangentEntry`] are what LinuxCNC's stand-alone interpreter gives for the
+//! The expectations of [`CompensationStyle::TangentEntry`] are what LinuxCNC's standalone interpreter gives for the
 //! same path.
 
 use super::{

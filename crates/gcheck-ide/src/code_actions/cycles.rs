@@ -5,14 +5,14 @@
 
 use gcheck_controls::{CodeIx, DwellWord, Effect, Letter, LetterSet};
 use gcheck_db::{BlockPlace, Cancelled, Database, DocumentId, Snapshot, StateAt};
+use gcheck_diagnostics::Edit;
 use gcheck_engine::{At, Axis, Event, Look, Position, Role, Transform, TravelKind, Units};
 use gcheck_geometry::Seconds;
 use gcheck_program::BlockFlags;
-use gcheck_rules::Edit;
 
+use super::action::{ActionKind, CodeAction};
 use super::points::pointed;
 use super::suppress::line_end;
-use super::{ActionKind, CodeAction};
 use crate::figures::{decimals, in_units};
 use crate::pieces::touches;
 use crate::reading::Reading;
@@ -20,7 +20,7 @@ use crate::reading::Reading;
 /// Blocks of one series, and moves that they may become.
 const MOST_BLOCKS: usize = 200;
 const MOST_LINES: usize = 2_000;
-/// Blocks behind the series that are looked at for the motion that goes on.
+/// Blocks after the series that are looked at for the motion that goes on.
 const LOOK_AHEAD: u32 = 20;
 
 /// Offers to expand the cycle that begins in the block at a place, with the blocks that go on with it.
@@ -55,7 +55,7 @@ pub(super) fn offer(
         return Ok(());
     }
     let edits = series.iter().zip(texts).map(|(place, text)| Edit { range: place.range(), text }).collect();
-    let title = format!("write this cycle as {count} plain moves");
+    let title = format!("Write this cycle as {count} plain moves");
     actions.push(CodeAction::change(title, ActionKind::Rewrite, edits));
     Ok(())
 }
@@ -80,7 +80,7 @@ fn series(snapshot: &Snapshot, first: &BlockPlace) -> Option<Vec<BlockPlace>> {
         | BlockFlags::COMMENT
         | BlockFlags::PROGRAM_NUMBER
         | BlockFlags::TAPE_MARK;
-    // Beside the cycle only its own words, the level it returns to and a sequence number may stand.
+    // Beside the cycle only its own words, the level it returns to and a sequence number may be.
     let fits = |place: &BlockPlace, is_first: bool| {
         let words = place.table.words(place.block());
         let own = LetterSet::of("XYZRQPFLKIJN");
@@ -116,7 +116,7 @@ fn series(snapshot: &Snapshot, first: &BlockPlace) -> Option<Vec<BlockPlace>> {
     (!is_jumped_to && goes_on_plainly(snapshot, end)).then_some(series)
 }
 
-/// Is the cycle ended behind its series, and does the next move say how it moves?
+/// Is the cycle ended after its series, and does the next move say how it moves?
 fn goes_on_plainly(snapshot: &Snapshot, from: u32) -> bool {
     let control = snapshot.control();
     let mut is_ended = false;

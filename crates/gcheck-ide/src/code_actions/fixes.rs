@@ -5,9 +5,10 @@
 use std::ops::Range;
 
 use gcheck_db::{Analysis, Snapshot};
-use gcheck_rules::{Edit, Finding, Fix};
+use gcheck_diagnostics::{Edit, Finding, Fix};
 
-use super::{ActionKind, CodeAction, suppress};
+use super::action::{ActionKind, CodeAction};
+use super::suppress;
 
 /// Findings that are answered at one place.
 const MOST_FINDINGS: usize = 20;
@@ -30,8 +31,11 @@ pub(super) fn offer(
     for finding in &here {
         for (index, fix) in finding.fixes.iter().enumerate() {
             let note = if fix.safe { "" } else { " (may change moves)" };
-            let mut action =
-                CodeAction::change(format!("{}{note}", fix.title), ActionKind::Fix, fix.edits.clone());
+            let mut action = CodeAction::change(
+                format!("{}{note}", capitalised(&fix.title)),
+                ActionKind::Fix,
+                fix.edits.clone(),
+            );
             action.is_preferred = index == 0 && fix.safe;
             actions.push(answer(finding, action));
         }
@@ -42,7 +46,7 @@ pub(super) fn offer(
         let of_rule = analysis.findings.iter().filter(|other| other.rule.id == finding.rule.id);
         let (edits, count) = together(of_rule.filter_map(|other| other.fixes.first()));
         if count > 1 {
-            let title = format!("mend all {count} of `{}` in this file", finding.rule.id);
+            let title = format!("Fix all {count} `{}` findings in this file", finding.rule.id);
             actions.push(answer(finding, CodeAction::change(title, ActionKind::Fix, edits)));
         }
     }
@@ -50,7 +54,7 @@ pub(super) fn offer(
         for action in suppress::of(snapshot, finding) {
             actions.push(answer(finding, action));
         }
-        let title = format!("explain `{}`", finding.rule.id);
+        let title = format!("Explain `{}`", finding.rule.id);
         let mut action = CodeAction::change(title, ActionKind::Explain, Vec::new());
         action.link = Some(finding.rule.page());
         actions.push(answer(finding, action));
@@ -58,19 +62,25 @@ pub(super) fn offer(
     let safe = analysis.findings.iter().filter_map(|finding| finding.fixes.iter().find(|fix| fix.safe));
     let (edits, count) = together(safe);
     if count > 0 {
-        let title = format!("mend everything whose fix changes no move ({count})");
+        let title = format!("Fix all {count} findings whose fixes change no move");
         actions.push(CodeAction::change(title, ActionKind::FixAll, edits));
     }
 }
 
+/// With a capital at its begin, as editors write what can be done.
+fn capitalised(title: &str) -> String {
+    let mut letters = title.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
+}
+
 /// The edits of fixes that neither overlap nor touch each other, the first come first, and how many fixes these are. What is
-/// left over is found again behind the others.
+/// left over is found again after the others.
 fn together<'f>(fixes: impl Iterator<Item = &'f Fix>) -> (Vec<Edit>, usize) {
     let mut taken: Vec<Edit> = Vec::new();
     let mut count = 0;
     for fix in fixes {
         let clashes = |edit: &Edit| {
-            // Findings come in text order: what clashes stands near the end.
+            // Findings come in text order: what clashes is near the end.
             taken
                 .iter()
                 .rev()
@@ -84,7 +94,7 @@ fn together<'f>(fixes: impl Iterator<Item = &'f Fix>) -> (Vec<Edit>, usize) {
         count += 1;
     }
     taken.sort_by_key(|edit| edit.range.start);
-    // A fix far behind its finding may still lie on another.
+    // A fix far after its finding may still overlap another.
     let mut end = None;
     taken.retain(|edit| {
         let is_clear = end.is_none_or(|end| edit.range.start > end);

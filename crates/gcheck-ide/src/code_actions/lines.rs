@@ -5,11 +5,10 @@
 use std::ops::Range;
 
 use gcheck_db::Snapshot;
+use gcheck_diagnostics::Edit;
 use gcheck_format::{Numbering, renumber};
-use gcheck_rules::Edit;
 
-use super::{ActionKind, CodeAction};
-use crate::formatting::own_edit;
+use super::action::{ActionKind, CodeAction};
 use crate::things::code_end;
 
 /// Lines that are changed together.
@@ -33,7 +32,7 @@ pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions:
         let range = snapshot.line_range(line);
         let text = snapshot.slice(range.clone());
         let trimmed = text.trim_start_matches([' ', '\t', '\u{FEFF}']);
-        // Programs, tape marks and comments are no blocks to be skipped.
+        // Programs, tape marks and comments are not blocks to be skipped.
         if range.start >= end
             || trimmed.trim().is_empty()
             || trimmed.starts_with(['%', '(', ';', 'O', 'o', ':'])
@@ -55,26 +54,25 @@ pub(super) fn offer_block_skip(snapshot: &Snapshot, range: &Range<u32>, actions:
             let len = if behind.starts_with(|c: char| c.is_ascii_digit()) { 2 } else { 1 };
             Edit { range: *at..at + len, text: String::new() }
         });
-        (format!("take block skip off {plural}"), edits.collect())
+        (format!("Remove block delete from {plural}"), edits.collect())
     } else {
         let bare = lines.iter().filter(|(_, is_skipped)| !is_skipped);
         let edits = bare.map(|(at, _)| Edit { range: *at..*at, text: "/".to_owned() });
-        (format!("put block skip on {plural}"), edits.collect())
+        (format!("Add block delete to {plural}"), edits.collect())
     };
     actions.push(CodeAction::change(title, ActionKind::Rewrite, edits));
 }
 
-/// Offers to number the blocks anew, with all that names them.
+/// Offers to renumber the blocks, with all that names them.
 pub(super) fn offer_renumber(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
     if snapshot.survey().labels.is_empty() {
         return;
     }
-    // What stands in the way is for who asks to renumber, not for who looks at what can be done.
+    // Why it cannot be done is said to people who ask for it, not to those who look at what can be done.
     if let Ok(edits) = renumber(&snapshot.text(), &snapshot.dialect(), &NUMBERING)
         && !edits.is_empty()
     {
-        let edits = edits.into_iter().map(own_edit).collect();
-        let title = "number blocks in tens, with what jumps to them";
+        let title = "Renumber blocks in tens, with the jumps to them";
         actions.push(CodeAction::change(title, ActionKind::Source, edits));
     }
 }

@@ -4,17 +4,17 @@
 
 use gcheck_controls::{Code, Effect, Unpointed, WordKind};
 use gcheck_db::Snapshot;
+use gcheck_diagnostics::Edit;
 use gcheck_program::{BlockFlags, Word};
-use gcheck_rules::Edit;
 
-use super::{ActionKind, CodeAction};
+use super::action::{ActionKind, CodeAction};
 use crate::describe;
 use crate::figures::plain;
 
 /// Words that are changed together.
 const MOST: usize = 100_000;
 
-/// Offers both readings: the value as the control counts it, and the number as it stands.
+/// Offers both readings: the value as the control counts it, and the number as it is written.
 pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
     let control = snapshot.control();
     let numbers = control.numbers();
@@ -37,7 +37,7 @@ pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
         .collect();
     if let Some(edits) = counted.filter(|_| numbers.unpointed == Unpointed::LeastIncrement) {
         let title = format!(
-            "write {} with decimal points, as the control counts them",
+            "Write {} with decimal points, as the control counts them",
             numbers_in_words(words.len())
         );
         actions.push(CodeAction::change(title, ActionKind::Source, edits));
@@ -45,7 +45,7 @@ pub(super) fn offer(snapshot: &Snapshot, actions: &mut Vec<CodeAction>) {
     let behind =
         words.iter().map(|word| Edit { range: word.digits.end..word.digits.end, text: ".".to_owned() });
     let title = format!(
-        "write decimal points behind {} without one (changes what they count)",
+        "Write decimal points after {} without one (changes what they count)",
         numbers_in_words(words.len())
     );
     actions.push(CodeAction::change(title, ActionKind::Source, behind.collect()));
@@ -91,7 +91,7 @@ fn words(snapshot: &Snapshot) -> Vec<Pointless> {
             }
             let words = table.words(block);
             let codes: Vec<Code<'_>> = words.iter().filter_map(|word| control.code_at(word.code)).collect();
-            // Behind a call of a macro numbers mean what the macro makes of them.
+            // After a call of a macro numbers mean what the macro makes of them.
             if codes.iter().any(|code| code.entry().any_words) {
                 continue;
             }

@@ -1,11 +1,11 @@
 //! Comments that silence a finding.
 //!
-//! Knows: where such a comment may stand. Must not know: how comments silence (the rules do).
+//! Knows: where such a comment may be. Must not know: how comments silence (the rules do).
 
 use gcheck_db::Snapshot;
-use gcheck_rules::{Edit, Finding};
+use gcheck_diagnostics::{Edit, Finding};
 
-use super::{ActionKind, CodeAction};
+use super::action::{ActionKind, CodeAction};
 use crate::pieces::pieces;
 use gcheck_syntax::SyntaxKind;
 
@@ -18,7 +18,7 @@ pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
     let mut actions = Vec::new();
     let line = snapshot.line_at(finding.range.start);
     if let Some(edit) = on_line(snapshot, line, &format!("(gcheck: ignore {rule} - {REASON})")) {
-        let title = format!("silence `{rule}` on this line");
+        let title = format!("Ignore `{rule}` on this line");
         actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
     }
     let at = head(snapshot);
@@ -26,16 +26,16 @@ pub(super) fn of(snapshot: &Snapshot, finding: &Finding) -> Vec<CodeAction> {
         range: at..at,
         text: format!("(gcheck: ignore-file {rule} - {REASON}){}", line_end(snapshot)),
     };
-    let title = format!("silence `{rule}` in this file");
+    let title = format!("Ignore `{rule}` in this file");
     actions.push(CodeAction::change(title, ActionKind::Suppress, vec![edit]));
     actions
 }
 
-/// Behind the line, or on a line of its own above it where nothing more can stand there.
+/// After the line, or on a line of its own above it if the line can have no more text.
 fn on_line(snapshot: &Snapshot, line: u32, comment: &str) -> Option<Edit> {
     let range = snapshot.line_range(line);
     let text = snapshot.slice(range.clone());
-    // What stands at a mark of the tape is not a block, and above it the tape may not have begun.
+    // What is at a mark of the tape is not a block, and above it the tape may not have begun.
     if text.trim_start().starts_with('%') {
         return None;
     }
@@ -53,7 +53,7 @@ fn on_line(snapshot: &Snapshot, line: u32, comment: &str) -> Option<Edit> {
     Some(Edit { range: end..range.end, text: format!(" {comment}") })
 }
 
-/// Where the first line behind the tape mark and the program's number begins.
+/// Where the first line after the tape mark and the program's number begins.
 fn head(snapshot: &Snapshot) -> u32 {
     let behind = |offset: u32| {
         let line = snapshot.line_at(offset) + 1;

@@ -6,9 +6,10 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::chunk::{ChunkOutline, Item, scan};
+use super::link::NONE;
 use super::loops::LoopBuilder;
 use super::o_words::OWordBuilder;
-use super::{Chunk, NONE, Outline, Part};
+use super::{Chunk, Outline, Part};
 use crate::block::BlockTable;
 use crate::lower::Dialect;
 
@@ -57,9 +58,16 @@ impl Default for OutlineBuilder {
     }
 }
 
+impl Outline {
+    /// Collects the outline of a file chunk by chunk.
+    pub fn builder() -> OutlineBuilder {
+        OutlineBuilder::default()
+    }
+}
+
 impl OutlineBuilder {
     /// Adds the next chunk. `text` is the chunk's, `base` its offset in the file, `region_end` the end of the part of the file
-    /// that the control reads; blocks that begin behind it are left out.
+    /// that the control reads; blocks that begin after it are left out.
     pub fn add(&mut self, table: &BlockTable, base: u32, region_end: u32, text: &str, dialect: &Dialect<'_>) {
         let inside = table.blocks.partition_point(|b| base.saturating_add(b.range.start) < region_end);
         let first = self.begin_chunk(base, inside as u32);

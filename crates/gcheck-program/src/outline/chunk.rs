@@ -1,6 +1,6 @@
 //! What one chunk adds to the outline of its file.
 //!
-//! Knows: what of a block matters to control flow. Must not know: other chunks, where in the file this one stands, how pairs
+//! Knows: what of a block matters to control flow. Must not know: other chunks, where in the file this one is, how pairs
 //! are made.
 
 use std::hash::Hasher;
@@ -9,7 +9,7 @@ use std::ops::Range;
 use gcheck_controls::{Control, Effect, Ends, Letter, LetterSet, SystemValue, WordKind};
 use rustc_hash::FxHasher;
 
-use super::NONE;
+use super::link::NONE;
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::expression::ExprIx;
 use crate::lower::{Dialect, name_key};
@@ -49,7 +49,7 @@ pub struct ChunkOutline {
     skeleton: Skeleton,
 }
 
-/// What the text alone decides of the control flow, as numbers that are equal when it is the same. Where it stands is left
+/// What the text alone decides of the control flow, as numbers that are equal when it is the same. Its place is left
 /// aside: blocks that decide nothing may come and go between.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Skeleton {
@@ -62,7 +62,7 @@ pub struct Skeleton {
 }
 
 impl Skeleton {
-    /// Adds what stands behind.
+    /// Adds what is after.
     pub fn join(&mut self, next: &Self) {
         self.ways.join(next.ways);
         self.labels.join(next.labels);
@@ -106,7 +106,7 @@ impl Sequence {
 }
 
 impl ChunkOutline {
-    /// Of a chunk's blocks; those that begin at `end` or behind it, in bytes of the chunk, are left out.
+    /// Of a chunk's blocks; those that begin at `end` or after it, in bytes of the chunk, are left out.
     pub fn new(table: &BlockTable, end: u32, text: &str, dialect: &Dialect<'_>) -> Self {
         let inside = table.blocks.partition_point(|b| b.range.start < end);
         let mut part = Self { blocks: inside as u32, ..Self::default() };

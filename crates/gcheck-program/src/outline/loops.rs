@@ -8,7 +8,7 @@
 
 use std::collections::HashMap;
 
-use super::NONE;
+use super::link::NONE;
 
 /// A loop statement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,7 +32,7 @@ impl Loops {
     fn find(&self, block: u32, begins: bool) -> Option<u32> {
         let at = self.entries.binary_search_by_key(&block, |e| e.block).ok()?;
         let entry = self.entries.get(at).filter(|e| e.begins == begins)?;
-        super::known(entry.partner)
+        super::link::known(entry.partner)
     }
 
     pub(super) fn end_of(&self, block: u32) -> Option<u32> {
@@ -46,7 +46,7 @@ impl Loops {
     /// First and last block of each loop.
     pub(super) fn turns(&self) -> impl Iterator<Item = (u32, u32)> {
         let begun = self.entries.iter().filter(|entry| entry.begins);
-        begun.filter_map(|entry| Some((entry.block, super::known(entry.partner)?)))
+        begun.filter_map(|entry| Some((entry.block, super::link::known(entry.partner)?)))
     }
 
     pub(super) fn unmatched(&self) -> &[u32] {

@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use super::{NONE, known};
+use super::link::{NONE, known};
 use crate::statement::{OKeyword, OLabel};
 
 /// What an O-word block is joined to. All fields are numbers of blocks.
@@ -24,13 +24,13 @@ pub struct OWordLinks {
     pub next: Option<u32>,
     /// The block that closes the structure: `endsub`, `endif`, `endwhile`, `endrepeat`, the `while` of a `do`.
     pub end: Option<u32>,
-    /// For `call`: the block of the subroutine, when it stands in this file and its label is not computed.
+    /// For `call`: the block of the subroutine, when it is in this file and its label is not computed.
     pub callee: Option<u32>,
     /// The `sub` around the block.
     pub inside: Option<u32>,
     /// The block that `break`, `continue` or `return` leads to; `None` for other keywords.
     ///
-    /// `break`: the block that closes the loop; the program goes on behind it. `continue`: the block that decides on the
+    /// `break`: the block that closes the loop; the program goes on after it. `continue`: the block that decides on the
     /// next turn (`while`, or the `endrepeat` that counts). `return`: the `endsub`.
     pub leads_to: Option<u32>,
 }
@@ -133,7 +133,7 @@ struct Open {
     last: u32,
 }
 
-/// The labels of a subroutine, or of what stands outside subroutines.
+/// The labels of a subroutine, or of what is outside subroutines.
 #[derive(Debug, Clone)]
 struct Scope {
     sub: u32,

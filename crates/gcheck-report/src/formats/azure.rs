@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 
 use crate::Report;
 use crate::report::File;

@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use gcheck_rules::Severity;
+use gcheck_diagnostics::Severity;
 use quick_xml::Writer;
 
 use super::xml;

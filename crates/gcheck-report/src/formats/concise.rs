@@ -4,7 +4,7 @@
 
 use std::io::{self, Write};
 
-use gcheck_rules::Finding;
+use gcheck_diagnostics::Finding;
 
 use crate::report::File;
 use crate::shown::one_line;

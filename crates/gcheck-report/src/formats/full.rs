@@ -11,9 +11,10 @@ use std::ops::Range;
 use codespan_reporting::diagnostic::{Diagnostic, Label, LabelStyle, Severity as Level};
 use codespan_reporting::files::{Error, Files};
 use codespan_reporting::term::{Config, GeneralWriteResult, WriteStyle, emit_to_write_style};
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 
-use super::{concise, remarks};
+use super::concise;
+use super::remarks::remarks;
 use crate::excerpt::Excerpt;
 use crate::report::File;
 use crate::shown::{lines, one_line};
@@ -30,7 +31,7 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
         let mut writer = Writer { out: &mut drawn, colour, severity: finding.severity, name_due: false };
         match emit_to_write_style(&mut writer, &config, &scene, &diagnostic) {
             Ok(()) => write_trimmed(&drawn, out)?,
-            // What cannot be drawn must still be said.
+            // What cannot be drawn must still be reported.
             Err(_) => concise::write_line(file, finding, colour, out)?,
         }
     }

@@ -6,9 +6,9 @@
 
 use std::io::{self, Write};
 
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 
-use super::remarks;
+use super::remarks::remarks;
 use crate::Report;
 use crate::report::File;
 use crate::shown::{lines, one_line};
@@ -56,7 +56,7 @@ fn property(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use gcheck_rules::{Finding, Severity};
+    use gcheck_diagnostics::{Finding, Severity};
 
     use crate::testing::{FEED_MISSING, everything, file, on, render, report};
     use crate::{Format, Report};

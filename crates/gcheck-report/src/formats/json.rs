@@ -2,11 +2,11 @@
 //!
 //! Knows: version 1 of the object, whose members may grow but not change. Must not know: colours, source text.
 //!
-//! Files and findings stand one a line, so that the output can be compared, searched and written without holding it.
+//! Files and findings are one a line, so that the output can be compared, searched and written without holding it.
 
 use std::io::{self, Write};
 
-use gcheck_rules::Finding;
+use gcheck_diagnostics::Finding;
 use serde::Serialize;
 
 use super::list::List;
@@ -146,7 +146,7 @@ fn range(source: &Source, range: &std::ops::Range<u32>) -> JsonRange {
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use gcheck_rules::{Edit, Finding, Fix};
+    use gcheck_diagnostics::{Edit, Finding, Fix};
     use serde_json::{Value, json};
 
     use crate::testing::{FEED_MISSING, everything, on, render, report};

@@ -8,11 +8,12 @@
 
 use std::io::{self, Write};
 
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 use quick_xml::Writer;
 use quick_xml::events::BytesText;
 
-use super::{remarks, xml};
+use super::remarks::remarks;
+use super::xml;
 use crate::Report;
 use crate::report::File;
 

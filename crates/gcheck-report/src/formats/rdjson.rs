@@ -5,11 +5,11 @@
 use std::io::{self, Write};
 use std::ops::Range;
 
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 use serde::Serialize;
 
 use super::list::List;
-use super::{HOME, remarks};
+use super::remarks::{HOME, remarks};
 use crate::Report;
 use crate::report::File;
 use crate::source::Source;
@@ -106,7 +106,7 @@ fn span(source: &Source, range: &Range<u32>) -> Span {
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
-    use gcheck_rules::Fix;
+    use gcheck_diagnostics::Fix;
 
     use crate::Format;
     use crate::testing::{everything, on, render, report};

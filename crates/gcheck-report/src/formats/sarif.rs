@@ -8,12 +8,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-use gcheck_rules::{Finding, Fix, Label, RuleMeta, Severity};
+use gcheck_diagnostics::{Finding, Fix, Label, RuleMeta, Severity};
 use serde::Serialize;
 
-use super::{HOME, remarks};
-use crate::closing::number;
+use super::remarks::{HOME, remarks};
 use crate::report::File;
+use crate::shown::number;
 use crate::source::Source;
 use crate::{ControlChoice, Fingerprint, Report};
 

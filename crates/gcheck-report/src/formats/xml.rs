@@ -10,7 +10,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use crate::shown::{REPLACEMENT, lines, one_line};
 
-/// A document with its declaration and a line end behind it.
+/// A document with its declaration and a line end after it.
 pub(super) fn document(
     out: &mut dyn Write,
     write: impl FnOnce(&mut Writer<&mut dyn Write>) -> io::Result<()>,

@@ -99,6 +99,7 @@ pub(crate) mod flow {
 pub(crate) mod machine {
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
+    pub(crate) mod data_starved;
     pub(crate) mod feed_above_machine_limit;
     pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
@@ -341,7 +342,7 @@ pub(crate) mod words {
 }
 
 /// Sorted by group, then id.
-pub(crate) static ALL: &[&crate::RuleEntry] = &[
+pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &arcs::arc_centre_and_radius::RULE,
     &arcs::arc_end_off_circle::RULE,
     &arcs::arc_mode_left_on::RULE,
@@ -422,6 +423,7 @@ pub(crate) static ALL: &[&crate::RuleEntry] = &[
     &flow::unreachable_block::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
+    &machine::data_starved::RULE,
     &machine::feed_above_machine_limit::RULE,
     &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,

@@ -16,7 +16,7 @@ use crate::proto::{
     NumberOrString, Result, TextEdit, Uri,
 };
 
-/// Mends what has a fix that changes no move; editors may run it whenever a file is saved.
+/// Fixes what has a fix that changes no move; editors may run it whenever a file is saved.
 const FIX_ALL: &str = "source.fixAll.gcheck";
 
 /// The kinds of actions, for clients that ask for one kind.
@@ -72,10 +72,15 @@ impl Owner {
                 let edits = vec![FileEdits { file: id, edits: action.edits }];
                 workspace_edit(&files, edits, self.abilities.encoding, self.abilities.versioned_edits)
             });
-            let command = action.link.map(|link| Command {
+            // A client that shows pages itself needs no address.
+            let command = action.link.map(|link| match (&self.abilities.explain_command, action.rule) {
+                (Some(command), Some(rule)) => (command.clone(), rule.to_owned()),
+                _ => (OPEN_PAGE.to_owned(), link),
+            });
+            let command = command.map(|(command, argument)| Command {
                 title: action.title.clone(),
-                command: OPEN_PAGE.to_owned(),
-                arguments: Some(vec![link.into()]),
+                command,
+                arguments: Some(vec![argument.into()]),
             });
             out.push(CodeActionOrCommand::CodeAction(CodeAction {
                 title: action.title,

@@ -82,7 +82,7 @@ impl Owner {
     }
 }
 
-/// The edit that has a comment of the program name the control: in the place of one that does already, else behind the
+/// The edit that has a comment of the program name the control: in the place of one that does already, else after the
 /// lines that must come first.
 fn naming(snapshot: &Snapshot, control: &str) -> gcheck_ide::Edit {
     let mut at = 0;
@@ -114,7 +114,7 @@ fn named_control(line: &str) -> Option<std::ops::Range<usize>> {
     Some(start..start + end)
 }
 
-/// A tape mark or a program number: nothing may stand before them.
+/// A tape mark or a program number: nothing may be before them.
 fn comes_first(line: &str) -> bool {
     let line = line.trim_start();
     let digits = line.strip_prefix(['O', 'o', ':']).unwrap_or_default();
@@ -130,7 +130,7 @@ mod tests {
     fn named(text: &str) -> String {
         let control = gcheck_controls::load(gcheck_controls::fallback()).unwrap();
         let mut database = Database::new();
-        let id = database.open(text, Settings::new(control));
+        let id = database.open(text, Settings::new(control, gcheck_rules::RULES));
         let edit = naming(&database.snapshot(id).unwrap(), "acme-mill");
         let mut text = text.to_owned();
         text.replace_range(edit.range.start as usize..edit.range.end as usize, &edit.text);

@@ -1,58 +1,49 @@
-//! What is at the cursor: hover, completion, signatures, other places of the same, ranges around.
+//! What is at the cursor: hover, signatures, other places of the same, ranges around.
 //!
 //! Knows: their forms in the protocol. Must not know: how they are worked out.
 
-use gcheck_ide::{Completion, CompletionKind, ReferenceKind};
+use gcheck_ide::ReferenceKind;
 
-use super::{given_up, markdown, text_edit};
+use super::{given_up, markdown};
 use crate::owner::Owner;
 use crate::proto::{
-    CompletionItem, CompletionItemKind, CompletionList, CompletionParams, CompletionResponse,
-    CompletionTextEdit, DocumentHighlight, DocumentHighlightKind, DocumentHighlightParams, Documentation,
-    Hover, HoverContents, HoverParams, InsertTextFormat, MarkupContent, MarkupKind, ParameterInformation,
-    ParameterLabel, Result, SelectionRange, SelectionRangeParams, SignatureHelp, SignatureHelpParams,
-    SignatureInformation,
+    DocumentHighlight, DocumentHighlightKind, DocumentHighlightParams, Documentation, Hover, HoverContents,
+    HoverParams, MarkupContent, MarkupKind, ParameterInformation, ParameterLabel, Result, SelectionRange,
+    SelectionRangeParams, SignatureHelp, SignatureHelpParams, SignatureHelpTriggerKind, SignatureInformation,
 };
 
 impl Owner {
     pub(crate) fn hover(&mut self, params: &HoverParams, stop: &dyn Fn() -> bool) -> Result<Option<Hover>> {
         let at = &params.text_document_position_params;
         let (id, offset) = self.place(at)?;
-        let analysis = self.known_analysis(&at.text_document.uri);
-        let hover = gcheck_ide::hover(&mut self.database, id, offset, analysis.as_deref(), stop);
-        let Some(hover) = hover.map_err(given_up)? else { return Ok(None) };
+        let hover = gcheck_ide::hover(&mut self.database, id, offset, stop);
+        let Some(mut hover) = hover.map_err(given_up)? else { return Ok(None) };
         let snapshot = self.snapshot(&at.text_document.uri)?;
+        if let Some(code) = &hover.code {
+            let control = snapshot.control().name();
+            hover.markdown.push_str("\n\n");
+            hover.markdown.push_str(&more(code, control, self.abilities.explain_command.as_deref()));
+        }
         let range = self.places(&snapshot).range(&hover.range);
         let kind = if self.abilities.markdown_hover { MarkupKind::Markdown } else { MarkupKind::PlainText };
         let contents = HoverContents::Markup(MarkupContent { kind, value: hover.markdown });
         Ok(Some(Hover { contents, range: Some(range) }))
     }
 
-    pub(crate) fn completion(
+    pub(crate) fn signature_help(
         &mut self,
-        params: &CompletionParams,
+        params: &SignatureHelpParams,
         stop: &dyn Fn() -> bool,
-    ) -> Result<Option<CompletionResponse>> {
-        let at = &params.text_document_position;
-        let (id, offset) = self.place(at)?;
-        let uri = &at.text_document.uri;
-        let files = self.workspace_of(uri)?;
-        let found = gcheck_ide::completion(&mut self.database, &files.workspace, id, offset, stop);
-        let snapshot = self.snapshot(uri)?;
-        let mut places = self.places(&snapshot);
-        let snippets = self.abilities.snippets;
-        let found = found.map_err(given_up)?;
-        let items = found.into_iter().filter(|item| snippets || !item.is_snippet);
-        let items = items.map(|item| completion_item(item, &mut places)).collect();
-        // What fits depends on the block, so each letter asks again.
-        Ok(Some(CompletionResponse::List(CompletionList { is_incomplete: true, items })))
-    }
-
-    pub(crate) fn signature_help(&mut self, params: &SignatureHelpParams) -> Result<Option<SignatureHelp>> {
+    ) -> Result<Option<SignatureHelp>> {
         let at = &params.text_document_position_params;
         let (id, offset) = self.place(at)?;
         let files = self.workspace_of(&at.text_document.uri)?;
-        let found = gcheck_ide::signature_help(&files.workspace, id, offset);
+        // A client that says nothing of why it asks does so because its user does.
+        let kind = params.context.as_ref().map(|context| &context.trigger_kind);
+        let is_asked = kind.is_none_or(|kind| *kind == SignatureHelpTriggerKind::INVOKED);
+        let found =
+            gcheck_ide::signature_help(&mut self.database, &files.workspace, id, offset, is_asked, stop);
+        let found = found.map_err(given_up)?;
         let active = found.first().and_then(|signature| signature.active);
         let signatures: Vec<SignatureInformation> = found
             .into_iter()
@@ -123,29 +114,28 @@ impl Owner {
     }
 }
 
-fn completion_item(item: Completion, places: &mut crate::position::Places<'_>) -> CompletionItem {
-    let kind = match item.kind {
-        CompletionKind::Code => CompletionItemKind::OPERATOR,
-        CompletionKind::Word => CompletionItemKind::PROPERTY,
-        CompletionKind::Variable => CompletionItemKind::VARIABLE,
-        CompletionKind::Function => CompletionItemKind::FUNCTION,
-        CompletionKind::Keyword => CompletionItemKind::KEYWORD,
-        CompletionKind::Label => CompletionItemKind::REFERENCE,
-        CompletionKind::Program => CompletionItemKind::MODULE,
-        CompletionKind::Snippet => CompletionItemKind::SNIPPET,
-        CompletionKind::Rule => CompletionItemKind::ENUM_MEMBER,
-        CompletionKind::Control => CompletionItemKind::CONSTANT,
-    };
-    let format = if item.is_snippet { InsertTextFormat::SNIPPET } else { InsertTextFormat::PLAIN_TEXT };
-    CompletionItem {
-        label: item.label,
-        kind: Some(kind),
-        detail: Some(item.detail).filter(|detail| !detail.is_empty()),
-        documentation: item.documentation.map(|text| Documentation::MarkupContent(markdown(text))),
-        sort_text: Some(item.sort),
-        filter_text: Some(item.filter),
-        insert_text_format: Some(format),
-        text_edit: Some(CompletionTextEdit::Edit(text_edit(item.edit, places))),
-        ..CompletionItem::default()
+/// Where all about a code is told: a link to the client's command that shows it, else the command line's.
+fn more(code: &str, control: &str, command: Option<&str>) -> String {
+    match command {
+        // Names of codes and controls are letters, digits, points and dashes; quotes and brackets are escaped for the address.
+        Some(command) => format!("[All about {code}](command:{command}?%5B%22{code}%22,%22{control}%22%5D)"),
+        None => format!("`gcheck explain {code} --control {control}` tells all about it"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::more;
+
+    #[test]
+    fn a_client_with_a_command_is_given_a_link() {
+        assert_eq!(
+            more("G54.1", "haas-mill", Some("gcheck.explain")),
+            "[All about G54.1](command:gcheck.explain?%5B%22G54.1%22,%22haas-mill%22%5D)"
+        );
+        assert_eq!(
+            more("G83", "linuxcnc", None),
+            "`gcheck explain G83 --control linuxcnc` tells all about it"
+        );
     }
 }

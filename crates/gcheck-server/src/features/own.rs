@@ -9,7 +9,7 @@ use super::given_up;
 use crate::mailbox::Reply;
 use crate::owner::Owner;
 use crate::position::Places;
-use crate::proto::{Position, Result, TextDocumentIdentifier, TextDocumentPositionParams, Uri};
+use crate::proto::{Error, Position, Result, TextDocumentIdentifier, TextDocumentPositionParams, Uri};
 
 /// A document, and a place in it where one is meant.
 #[derive(Debug, Deserialize)]
@@ -17,6 +17,18 @@ use crate::proto::{Position, Result, TextDocumentIdentifier, TextDocumentPositio
 pub(crate) struct OwnParams {
     text_document: TextDocumentIdentifier,
     position: Option<Position>,
+}
+
+/// What `gcheck/explain` is given.
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(crate) struct ExplainParams {
+    /// A rule or a code.
+    subject: String,
+    /// The document whose control reads the code.
+    text_document: Option<TextDocumentIdentifier>,
+    /// The control, where no document is named.
+    control: Option<String>,
 }
 
 /// A control that programs may be written for.
@@ -49,6 +61,21 @@ impl Owner {
         let mut value = serde_json::to_value(state).unwrap_or_default();
         place_bytes(&mut value, &mut self.places(&snapshot));
         Ok(value)
+    }
+
+    /// `gcheck/explain`: all about a rule or a code in Markdown; `null` for what nobody knows.
+    pub(crate) fn explain(&mut self, params: &ExplainParams) -> Result<Option<String>> {
+        let subject = params.subject.trim();
+        if let Some(document) = &params.text_document {
+            self.choose_settings(&document.uri);
+            // The codes of the shop are those of the document's configuration.
+            let snapshot = self.snapshot(&document.uri)?;
+            return Ok(gcheck_ide::explain(self.host.0.rules(), snapshot.control(), subject));
+        }
+        let name = params.control.as_deref().unwrap_or(gcheck_controls::fallback());
+        let control =
+            gcheck_controls::load(name).map_err(|error| Error::invalid_params(error.to_string()))?;
+        Ok(gcheck_ide::explain(self.host.0.rules(), &control, subject))
     }
 
     /// `gcheck/syntaxTree`: the tree of the block at a position, or of the document, as text.

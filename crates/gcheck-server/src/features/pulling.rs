@@ -50,6 +50,17 @@ impl Owner {
             };
             return Ok(DocumentDiagnosticReport::Unchanged(report).into());
         }
+        // A user who wants findings when a program is saved is shown those of the text that was saved last.
+        if !self.document(uri)?.wants_findings
+            && let Some(previous) = &params.previous_result_id
+        {
+            let unchanged = UnchangedDocumentDiagnosticReport { result_id: previous.clone() };
+            let report = RelatedUnchangedDocumentDiagnosticReport {
+                related_documents: None,
+                unchanged_document_diagnostic_report: unchanged,
+            };
+            return Ok(DocumentDiagnosticReport::Unchanged(report).into());
+        }
         let analysis = self.analyse(uri, stop).map_err(|_| ask_again())?;
         let items = self.diagnostics_of(uri, analysis.as_deref());
         let report = RelatedFullDocumentDiagnosticReport {
@@ -137,7 +148,7 @@ impl Unopened {
         path: &std::path::Path,
         stop: &dyn Fn() -> bool,
     ) -> Option<Vec<crate::proto::Diagnostic>> {
-        let text = self.host.0.read(path)?;
+        let text = self.host.0.read(path)?.text;
         let mut database = Database::new();
         let settings = self.settings(path, &text)?;
         let id = database.open(&text, settings);

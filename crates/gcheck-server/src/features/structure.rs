@@ -13,8 +13,8 @@ use crate::owner::Owner;
 use crate::position::Places;
 use crate::proto::{
     CodeLens, CodeLensParams, CodeLensRefresh, Command, DocumentSymbol, DocumentSymbolParams,
-    DocumentSymbolResponse, FoldingRange, FoldingRangeKind, FoldingRangeParams, InlayHint, InlayHintKind,
-    InlayHintLabel, InlayHintParams, InlayHintTooltip, Location, Range, Result, SemanticToken,
+    DocumentSymbolResponse, Error, FoldingRange, FoldingRangeKind, FoldingRangeParams, InlayHint,
+    InlayHintKind, InlayHintLabel, InlayHintParams, InlayHintTooltip, Location, Range, Result, SemanticToken,
     SemanticTokens, SemanticTokensParams, SemanticTokensRangeParams, SemanticTokensRangeResult,
     SemanticTokensResult, SymbolInformation, SymbolKind, Uri,
 };
@@ -229,9 +229,12 @@ impl Owner {
         let (mailbox, encoding) = (self.mailbox.clone(), self.abilities.encoding);
         let fuel = snapshot.settings().execution.fuel;
         self.workers.start_work(move || {
-            // Somebody who waits wants them even if they are of a text that is gone; else they are worth no more than the text.
-            let stop = || reply.as_ref().map_or_else(|| clock.now() != now, Reply::is_cancelled);
+            // An edit outdates the run: the program may have been endless, and is no longer.
+            let stop = || clock.now() != now || reply.as_ref().is_some_and(Reply::is_cancelled);
             let Ok(figures) = gcheck_ide::figures(&snapshot, fuel, &stop) else {
+                if let Some(reply) = reply {
+                    reply.send(Err(Error::content_modified()));
+                }
                 mailbox.post("figures", Kind::Result, move |owner| owner.have_no_figures(&uri));
                 return;
             };

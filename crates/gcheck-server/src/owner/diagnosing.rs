@@ -146,7 +146,7 @@ impl Owner {
         if let Some(document) = self.documents.get_mut(uri) {
             document.failed = Some(document.clock.now());
             let name = document.name();
-            let message = format!("{name} is not checked as it stands: gcheck met a mistake of its own");
+            let message = format!("{name} is not checked: gcheck has an internal error");
             self.outbox.show(MessageType::WARNING, message);
         }
     }
@@ -173,7 +173,7 @@ impl Owner {
         }
         self.shown_problems.clear();
         for (path, list) in by_file {
-            // What is wrong in a program stands among its own diagnostics.
+            // What is wrong in a program is among its own diagnostics.
             if own(&path) {
                 continue;
             }

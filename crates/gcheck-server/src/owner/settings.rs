@@ -3,7 +3,7 @@
 //! Knows: when settings have to be chosen again. Must not know: where they come from.
 
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use gcheck_db::Settings;
 use serde::Serialize;
@@ -21,19 +21,6 @@ use crate::proto::{
     RegistrationParams, SemanticTokensRefresh, Uri, WorkspaceConfiguration, WorkspaceDiagnosticRefresh,
 };
 use crate::{InForce, OpenPrograms, ProgramQuery};
-
-/// What is in force where the user has set nothing.
-static NOTHING_SET: LazyLock<ClientSettings> = LazyLock::new(|| ClientSettings::read(&Value::Null).0);
-
-/// The settings of the folder that a file lies in, else those for all.
-pub(super) fn nearest<'s>(
-    settings: &'s [(Option<PathBuf>, ClientSettings)],
-    path: &Path,
-) -> &'s ClientSettings {
-    let fitting = settings.iter().filter(|(folder, _)| folder.as_ref().is_none_or(|f| path.starts_with(f)));
-    let nearest = fitting.max_by_key(|(folder, _)| folder.as_ref().map_or(0, |f| f.as_os_str().len() + 1));
-    nearest.map_or(&NOTHING_SET, |(_, settings)| settings)
-}
 
 impl Owner {
     /// Takes what the client says of itself when it begins.
@@ -118,7 +105,7 @@ impl Owner {
         let mut all: Vec<(Option<PathBuf>, ClientSettings)> = Vec::new();
         for (folder, value) in values {
             let (settings, complaints) = ClientSettings::read(&value);
-            // Each folder repeats what is said of all.
+            // Each folder repeats what holds for all.
             if folder.is_none() {
                 for complaint in complaints {
                     self.outbox.show(MessageType::WARNING, complaint);
@@ -153,9 +140,11 @@ impl Owner {
         self.host.0.forget();
         self.disk.forget(&mut self.database);
         self.world += 1;
-        for document in self.documents.values_mut() {
+        let wanted: Vec<bool> =
+            self.documents.values().map(|document| self.wants_findings(document)).collect();
+        for (document, wants_findings) in self.documents.values_mut().zip(wanted) {
             document.changed(Stale::Settings);
-            document.wants_findings = true;
+            document.wants_findings = wants_findings;
         }
         if !self.is_ready {
             return;
@@ -252,7 +241,7 @@ impl Owner {
 impl Unopened {
     /// The settings of a program on disk.
     pub(crate) fn settings(&self, path: &Path, text: &str) -> Option<Settings> {
-        let client = nearest(&self.client_settings, path);
+        let client = ClientSettings::nearest(&self.client_settings, path);
         let open: Arc<dyn OpenPrograms> = Arc::<OpenTexts>::clone(&self.open);
         let query = ProgramQuery {
             path,
@@ -272,6 +261,8 @@ struct Status {
     uri: String,
     /// The control's name.
     control: String,
+    /// What it is, in words.
+    title: String,
     /// `option`, `comment`, `configuration`, `detected` or `default`.
     source: String,
     /// What made it so.
@@ -288,6 +279,9 @@ impl Status {
         Self {
             uri: document.uri.as_str().to_owned(),
             control: choice.control.clone(),
+            title: gcheck_controls::load(&choice.control)
+                .map(|control| control.title().to_owned())
+                .unwrap_or_default(),
             source: choice.source.clone(),
             because: choice.because.clone(),
             configuration: configuration.as_ref().map(|path| path.display().to_string()),
@@ -298,6 +292,6 @@ impl Status {
 
 /// As much of a text as the choice of its control looks at: whole lines.
 pub(super) fn head(snapshot: &gcheck_db::Snapshot) -> String {
-    let line = snapshot.line_at((gcheck_rules::EVIDENCE_BYTES as u32).min(snapshot.len()));
+    let line = snapshot.line_at((gcheck_program::EVIDENCE_BYTES as u32).min(snapshot.len()));
     snapshot.slice(0..snapshot.line_range(line).end).into_owned()
 }

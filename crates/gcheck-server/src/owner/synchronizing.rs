@@ -11,7 +11,7 @@ use crate::client::Moment;
 use crate::documents::{Clock, Document, Stale};
 use crate::proto::{
     DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri,
+    DidSaveTextDocumentParams, MessageType, TextDocumentContentChangeEvent, Uri, WorkspaceDiagnosticRefresh,
 };
 use crate::{Choice, InForce};
 
@@ -22,7 +22,7 @@ impl Owner {
         self.touches += 1;
         let touched = self.touches;
         if let Some(document) = self.documents.get_mut(&uri) {
-            let message = format!("{} is opened though it is open: its text is taken anew", uri.as_str());
+            let message = format!("{} is opened though it is open: its text is taken again", uri.as_str());
             self.outbox.log(MessageType::WARNING, message);
             self.database.set_text(document.id, &opened.text);
             document.version = opened.version;
@@ -38,6 +38,7 @@ impl Owner {
         let document = Document {
             uri: uri.clone(),
             id,
+            number: touched,
             version: opened.version,
             in_force: InForce {
                 settings: None,
@@ -50,6 +51,7 @@ impl Owner {
             stale: Stale::Settings,
             clock: Clock::default(),
             wants_findings: true,
+            is_edited: false,
             published: None,
             looked_ahead: None,
             given_up: 0,
@@ -85,15 +87,21 @@ impl Owner {
         document.version = version;
         document.touched = touched;
         document.wants_findings = false;
+        document.is_edited = true;
         for change in &params.content_changes {
             self.apply(&uri, change);
         }
         self.text_changed(&uri);
         let Some(document) = self.documents.get(&uri) else { return };
-        let on_type = self.client_settings(document).run == Moment::OnType;
+        let wants_findings = self.wants_findings(document);
         if let Some(document) = self.documents.get_mut(&uri) {
-            document.wants_findings = on_type;
+            document.wants_findings = wants_findings;
         }
+    }
+
+    /// Does the user want to see findings of the text as it is?
+    pub(super) fn wants_findings(&self, document: &Document) -> bool {
+        self.client_settings(document).run == Moment::OnType || !document.is_edited
     }
 
     fn apply(&mut self, uri: &Uri, change: &TextDocumentContentChangeEvent) {
@@ -102,7 +110,7 @@ impl Owner {
         let bytes = change.range.map(|range| places.bytes(range));
         // What chooses the control reads whole lines.
         let line = bytes.as_ref().map(|bytes| snapshot.line_range(snapshot.line_at(bytes.start)).start);
-        let in_head = line.is_none_or(|start| start as usize <= gcheck_rules::EVIDENCE_BYTES);
+        let in_head = line.is_none_or(|start| start as usize <= gcheck_program::EVIDENCE_BYTES);
         let Some(document) = self.documents.get_mut(uri) else { return };
         match bytes {
             None => {
@@ -121,8 +129,13 @@ impl Owner {
     }
 
     pub(crate) fn did_save(&mut self, params: &DidSaveTextDocumentParams) {
-        if let Some(document) = self.documents.get_mut(&params.text_document.uri) {
-            document.wants_findings = true;
+        let Some(document) = self.documents.get_mut(&params.text_document.uri) else { return };
+        let had_waited = !document.wants_findings;
+        document.wants_findings = true;
+        document.is_edited = false;
+        // A client that asks for findings does so when the text changes, not when it is saved.
+        if had_waited && self.abilities.pulls && self.abilities.refreshes_diagnostics {
+            self.outbox.ask::<WorkspaceDiagnosticRefresh>((), |_| ());
         }
     }
 
@@ -170,7 +183,7 @@ impl Owner {
         }
     }
 
-    /// Where a document is on disk, or would be: what is no file is taken for one in the first folder of the workspace.
+    /// Where a document is on disk, or would be: what is not a file is taken for one in the first folder of the workspace.
     fn path_of(&self, uri: &Uri) -> PathBuf {
         path_of(uri).unwrap_or_else(|| {
             let text = uri.as_str();

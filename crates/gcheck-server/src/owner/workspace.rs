@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use gcheck_db::{Database, DocumentId, Settings, Snapshot};
+use gcheck_db::{DocumentId, Settings, Snapshot};
 use gcheck_ide::{Place, Workspace, WorkspaceFile};
 
+use super::disk::Loaded;
 use super::{Owner, fallback_settings, not_open};
 use crate::ProgramFile;
 use crate::documents::file_name;
@@ -23,42 +24,6 @@ const MOST_FILES: usize = 2_000;
 const MOST_BYTES: u64 = 64 << 20;
 /// How long a list of files is believed.
 const FRESH: Duration = Duration::from_secs(2);
-
-/// What is loaded from disk.
-#[derive(Debug, Default)]
-pub(super) struct Disk {
-    lists: BTreeMap<(PathBuf, bool), (Instant, Vec<ProgramFile>)>,
-    files: BTreeMap<PathBuf, Loaded>,
-}
-
-/// A program that was read from disk.
-#[derive(Debug)]
-struct Loaded {
-    id: DocumentId,
-    size: u64,
-    stamp: u64,
-}
-
-impl Disk {
-    /// Lists are made anew; files that did not change stay.
-    pub(super) fn forget(&mut self, database: &mut Database) {
-        self.lists.clear();
-        // Their settings may be others.
-        for (_, loaded) in std::mem::take(&mut self.files) {
-            database.close(loaded.id);
-        }
-    }
-
-    pub(super) fn forget_file(&mut self, path: &Path, database: &mut Database) {
-        if let Some(loaded) = self.files.remove(path) {
-            database.close(loaded.id);
-        }
-    }
-
-    fn bytes(&self) -> u64 {
-        self.files.values().map(|loaded| loaded.size).sum()
-    }
-}
 
 /// What features look at, with the addresses of its files.
 #[derive(Debug, Clone)]
@@ -192,25 +157,31 @@ impl Owner {
             return None;
         }
         let text = self.host.0.read(&file.path)?;
-        let id = self.database.open(&text, settings.clone());
-        self.disk.files.insert(file.path.clone(), Loaded { id, size: file.size, stamp: file.stamp });
+        // Names and comments are shown to people.
+        let id = self.database.open(&text.readable(), settings.clone());
+        let loaded = Loaded { id, size: file.size, stamp: file.stamp, widened: text.widened() };
+        self.disk.files.insert(file.path.clone(), loaded);
         Some(id)
     }
 
     /// A place in a file that a finding names by its path.
     pub(crate) fn location_in(&mut self, path: &Path, bytes: &Range<u32>) -> Option<Location> {
         let open = self.documents.values().find(|document| document.path == path);
+        let mut bytes = bytes.clone();
         let (id, uri) = match open {
             Some(document) => (document.id, document.uri.clone()),
             None => {
                 let uri = Uri::from_file_path(path)?;
                 let folder = path.parent()?.to_owned();
                 let file = self.list(&folder, false).into_iter().find(|file| file.path == path)?;
-                (self.load_file(&file, &fallback_settings())?, uri)
+                let id = self.load_file(&file, &fallback_settings())?;
+                bytes =
+                    self.disk.files.get(path).map_or(bytes.clone(), |loaded| loaded.widened.range(&bytes));
+                (id, uri)
             }
         };
         let snapshot = self.database.snapshot(id)?;
-        let range = self.places(&snapshot).range(bytes);
+        let range = self.places(&snapshot).range(&bytes);
         Some(Location::new(uri, range))
     }
 }

@@ -100,7 +100,7 @@ pub enum Value {
     Cutter(Option<u32>),
     /// Mist, flood, through the spindle.
     Coolant([Option<bool>; 3]),
-    /// Something that happens while the axes stand.
+    /// Something that happens while the axes do not move.
     Stand(Stand),
 }
 
@@ -123,7 +123,7 @@ pub struct Difference {
     pub values: [Option<Value>; 2],
 }
 
-/// Where two paths part. Nothing behind it is compared.
+/// Where two paths part. Nothing after it is compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
     /// The move of the first run, or its last one when it has none left; `None` when it has none at all.
@@ -149,7 +149,7 @@ pub struct Differences {
     pub unknown: bool,
     kept: Vec<Difference>,
     counts: [u64; Aspect::ALL.len()],
-    /// The values that differ at the moment: that they differ still is no further difference.
+    /// The values that differ at the moment: that they differ still is not a further difference.
     current: [Option<[Option<Value>; 2]>; Aspect::ALL.len()],
 }
 

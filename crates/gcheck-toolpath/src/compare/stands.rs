@@ -5,7 +5,7 @@
 use std::sync::Arc as Shared;
 
 use super::difference::{Aspect, Differences, Place, Value};
-use super::rate_differs;
+use super::same::{known_differ, rate_differs};
 use crate::trail::{Act, Doing, Stand};
 
 /// Matches what both sides do between the same two moves, in order, and adds what has no counterpart or another value.
@@ -97,7 +97,7 @@ fn matched(found: &mut Differences, a: &Act, b: &Act) {
         (Stand::Bar(_, a), Stand::Bar(_, b)) | (Stand::Wrap(a), Stand::Wrap(b)) => {
             a.is_some() != b.is_some() || rate_differs(a.unwrap_or(0.0), b.unwrap_or(0.0))
         }
-        (Stand::ToolChange(a), Stand::ToolChange(b)) => super::known_differ(*a, *b),
+        (Stand::ToolChange(a), Stand::ToolChange(b)) => known_differ(*a, *b),
         (Stand::UserCommand(_, words_a), Stand::UserCommand(_, words_b)) => {
             words_a.iter().zip(words_b).any(|(a, b)| rate_differs(*a, *b))
         }

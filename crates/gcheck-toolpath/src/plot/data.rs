@@ -1,4 +1,4 @@
-//! A drawing as the data that the viewer reads; viewer.js says what stands in it.
+//! A drawing as the data that the viewer reads; viewer.js says what is in it.
 //!
 //! Knows: names and encoding of the fields. Must not know: what the viewer makes of them.
 
@@ -43,7 +43,7 @@ struct ToolData {
 }
 
 impl Drawing {
-    /// The drawing for the viewer of `plot/viewer.js`, which says at its top what stands in it.
+    /// The drawing for the viewer of `plot/viewer.js`, which says at its top what is in it.
     pub fn to_json(&self, names: &Names<'_>) -> Value {
         // Only maps without string keys cannot be values, and there are none.
         serde_json::to_value(self.viewer_data(names)).unwrap_or_default()

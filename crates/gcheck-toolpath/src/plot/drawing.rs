@@ -1,6 +1,6 @@
 //! What is drawn: points in the order of the run, tools, files, extents.
 //!
-//! Knows: the form of a recorded path and what has to be said beside it. Must not know: SVG, pages, how paths come about.
+//! Knows: the form of a recorded path and the notes beside it. Must not know: SVG, pages, how paths come about.
 
 use std::fmt::Write as _;
 
@@ -76,7 +76,7 @@ pub struct Thinned {
 
 /// The recorded path of a run.
 #[derive(Debug, Clone)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own about the path")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a separate fact about the path")]
 pub struct Drawing {
     pub(super) view: View,
     pub(super) lathe: bool,
@@ -159,7 +159,7 @@ impl Drawing {
             );
         }
         if self.turned {
-            notes.push("rotary axes are not drawn: the tool moves as if the work stood still".to_owned());
+            notes.push("rotary axes are not drawn: the tool moves as if the work did not move".to_owned());
         }
         if self.pockets > 0 {
             notes.push(

@@ -26,7 +26,7 @@ const BODY: &str = include_str!("page.html");
 /// Nothing is loaded, whatever the program's text holds.
 const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'";
 
-/// What stands in a page beside the drawing.
+/// What is in a page beside the drawing.
 #[derive(Debug, Clone, Copy)]
 pub struct Page<'a> {
     /// What the page is called: the program's name.

@@ -100,7 +100,7 @@ struct Panel {
     size: [f64; 2],
     /// Pixels a millimetre.
     scale: f64,
-    /// What stands in the middle, in the coordinates of the look.
+    /// What is in the middle, in the coordinates of the look.
     middle: [f64; 2],
 }
 
@@ -122,7 +122,7 @@ impl Drawing {
         self.lathe
     }
 
-    /// The drawing as an SVG file. `title` stands above it, `further` notes below those of the drawing.
+    /// The drawing as an SVG file. `title` is above it, `further` notes below those of the drawing.
     pub fn to_svg(&self, title: &str, further: &[String], names: &Names<'_>) -> String {
         let mut notes = self.notes();
         notes.extend_from_slice(further);

@@ -98,7 +98,7 @@ fn is_near(from: &Point, to: &Point, point: &Point, tolerance: f64) -> bool {
     away - 2.0 * share * along + share * share * square <= tolerance * tolerance
 }
 
-/// Leaves out every second point that is no start of a path; where there are none, every second path.
+/// Leaves out every second point that is not a start of a path; where there are none, every second path.
 fn leave_out(points: &mut Vec<Point>) {
     let before = points.len();
     let mut odd = false;

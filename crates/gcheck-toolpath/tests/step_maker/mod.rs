@@ -41,7 +41,7 @@ pub(crate) struct Run {
     pub(crate) beside: Option<Beside>,
 }
 
-/// Lines behind bars, which keep their columns in an expectation.
+/// Lines after bars, which keep their columns in an expectation.
 pub(crate) fn barred(lines: &[&str]) -> String {
     lines.iter().flat_map(|line| ["|", line, "\n"]).collect()
 }

@@ -1,15 +1,15 @@
-//! Results of earlier runs: what was found in a program is read instead of found anew.
+//! Results of earlier runs: what was found in a program is read instead of found again.
 //!
 //! Knows: a folder of entries, when one may be trusted, how the folder stays bounded. Must not know: rules, formats, how a
 //! file is checked.
 //!
 //! An entry is found by its [`Key`]: the program's bytes, everything that is in force for it, the build of gcheck. What
-//! cannot be known beforehand, namely which other programs the check looked for and what it found, stands in the entry as
+//! cannot be known beforehand, namely which other programs the check looked for and what it found, is in the entry as
 //! [questions with their answers](questions) and is asked again before the entry is used. So a verdict out of the cache is
 //! the verdict that a check would give.
 //!
 //! Nothing about the cache is an error of a run: an entry that is damaged, torn or not ours is as good as none, and is
-//! written anew. Entries are written to a temporary file that then takes its name, so processes that share a folder never
+//! written again. Entries are written to a temporary file that then takes its name, so processes that share a folder never
 //! read half an entry.
 
 mod entry;
@@ -73,16 +73,14 @@ impl Cache {
     /// The cache of a run: in the folder that was named, or in the user's own.
     ///
     /// # Errors
-    /// When the named folder holds other things, or cannot be made. Without a name there is just no cache then.
+    /// When the named folder holds other files, or cannot be made. Without a name there is just no cache then.
     pub(super) fn open(named: Option<&Path>) -> Result<Option<Self>, Problem> {
         let Some(folder) = named.map(Path::to_owned).or_else(usual_folder) else { return Ok(None) };
         match prepare(&folder) {
             Ok(true) => Ok(Some(Self { folder, stored: AtomicU64::new(0), begun: AtomicU64::new(0) })),
             Ok(false) | Err(_) if named.is_none() => Ok(None),
-            Ok(false) => {
-                Err(Problem::with_file(&folder, "holds other things, so it is no place for the cache")
-                    .help("name a folder of its own: one that is empty or does not exist yet"))
-            }
+            Ok(false) => Err(Problem::with_file(&folder, "holds other files, so it cannot be the cache")
+                .help("name a folder of its own: one that is empty or does not exist yet")),
             Err(error) => {
                 Err(Problem::with_file(&folder, format!("cannot be the cache: {}", io_reason(&error))))
             }
@@ -102,7 +100,7 @@ impl Cache {
         Some(entry)
     }
 
-    /// Stores a result. That it cannot be stored is nobody's business: the next run finds it anew.
+    /// Stores a result. That it cannot be stored is nobody's business: the next run finds it again.
     pub(super) fn store(&self, key: Key, entry: &Entry) {
         let Some(payload) = entry.encode().filter(|payload| payload.len() <= MAX_ENTRY) else { return };
         let bytes = [MAGIC, check_sum(key, &payload).as_slice(), &payload].concat();
@@ -124,7 +122,7 @@ impl Cache {
                 write()
             })
             .inspect_err(|_| {
-                // Nothing of ours stays behind; that the clean-up may fail as well changes nothing.
+                // Nothing of ours remains; that the clean-up may fail as well changes nothing.
                 let _ = fs::remove_file(&temporary);
             })
     }
@@ -163,7 +161,7 @@ fn usual_folder() -> Option<PathBuf> {
     Some(caches.join("gcheck"))
 }
 
-/// Makes the folder, and marks it as what it is; false if it holds other things.
+/// Makes the folder, and marks it as what it is; false if it holds other files.
 fn prepare(folder: &Path) -> io::Result<bool> {
     let tag = folder.join(TAG);
     // A tag of another program's cache is not enough.
@@ -274,7 +272,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         fs::write(folder.path().join("part.nc"), "G0").unwrap();
         let problem = Cache::open(Some(folder.path())).unwrap_err().to_string();
-        assert!(problem.contains("holds other things"), "{problem}");
+        assert!(problem.contains("holds other files"), "{problem}");
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

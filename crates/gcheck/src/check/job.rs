@@ -6,20 +6,20 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use gcheck_diagnostics::FixKinds;
 use gcheck_engine::Model;
+use gcheck_lint::{Environment, Execution, Fixed, Job, Selection, check, describe_all, fix_all};
 use gcheck_program::Dialect;
 use gcheck_report::{ControlChoice, ControlSource, FileReport};
-use gcheck_rules::{Execution, FixKinds, Job, Mended, Scene, Selection, check, describe_all, mend};
 use gcheck_syntax::SourceText;
 
 use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
-use super::read;
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
 use crate::control_choice::choose;
 use crate::in_force::Controls;
 use crate::programs::{ProgramFolders, Reachable};
-use crate::{Problem, in_force};
+use crate::{Problem, in_force, reading};
 
 /// A file that is to be checked.
 #[derive(Debug)]
@@ -29,6 +29,11 @@ pub(super) struct Target {
     pub(super) shown: String,
     pub(super) is_standard_input: bool,
     pub(super) config: Arc<Config>,
+}
+
+/// Reads a target.
+fn read(target: &Target) -> Result<SourceText, Problem> {
+    if target.is_standard_input { reading::standard_input(&target.path) } else { reading::file(&target.path) }
 }
 
 /// What all files of a run share.
@@ -130,7 +135,7 @@ pub(super) fn guarded(bench: &Bench<'_>, target: &Target) -> Result<Checked, Pro
 fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     let source = read(target)?;
     let settings = target.config.settings(&target.path);
-    // What is mended is checked over and over, and what comes in by a pipe has no place.
+    // What is fixed is checked over and over, and what comes in by a pipe has no place.
     let cache = bench.cache.as_ref().filter(|_| bench.fixes.is_none() && !target.is_standard_input);
     let slot = cache.and_then(|(cache, run)| Some((cache, run.key(&target.shown, &source, &settings)?)));
     if let Some(verdict) = slot.and_then(|(cache, key)| known(bench, target, &settings, cache, key)) {
@@ -143,7 +148,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     let questions = Questions::new(&programs);
     let model = Model::new(&control);
     let machine = in_force::machine(&settings, &control, bench.set)?;
-    let scene = Scene {
+    let environment = Environment {
         dialect: &dialect,
         machine: &machine,
         programs: &questions,
@@ -152,23 +157,23 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
     let run = |source: &SourceText| {
         check(&Job {
             source,
-            scene,
+            environment,
             selection: &selection,
             suppressions: bench.suppressions,
             execution: bench.execution,
         })
     };
-    let (Mended { source, outcome, count: fixed }, change) = match bench.fixes {
+    let (Fixed { source, outcome, count: fixed }, change) = match bench.fixes {
         None => {
             let outcome = run(&source);
-            (Mended { source, outcome, count: 0 }, None)
+            (Fixed { source, outcome, count: 0 }, None)
         }
         Some(kinds) => {
             let before = source.to_bytes();
-            let mended = mend(source, kinds, run);
-            let after = mended.source.to_bytes();
+            let fixed = fix_all(source, kinds, run);
+            let after = fixed.source.to_bytes();
             let change = (after != before).then_some(Change { before, after });
-            (mended, change)
+            (fixed, change)
         }
     };
     let verdict = Verdict {
@@ -178,7 +183,7 @@ fn check_file(bench: &Bench<'_>, target: &Target) -> Result<Checked, Problem> {
         lines: outcome.lines,
         suppressed: outcome.suppressed,
         out_of_fuel: outcome.out_of_fuel,
-        assumptions: describe_all(&outcome.ledger, &model),
+        assumptions: describe_all(&outcome.assumptions, &model),
     };
     if let Some((cache, key)) = slot {
         cache.store(key, &Entry::new(questions.into_asked(), &verdict));

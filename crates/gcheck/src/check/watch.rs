@@ -16,8 +16,9 @@ use std::time::Duration;
 use notify::event::{CreateKind, ModifyKind};
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher as _};
 
-use super::{Check, Looked, say};
+use super::round::{Check, Looked};
 use crate::config::FILE_NAMES;
+use crate::console::{report, say};
 use crate::discovery::is_program_name;
 use crate::{Problem, paths};
 
@@ -48,8 +49,8 @@ pub(super) fn run(command: &Check<'_>) -> Result<u8, Problem> {
             let _ = io::stdout().write_all(b"\x1b[2J\x1b[3J\x1b[H");
         }
         if let Err(problem) = command.round(&mut looked) {
-            // It may be mended while we watch.
-            crate::report(&problem);
+            // It may be fixed while we watch.
+            report(&problem);
         }
         watch.add(command, &looked);
         if !command.global.quiet {

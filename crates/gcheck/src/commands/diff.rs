@@ -15,9 +15,10 @@ use gcheck_toolpath::{Act, Differences, Step, Trail, compare};
 
 use super::json as to_text;
 use crate::args::{DiffOptions, ExecutionOptions, Global, ListFormat};
+use crate::console::{FAILED, report, say};
 use crate::execution::{self, Prepared, Steps};
 use crate::{Problem, output};
-use words::Sides;
+use words::{Sides, Stopped};
 
 /// The programs do different things.
 const DIFFERENT: u8 = 1;
@@ -51,8 +52,8 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
     let faults = [ran_a.fault.filter(|_| !a_goes_on), ran_b.fault.filter(|_| !b_goes_on)];
     let sides = Sides { prepared: [&a, &b], units, tolerance: options.tolerance, faults: &faults };
     if !global.quiet && options.output_format == ListFormat::Text {
-        execution::say(&ran_a.control);
-        execution::say(&ran_b.control);
+        say(&ran_a.control);
+        say(&ran_b.control);
     }
     let text = match options.output_format {
         ListFormat::Text => sides.text(&differences),
@@ -63,10 +64,10 @@ pub(crate) fn run(global: &Global, options: &DiffOptions) -> Result<u8, Problem>
         None => output::to_stdout(|out: &mut dyn Write| out.write_all(text.as_bytes()))?,
     }
     for fault in faults.iter().flatten() {
-        crate::report(&fault.problem);
+        report(&fault.problem);
     }
     Ok(match (faults.iter().any(Option::is_some), differences.is_same()) {
-        (true, _) => crate::FAILED,
+        (true, _) => FAILED,
         (false, true) => 0,
         (false, false) => DIFFERENT,
     })
@@ -89,13 +90,6 @@ struct Ran {
     fault: Option<Stopped>,
     /// Units of most moves.
     units: Units,
-}
-
-/// Why a run did not come to its end.
-#[derive(Debug, Clone)]
-struct Stopped {
-    message: String,
-    problem: Problem,
 }
 
 /// Executes both and compares what they do while they do it.

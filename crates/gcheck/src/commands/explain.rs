@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use gcheck_controls::{Code, CodeNumber, Confidence, Control, WordEntry};
-use gcheck_rules::RuleMeta;
+use gcheck_diagnostics::RuleMeta;
 
 use super::{chosen_control, columns};
 use crate::args::{ExplainOptions, Global};
@@ -16,15 +16,15 @@ use crate::{Problem, output};
 /// Prints the page of a rule or code.
 pub(crate) fn run(global: &Global, options: &ExplainOptions) -> Result<u8, Problem> {
     let subject = options.subject.trim();
-    if let Some(rule) = gcheck_rules::by_id(subject) {
+    if let Some(rule) = gcheck_rules::RULES.by_id(subject) {
         return output::print(&of_rule(rule.meta));
     }
     if let Some(number) = CodeNumber::parse(subject) {
         return explain_code(global, number);
     }
-    let rules = gcheck_rules::all().iter().map(|rule| rule.meta.id);
+    let rules = gcheck_rules::RULES.iter().map(|rule| rule.meta.id);
     let near = nearest(subject, rules).map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-    let problem = Problem::new(format!("`{subject}` is no rule and no code{near}"));
+    let problem = Problem::new(format!("`{subject}` is neither a rule nor a code{near}"));
     Err(problem.help("`gcheck rules` and `gcheck codes` list them"))
 }
 
@@ -72,9 +72,9 @@ fn of_rule(meta: &RuleMeta) -> String {
     } else {
         format!("off by default (in {})", meta.sets().join(", "))
     };
-    let mends = match meta.mends.option() {
+    let mends = match meta.fixability.option() {
         "" => String::new(),
-        option => format!(", mended by {option}"),
+        option => format!(", fixed by {option}"),
     };
     format!(
         "{}: {}\n\nseverity {}, {on}{mends}, group {}, since {}\n\n{}",

@@ -8,19 +8,17 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gcheck_format::{
-    Numbering, RenumberRefused, SequenceNumbers, Style, apply_to_bytes, formatted, renumber,
-};
+use gcheck_diagnostics::apply_to_bytes;
+use gcheck_format::{Numbering, RenumberRefused, SequenceNumbers, Style, formatted, renumber};
 use gcheck_program::Dialect;
 use gcheck_syntax::SourceText;
 use rayon::prelude::*;
 
 use crate::args::{FmtOptions, Global};
-use crate::check::finish;
 use crate::config::{Config, Configs, validate_control};
+use crate::console::{finish, say};
 use crate::control_choice::choose;
 use crate::discovery::{self, Found};
-use crate::execution::say;
 use crate::{Problem, output, paths, reading, rewriting};
 
 /// Standard input among the paths.

@@ -36,11 +36,11 @@ fn detected() -> Result<BTreeMap<String, usize>, Problem> {
     let mut configs = Configs::new(&[], true)?;
     let found = discovery::find(&[PathBuf::from(".")], &mut configs);
     let mut counts: BTreeMap<String, usize> = BTreeMap::new();
-    // From everywhere in the folder: what stands together is often of one machine.
+    // From everywhere in the folder: neighbours are often for one machine.
     let step = found.files.len().div_ceil(LOOKED_AT).max(1);
     for path in found.files.iter().step_by(step) {
         let Ok(source) = reading::file(path) else { continue };
-        if let Some(guess) = gcheck_controls::guess(&gcheck_rules::collect_evidence(&source)) {
+        if let Some(guess) = gcheck_controls::guess(&gcheck_program::collect_evidence(source.text())) {
             *counts.entry(guess.control).or_default() += 1;
         }
     }

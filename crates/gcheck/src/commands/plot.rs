@@ -1,6 +1,6 @@
 //! `gcheck plot`: the toolpath of a program as a picture or as a page.
 //!
-//! Knows: which file gets what, what is said beside the picture. Must not know: how anything is drawn.
+//! Knows: which file gets what, the messages beside the picture. Must not know: how anything is drawn.
 
 mod findings;
 
@@ -14,6 +14,7 @@ use gcheck_toolpath::plot::{Drawing, MAX_POINTS, Page, Plot, Source};
 use gcheck_toolpath::{Names, Step, WorkCoordinates};
 
 use crate::args::{Global, PlotOptions};
+use crate::console::say;
 use crate::execution::{self, Session, Steps};
 use crate::{Problem, output};
 use findings::Found;
@@ -31,7 +32,7 @@ impl Form {
         match extension.as_deref() {
             Some("svg") => Ok(Self::Svg),
             Some("html" | "htm") => Ok(Self::Html),
-            _ => Err(Problem::with_file(path, "cannot tell what to draw")
+            _ => Err(Problem::with_file(path, "the name does not say what to draw")
                 .help("name a picture `.svg` or a page `.html`: `gcheck plot part.nc -o part.html`")),
         }
     }
@@ -47,7 +48,7 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
     };
     prepared.session(|session| {
         if !global.quiet {
-            execution::say(&execution::control_line(session));
+            say(&execution::control_line(session));
         }
         let (ran, drawing) = draw(session)?;
         let mut notes: Vec<String> = stopped(session, &ran).into_iter().collect();
@@ -57,7 +58,7 @@ pub(crate) fn run(global: &Global, options: &PlotOptions) -> Result<u8, Problem>
             Form::Html => page(session, &drawing, &found, &notes, out),
         })?;
         if !global.quiet {
-            execution::say(&drawing.notes().join("\n"));
+            say(&drawing.notes().join("\n"));
         }
         execution::end_of_run(session, &ran);
         Ok(execution::exit_code(&ran))

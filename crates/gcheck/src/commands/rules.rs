@@ -2,7 +2,7 @@
 //!
 //! Knows: what a list of rules shows. Must not know: any rule.
 
-use gcheck_rules::RuleSet;
+use gcheck_diagnostics::RuleSet;
 use serde::Serialize;
 
 use super::{columns, json};
@@ -26,7 +26,7 @@ struct Row {
 
 /// Prints the list.
 pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
-    let row = |rule: &&gcheck_rules::RuleEntry| {
+    let row = |rule: &gcheck_lint::RuleEntry| {
         let meta = rule.meta;
         Row {
             id: meta.id,
@@ -35,13 +35,13 @@ pub(crate) fn run(options: &ListOptions) -> Result<u8, Problem> {
             severity: meta.severity.name(),
             recommended: meta.recommended,
             sets: meta.sets(),
-            mends: Some(meta.mends.option()).filter(|option| !option.is_empty()),
+            mends: Some(meta.fixability.option()).filter(|option| !option.is_empty()),
             tier: meta.tier.name(),
             since: meta.since,
             aliases: meta.aliases,
         }
     };
-    let rows: Vec<Row> = gcheck_rules::all().iter().map(row).collect();
+    let rows: Vec<Row> = gcheck_rules::RULES.iter().map(row).collect();
     match options.output_format {
         ListFormat::Json => output::print(&json(&rows)?),
         ListFormat::Text => {

@@ -8,6 +8,7 @@ use gcheck_engine::{Ending, RunResult, Stopped};
 use gcheck_toolpath::{Canonical, Csv, JsonLines, Start, Step, Text};
 
 use crate::args::{Global, RunFormat, RunOptions};
+use crate::console::say;
 use crate::execution::{self, Rests, Session, Steps};
 use crate::{Problem, output};
 
@@ -16,7 +17,7 @@ pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> 
     let prepared = execution::prepare(global, &options.execution)?;
     prepared.session(|session| {
         if !global.quiet {
-            execution::say(&execution::control_line(session));
+            say(&execution::control_line(session));
         }
         let mut ran = None;
         let write = |out: &mut dyn Write| -> io::Result<()> {
@@ -31,7 +32,7 @@ pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> 
         let Some(ran) = ran else { return Ok(0) };
         execution::end_of_run(session, &ran);
         if options.output_format == RunFormat::Text && !global.quiet {
-            execution::say(&Rests::new(session, &ran).text());
+            say(&Rests::new(session, &ran).text());
         }
         Ok(execution::exit_code(&ran))
     })

@@ -1,18 +1,19 @@
 //! `gcheck stats`: cycle time, distances, extents, feeds and speeds of a program, by tool and in total.
 //!
-//! Knows: what is said beside the figures. Must not know: how they are computed or laid out.
+//! Knows: the messages beside the statistics. Must not know: how they are computed or laid out.
 
 use std::io::{self, Write};
 
+use gcheck_diagnostics::StatedAssumption;
 use gcheck_engine::{Assumption, Ending, RunResult, Stopped};
 use gcheck_report::{ControlChoice, LineIndex};
-use gcheck_rules::Described;
 use gcheck_toolpath::{Names, Statistics, Step};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::json as to_text;
 use crate::args::{Global, ListFormat, StatsOptions};
+use crate::console::say;
 use crate::execution::{self, Rests, Session, Steps};
 use crate::{Problem, output};
 
@@ -24,13 +25,15 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
     let prepared = execution::prepare(global, &options.execution)?;
     prepared.session(|session| {
         if !global.quiet && options.output_format == ListFormat::Text {
-            execution::say(&execution::control_line(session));
+            say(&execution::control_line(session));
         }
         let timing = session.prepared.equipment.timing;
-        let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on());
-        let (ran, statistics) = session
+        let statistics = Statistics::new(session.used_axes(), timing, session.model.work_at_power_on())
+            .planned(session.prepared.equipment.plan.as_ref());
+        let (ran, mut statistics) = session
             .run(statistics)
             .map_err(|error| Problem::new(format!("cannot gather the figures: {error}")))?;
+        statistics.finish();
         let text = match options.output_format {
             ListFormat::Text => text(session, &ran, &statistics),
             ListFormat::Json => to_text(&json(session, &ran, &statistics))?,
@@ -46,7 +49,7 @@ pub(crate) fn run(global: &Global, options: &StatsOptions) -> Result<u8, Problem
 
 fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
     let tool = |tool| session.tool_name(tool);
-    let offset = |number| Some(gcheck_rules::work_offset_name(number, session.model));
+    let offset = |number| Some(gcheck_lint::work_offset_name(number, session.model));
     with(&Names { tool: &tool, offset: &offset })
 }
 
@@ -60,14 +63,14 @@ fn text(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Stri
     text
 }
 
-/// How helices are fed, where a setting that nobody told decides it and there are any.
-fn of_helices(session: &Session<'_>, statistics: &Statistics) -> Vec<Described> {
+/// How helices are fed, where a setting that is not configured decides it and there are any.
+fn of_helices(session: &Session<'_>, statistics: &Statistics) -> Vec<StatedAssumption> {
     let setting = session.prepared.equipment.helix_setting.as_ref().filter(|_| statistics.has_helices());
     let setting = setting.map(|number| Assumption::Setting(number.as_str().into()));
-    setting.map(|setting| gcheck_rules::describe(&setting, session.model)).into_iter().collect()
+    setting.map(|setting| gcheck_lint::describe(&setting, session.model)).into_iter().collect()
 }
 
-/// What stands in the JSON beside the figures.
+/// What is in the JSON beside the figures.
 #[derive(Debug, Serialize)]
 struct Head<'s> {
     version: u32,
@@ -109,8 +112,8 @@ fn json(session: &Session<'_>, ran: &RunResult, statistics: &Statistics) -> Valu
         fault,
     };
     let timing = statistics.assumptions().into_iter().map(|assumption| {
-        let pin = format!("[machine] {} = …", assumption.key);
-        Described { text: assumption.text, pin: Some(pin) }
+        let pin = assumption.key.map(|key| format!("[machine] {key} = …"));
+        StatedAssumption { text: assumption.text, pin }
     });
     let rests = Rests::new(session, ran).after(of_helices(session, statistics)).after(timing.collect());
     let rests: Vec<Value> = rests

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use gcheck_rules::Severity;
+use gcheck_diagnostics::Severity;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -18,7 +18,7 @@ use super::{FormatTable, Placed};
 #[serde(deny_unknown_fields, rename_all = "kebab-case", default)]
 #[schemars(title = "gcheck.toml")]
 pub struct ConfigFile {
-    /// Another configuration that this one builds on; a path from this file's folder. What stands here wins.
+    /// Another configuration that this one builds on; a path from this file's folder. What is here wins.
     pub extend: Option<Placed<String>>,
     /// The control that runs the programs. `gcheck controls` lists the names. Without it the control is detected.
     pub control: Option<Placed<String>>,
@@ -98,14 +98,39 @@ pub struct MachineTable {
     pub max_rpm: Option<Placed<f64>>,
     /// Highest feed rate, in `units` a minute.
     pub max_feed: Option<Placed<f64>>,
-    /// Rapid traverse of the linear axes, in `units` a minute.
-    pub rapid: Option<Placed<f64>>,
+    /// Rapid traverse of the linear axes, in `units` a minute; or by axis, `{ X = 25400.0, Z = 18000.0 }`.
+    pub rapid: Option<Placed<ByAxis>>,
     /// Rapid traverse of the rotary axes, in degrees a minute.
     pub rotary_rapid: Option<Placed<f64>>,
     /// Position of the feed override switch that times are computed for, in percent; 100 without it.
     pub feed_override: Option<Placed<f64>>,
+    /// Position of the rapid override switch that times are computed for, in percent; 100 without it.
+    pub rapid_override: Option<Placed<f64>>,
+    /// Acceleration of the linear axes, in `units` a second squared; or by axis, with degrees for the rotary ones. With it
+    /// times come from a planner; without it they are a lower bound.
+    pub acceleration: Option<Placed<ByAxis>>,
+    /// Jerk of the linear axes, in `units` a second cubed; or by axis. Without it acceleration changes at once.
+    pub jerk: Option<Placed<ByAxis>>,
+    /// Seconds that the control takes to prepare a block: 0.0005 for 2,000 blocks a second.
+    pub block_time: Option<Placed<f64>>,
+    /// Stretches of path that the control looks ahead, in place of what is known of it.
+    pub look_ahead: Option<Placed<u32>>,
+    /// By how much the speed of an axis may change at a corner, in `units` a minute, on a control that slows down for it.
+    pub corner_speed_change: Option<Placed<f64>>,
+    /// What the spindle gains or loses, in 1/min a second.
+    pub spindle_acceleration: Option<Placed<f64>>,
+    /// Duration of turning the spindle to an angle, from rest, in seconds.
+    pub spindle_orient_seconds: Option<Placed<f64>>,
+    /// Duration of an auxiliary function (coolant, chuck, codes of the shop), in seconds.
+    pub auxiliary_seconds: Option<Placed<f64>>,
     /// Duration of a tool change, in seconds.
     pub tool_change_seconds: Option<Placed<f64>>,
+    /// Seconds that the magazine takes to pass one pocket.
+    pub pocket_seconds: Option<Placed<f64>>,
+    /// Pockets around the magazine.
+    pub pockets: Option<Placed<u32>>,
+    /// How tools come from the magazine.
+    pub tool_changer: Option<ToolChanger>,
     /// Where the rotary axes sit.
     pub rotary: Option<Rotary>,
     /// Rotary axes from the machine outward; as written in `axes` without it.
@@ -118,6 +143,74 @@ pub struct MachineTable {
     pub bar_length: Option<Placed<f64>>,
     /// Bars to be used up, the one in the chuck among them: `run` and `stats` repeat a main program that feeds bar until then.
     pub bars: Option<u32>,
+}
+
+/// A number for all linear axes, or one by axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ByAxis {
+    /// For all linear axes.
+    All(f64),
+    /// By axis.
+    Each(BTreeMap<Placed<String>, Placed<f64>>),
+}
+
+impl<'de> Deserialize<'de> for ByAxis {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ByAxisVisitor)
+    }
+}
+
+struct ByAxisVisitor;
+
+impl<'de> Visitor<'de> for ByAxisVisitor {
+    type Value = ByAxis;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number, or a table of numbers by axis")
+    }
+
+    #[expect(clippy::cast_precision_loss, reason = "no machine is as fast")]
+    fn visit_i64<E: de::Error>(self, value: i64) -> Result<ByAxis, E> {
+        Ok(ByAxis::All(value as f64))
+    }
+
+    fn visit_f64<E: de::Error>(self, value: f64) -> Result<ByAxis, E> {
+        Ok(ByAxis::All(value))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ByAxis, A::Error> {
+        let mut each = BTreeMap::new();
+        while let Some((axis, value)) = map.next_entry()? {
+            each.insert(axis, value);
+        }
+        Ok(ByAxis::Each(each))
+    }
+}
+
+impl JsonSchema for ByAxis {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "ByAxis".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "A number for all linear axes, or one by axis.",
+            "anyOf": [
+                { "type": "number" },
+                { "type": "object", "additionalProperties": { "type": "number" } },
+            ]
+        })
+    }
+}
+
+/// How tools come from the magazine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToolChanger {
+    /// The spindle fetches each tool from the magazine itself, which turns while the machine waits.
+    Carousel,
+    /// An arm brings the tool that the magazine has turned to meanwhile.
+    Arm,
 }
 
 /// Unit of lengths.
@@ -227,7 +320,7 @@ impl<'de> Deserialize<'de> for RulesTable {
     }
 }
 
-/// By hand, because `flatten` loses where the keys stand.
+/// By hand, because `flatten` loses where the keys are.
 struct RulesVisitor;
 
 impl<'de> Visitor<'de> for RulesVisitor {
@@ -291,7 +384,7 @@ impl<'de> Deserialize<'de> for ToolsTable {
     }
 }
 
-/// By hand, because `flatten` loses where the keys stand.
+/// By hand, because `flatten` loses where the keys are.
 struct ToolsVisitor;
 
 impl<'de> Visitor<'de> for ToolsVisitor {

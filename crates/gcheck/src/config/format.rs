@@ -18,14 +18,14 @@ pub struct FormatTable {
     pub letter_case: Option<LetterCase>,
     /// Zeros in front of the numbers of codes, `G1` or `G01`; `"keep"` without it.
     pub leading_zeros: Option<LeadingZeros>,
-    /// Zeros behind decimal points, `X1.500` or `X1.5`; `"keep"` without it. The point itself always stays.
+    /// Zeros after decimal points, `X1.500` or `X1.5`; `"keep"` without it. The point itself always stays.
     pub trailing_zeros: Option<TrailingZeros>,
     /// `N` numbers that nothing names; `"keep"` without it.
     pub sequence_numbers: Option<SequenceNumbers>,
-    /// The column, counted from 1, in which the words behind an `N` number begin; 0 or left out: where the number ends.
+    /// The column, counted from 1, in which the words after an `N` number begin; 0 or left out: where the number ends.
     pub word_column: Option<u8>,
-    /// The column, counted from 1, in which a comment behind the words of a block begins; 1 puts it one blank behind them, 0
-    /// or left out leaves it where it is.
+    /// The column, counted from 1, in which a comment after the words of a block begins; 1 puts it one blank after
+    /// them, 0 or left out leaves it where it is.
     pub comment_column: Option<u8>,
     /// The most blank lines that may follow each other; 1 without it.
     pub blank_lines: Option<u32>,
@@ -73,7 +73,7 @@ pub enum LeadingZeros {
     Drop,
 }
 
-/// Zeros behind decimal points.
+/// Zeros after decimal points.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum TrailingZeros {

@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 
 use gcheck_controls::UserCode;
 
-use super::file::{FilesTable, OverrideTable, RulesTable, SearchTable, ToolTable, Units};
-use super::{ConfigFile, FormatTable, MachineTable, PathPattern, Placed, validate};
+use super::execution_facts::ExecutionFacts;
+use super::file::{FilesTable, OverrideTable, RulesTable};
+use super::text::Text;
+use super::{ConfigFile, FormatTable, MachineTable, PathPattern, validate};
 use crate::Problem;
 
 /// A configuration text that has been checked.
@@ -37,58 +39,6 @@ pub(super) struct Facts {
     pub(super) search: Vec<PathBuf>,
     pub(super) rules: RulesTable,
     pub(super) format: FormatTable,
-}
-
-/// What a layer, or an override in it, says for the execution of programs. Lengths are in its own units.
-#[derive(Debug, Clone, Default)]
-pub struct ExecutionFacts {
-    /// Units of its lengths; those in force when it says none.
-    pub units: Option<Units>,
-    /// The machine.
-    pub machine: MachineTable,
-    /// Macro variables and named parameters, as written: `#3100`, `#<name>`.
-    pub variables: Vec<(String, f64)>,
-    /// Work offsets as written (`G54`, `G154 P1`), by axis.
-    pub offsets: Vec<(String, Vec<(String, f64)>)>,
-    /// Tools by number.
-    pub tools: Vec<(u32, ToolTable)>,
-    /// A tool table on disk.
-    pub table: Option<PathBuf>,
-}
-
-/// Where a text came from.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Text<'t> {
-    /// What messages call it.
-    pub(super) name: &'t str,
-    #[expect(clippy::struct_field_names, reason = "a text has a name and a text")]
-    pub(super) text: &'t str,
-    /// The folder from which its paths count.
-    pub(super) folder: &'t Path,
-}
-
-impl Text<'_> {
-    pub(super) fn problem<T>(&self, placed: &Placed<T>, message: impl Into<String>) -> Problem {
-        Problem::at(self.name, self.text, &placed.range, message)
-    }
-
-    fn patterns(&self, patterns: &[Placed<String>]) -> Result<Vec<PathPattern>, Problem> {
-        patterns.iter().map(|pattern| self.pattern(pattern)).collect()
-    }
-
-    fn pattern(&self, pattern: &Placed<String>) -> Result<PathPattern, Problem> {
-        PathPattern::new(self.folder, &pattern.value)
-            .map_err(|reason| self.problem(pattern, format!("`{}` is no pattern: {reason}", pattern.value)))
-    }
-
-    fn search(&self, table: &SearchTable) -> Vec<PathBuf> {
-        table.paths.iter().map(|path| self.path(&path.value)).collect()
-    }
-
-    /// A path that the text names.
-    pub(super) fn path(&self, path: &str) -> PathBuf {
-        crate::paths::absolute(&self.folder.join(path))
-    }
 }
 
 impl Layer {

@@ -9,7 +9,7 @@ use std::ops::Range;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer};
 
-/// A value and where it stands, so that a message about it can point there.
+/// A value and where it is, so that a message about it can point there.
 ///
 /// Two of these are equal when their values are: the same key in two files is one key.
 #[derive(Debug, Clone)]

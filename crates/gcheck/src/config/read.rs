@@ -6,8 +6,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::layer::Text;
-use super::{Config, ConfigFile, Layer};
+use super::text::Text;
+use super::{ConfigFile, Layer};
 use crate::nearest::did_you_mean;
 use crate::problem::io_reason;
 use crate::{Problem, paths};
@@ -15,8 +15,8 @@ use crate::{Problem, paths};
 /// More configurations than this, each extending the next, are a mistake.
 const MAX_BASES: usize = 16;
 
-/// Reads a file and everything it extends.
-pub(super) fn file_with_bases(path: &Path) -> Result<Config, Problem> {
+/// Reads a file and everything it extends; the most basic layer first.
+pub(super) fn file_with_bases(path: &Path) -> Result<Vec<Arc<Layer>>, Problem> {
     let mut layers: Vec<Arc<Layer>> = Vec::new();
     let mut next = Some(path.to_owned());
     while let Some(path) = next {
@@ -31,7 +31,7 @@ pub(super) fn file_with_bases(path: &Path) -> Result<Config, Problem> {
         layers.push(Arc::new(layer));
     }
     layers.reverse();
-    Ok(Config { layers })
+    Ok(layers)
 }
 
 /// A problem with a configuration file as a whole.
@@ -54,7 +54,7 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
         Problem::with_file(path, format!("cannot read the configuration: {}", io_reason(&error)))
     })?;
     let text = String::from_utf8(bytes)
-        .map_err(|_| problem(path, "is no configuration: it holds bytes that are no UTF-8"))?;
+        .map_err(|_| problem(path, "is not a configuration: it holds bytes that are not UTF-8"))?;
     let name = paths::shown_from_here(path);
     let absolute = paths::absolute(path);
     let folder = absolute.parent().unwrap_or(&absolute).to_owned();
@@ -63,14 +63,14 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
     if let (Some(base), Some(placed)) = (&base, &file.extend)
         && !base.is_file()
     {
-        let message = format!("`extend` names `{}`, which is no file", placed.value);
+        let message = format!("`extend` names `{}`, which is not a file", placed.value);
         return Err(Problem::at(&name, &text, &placed.range, message));
     }
     let layer = Layer::new(Some(absolute), file, Text { name: &name, text: &text, folder: &folder })?;
     Ok((layer, base))
 }
 
-/// Reads `KEY=VALUE` of the command line; a value that is no TOML is text.
+/// Reads `KEY=VALUE` of the command line; a value that is not TOML is text.
 pub(super) fn inline(argument: &str) -> Result<Layer, Problem> {
     let folder = paths::absolute(Path::new("."));
     let as_written = parse(NAME, argument);

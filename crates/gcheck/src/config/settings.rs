@@ -7,9 +7,12 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use gcheck_controls::{Letter, LetterSet, UserCode};
-use gcheck_rules::{MachineFacts, Selection, Severity, UnknownRule};
+use gcheck_diagnostics::Severity;
+use gcheck_lint::{MachineFacts, Selection, UnknownRule};
+use gcheck_rules::RULES;
 
-use super::layer::{ExecutionFacts, Facts};
+use super::execution_facts::ExecutionFacts;
+use super::layer::Facts;
 use super::{Config, FormatTable, MachineTable, RulesTable};
 use crate::paths;
 
@@ -55,7 +58,7 @@ impl Config {
         for layer in self.layers() {
             settings.put(&layer.base, layer.path.as_deref());
         }
-        // Overrides stand over what holds for all files, whichever layer says it.
+        // Overrides have priority over what holds for all files, in every layer.
         for layer in self.layers() {
             for (patterns, facts) in &layer.overrides {
                 if patterns.iter().any(|p| p.fits_or_holds(&path)) {
@@ -122,13 +125,13 @@ impl FileSettings {
     /// # Errors
     /// [`UnknownRule`] when the command line names no rule; what a configuration names was checked when it was read.
     pub fn selection(&self, wishes: &RuleWishes) -> Result<Selection, UnknownRule> {
-        let mut selection = Selection::default();
+        let mut selection = Selection::recommended(RULES);
         for table in &self.rules {
             apply(&mut selection, table)?;
         }
         if !wishes.select.is_empty() {
             let severities = severities(&selection);
-            selection = Selection::none();
+            selection = Selection::none(RULES);
             for selector in &wishes.select {
                 selection.enable(selector)?;
             }
@@ -156,7 +159,7 @@ fn severities(selection: &Selection) -> BTreeMap<&'static str, Severity> {
 fn apply(selection: &mut Selection, table: &RulesTable) -> Result<(), UnknownRule> {
     if let Some(select) = &table.select {
         let severities = severities(selection);
-        *selection = Selection::none();
+        *selection = Selection::none(RULES);
         for selector in select {
             selection.enable(&selector.value)?;
         }
@@ -172,7 +175,7 @@ fn apply(selection: &mut Selection, table: &RulesTable) -> Result<(), UnknownRul
     for selector in &table.ignore {
         selection.disable(&selector.value)?;
     }
-    let is_rule = |name: &str| gcheck_rules::by_id(name).is_some();
+    let is_rule = |name: &str| RULES.by_id(name).is_some();
     let (rules, groups): (Vec<_>, Vec<_>) =
         table.severities.iter().partition(|(name, _)| is_rule(&name.value));
     for (name, level) in groups.into_iter().chain(rules) {

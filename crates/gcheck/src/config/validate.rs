@@ -7,16 +7,28 @@ use std::sync::Arc;
 
 use gcheck_controls::{CodeNumber, Control, Letter, UserCode};
 use gcheck_geometry::RotaryAxis;
-use gcheck_rules::Selection;
+use gcheck_lint::Selection;
+use gcheck_rules::RULES;
 
 use super::Placed;
-use super::file::{CodeTable, MachineTable, RulesTable, Scalar, ToolsTable};
-use super::layer::{ExecutionFacts, Text};
+use super::execution_facts::ExecutionFacts;
+use super::file::{ByAxis, CodeTable, MachineTable, RulesTable, Scalar, ToolsTable, Units};
+use super::text::Text;
 use crate::Problem;
 use crate::nearest::did_you_mean;
 
 /// Axis addresses of RS-274, which bound what a machine can have when its control is not known.
 const AXES: &str = "XYZABCUVW";
+
+/// No control takes longer for a block, in seconds.
+const LONGEST_BLOCK: f64 = 0.2;
+/// No control looks further ahead.
+const MOST_AHEAD: u32 = 100_000;
+/// Between these, in seconds, every machine reaches its rapid rate.
+const SHORTEST_START: f64 = 0.001;
+const LONGEST_START: f64 = 10.0;
+/// Every spindle reaches its highest speed in this time, in seconds.
+const LONGEST_SPINDLE_START: f64 = 300.0;
 
 /// The rotary axis of a name.
 pub(crate) fn rotary_axis(name: &str) -> Option<RotaryAxis> {
@@ -61,7 +73,7 @@ impl<'t> Checked<'t> {
         if let Some(order) = &table.rotary_order {
             let axes: Vec<Option<RotaryAxis>> = order.iter().map(|name| rotary_axis(&name.value)).collect();
             if let Some((name, _)) = order.iter().zip(&axes).find(|(_, axis)| axis.is_none()) {
-                return Err(self.text.problem(name, format!("`{}` is no rotary axis", name.value)));
+                return Err(self.text.problem(name, format!("`{}` is not a rotary axis", name.value)));
             }
             if !matches!(axes.as_slice(), [first, second] if first != second)
                 && let Some(name) = order.last()
@@ -77,19 +89,114 @@ impl<'t> Checked<'t> {
         let positive = [
             &table.max_rpm,
             &table.max_feed,
-            &table.rapid,
             &table.rotary_rapid,
             &table.feed_override,
+            &table.rapid_override,
+            &table.corner_speed_change,
+            &table.block_time,
+            &table.spindle_acceleration,
             &table.bar_length,
         ];
         if let Some(number) = positive.into_iter().flatten().find(|n| n.value.is_nan() || n.value <= 0.0) {
             return Err(self.text.problem(number, "must be greater than zero"));
         }
-        let not_negative = [&table.tool_change_seconds, &table.pivot_length];
+        let not_negative = [
+            &table.tool_change_seconds,
+            &table.pocket_seconds,
+            &table.spindle_orient_seconds,
+            &table.auxiliary_seconds,
+            &table.pivot_length,
+        ];
         if let Some(number) = not_negative.into_iter().flatten().find(|n| n.value.is_nan() || n.value < 0.0) {
             return Err(self.text.problem(number, "must not be negative"));
         }
+        self.dynamics(table)?;
         Ok(table.clone())
+    }
+
+    /// What decides how long a program takes: figures that a machine can have, in the units that are meant.
+    fn dynamics(&self, table: &MachineTable) -> Result<(), Problem> {
+        for figures in [&table.rapid, &table.acceleration, &table.jerk].into_iter().flatten() {
+            self.figures(figures)?;
+        }
+        let [endless_numbers, whole_numbers] = [
+            [&table.block_time, &table.spindle_acceleration, &table.corner_speed_change],
+            [&table.tool_change_seconds, &table.pocket_seconds, &table.auxiliary_seconds],
+        ];
+        for number in endless_numbers.into_iter().chain(whole_numbers).flatten() {
+            if !number.value.is_finite() {
+                return Err(self.text.problem(number, "must be a finite number"));
+            }
+        }
+        if let Some(part) = table.rapid_override.as_ref().filter(|part| part.value > 100.0) {
+            return Err(self.text.problem(part, "a rapid override is at most 100 percent"));
+        }
+        if let Some(time) = table.block_time.as_ref().filter(|time| time.value > LONGEST_BLOCK) {
+            let message = format!(
+                "{} s for a block: block_time counts in seconds, 0.0005 for 2,000 blocks a second",
+                time.value
+            );
+            return Err(self.text.problem(time, message));
+        }
+        if let Some(ahead) =
+            table.look_ahead.as_ref().filter(|ahead| !(1..=MOST_AHEAD).contains(&ahead.value))
+        {
+            return Err(self.text.problem(ahead, format!("a control looks 1 to {MOST_AHEAD} blocks ahead")));
+        }
+        if let Some(pockets) = table.pockets.as_ref().filter(|pockets| pockets.value == 0) {
+            return Err(self.text.problem(pockets, "a magazine has at least one pocket"));
+        }
+        if let (Some(rapid), Some(feed)) = (&table.rapid, &table.max_feed)
+            && let Some(slow) = slowest_linear(&rapid.value).filter(|slow| *slow < feed.value)
+        {
+            let message = format!(
+                "the rapid rate {slow} is lower than max_feed ({}): no axis cuts faster than it moves at rapid",
+                feed.value
+            );
+            return Err(self.text.problem(rapid, message));
+        }
+        if let (Some(rapid), Some(acceleration)) = (&table.rapid, &table.acceleration)
+            && let (Some(rapid), Some(gain)) =
+                (slowest_linear(&rapid.value), slowest_linear(&acceleration.value))
+        {
+            let unit = match table.units {
+                Some(Units::Mm) => "mm",
+                Some(Units::Inch) => "inch",
+                None => "units",
+            };
+            if let Some(message) = implausible_acceleration(rapid, gain, unit) {
+                return Err(self.text.problem(acceleration, message));
+            }
+        }
+        if let (Some(top), Some(gain)) = (&table.max_rpm, &table.spindle_acceleration)
+            && top.value / gain.value > LONGEST_SPINDLE_START
+        {
+            let message = format!(
+                "the spindle takes {:.0} s to its highest speed: spindle_acceleration counts in 1/min a second",
+                top.value / gain.value
+            );
+            return Err(self.text.problem(gain, message));
+        }
+        Ok(())
+    }
+
+    /// Numbers for all axes or by axis: each greater than zero and finite, each axis one of the control.
+    fn figures(&self, figures: &Placed<ByAxis>) -> Result<(), Problem> {
+        let is_one = |value: f64| value > 0.0 && value.is_finite();
+        match &figures.value {
+            ByAxis::All(value) if is_one(*value) => Ok(()),
+            ByAxis::All(_) => Err(self.text.problem(figures, "must be greater than zero, and finite")),
+            ByAxis::Each(each) if each.is_empty() => Err(self.text.problem(figures, "names no axis")),
+            ByAxis::Each(each) => {
+                for (axis, value) in each {
+                    self.axis(axis)?;
+                    if !is_one(value.value) {
+                        return Err(self.text.problem(value, "must be greater than zero, and finite"));
+                    }
+                }
+                Ok(())
+            }
+        }
     }
 
     fn axis(&self, name: &Placed<String>) -> Result<(), Problem> {
@@ -108,7 +215,7 @@ impl<'t> Checked<'t> {
             return Ok(());
         }
         let of = self.control.as_ref().map_or_else(String::new, |control| format!(" of {}", control.name()));
-        Err(self.text.problem(name, format!("`{}` is no axis{of}; the axes are {axes}", name.value)))
+        Err(self.text.problem(name, format!("`{}` is not an axis{of}; the axes are {axes}", name.value)))
     }
 
     /// Settings in the words of the control. One that the knowledge base does not list is kept: its list may have gaps.
@@ -142,12 +249,12 @@ impl<'t> Checked<'t> {
             .iter()
             .map(|(name, table)| {
                 let number = CodeNumber::parse(&name.value.to_ascii_uppercase()).ok_or_else(|| {
-                    self.text.problem(name, format!("`{}` is no code; write `M51` or `G150`", name.value))
+                    self.text.problem(name, format!("`{}` is not a code; write `M51` or `G150`", name.value))
                 })?;
                 if let Some(alias) = &table.alias
                     && !is_program(&alias.value)
                 {
-                    let message = format!("`{}` is no program; write `O9010`", alias.value);
+                    let message = format!("`{}` is not a program; write `O9010`", alias.value);
                     return Err(self.text.problem(alias, message));
                 }
                 let alias = table.alias.as_ref().map(|a| a.value.clone());
@@ -171,7 +278,7 @@ impl<'t> Checked<'t> {
             if let Err(problem) = self.selectors([name]) {
                 let near = did_you_mean(&name.value, keys);
                 let is_key = !near.is_empty();
-                let message = format!("`{}` is no rule, group or key of [rules]{near}", name.value);
+                let message = format!("`{}` is not a rule, group or key of [rules]{near}", name.value);
                 return Err(if is_key { self.text.problem(name, message) } else { problem });
             }
         }
@@ -183,7 +290,7 @@ impl<'t> Checked<'t> {
         &self,
         selectors: impl IntoIterator<Item = &'s Placed<String>>,
     ) -> Result<(), Problem> {
-        let mut selection = Selection::none();
+        let mut selection = Selection::none(RULES);
         for selector in selectors {
             if let Err(unknown) = selection.enable(&selector.value) {
                 return Err(self.text.problem(selector, unknown_rule(&unknown)));
@@ -204,7 +311,7 @@ impl<'t> Checked<'t> {
             let inner = name.value.strip_prefix('#').unwrap_or_default();
             let is_named = inner.len() > 2 && inner.starts_with('<') && inner.ends_with('>');
             if !is_named && inner.parse::<u32>().is_err() {
-                let message = format!("`{}` is no variable; write \"#3100\" or \"#<name>\"", name.value);
+                let message = format!("`{}` is not a variable; write \"#3100\" or \"#<name>\"", name.value);
                 return Err(self.text.problem(name, message));
             }
             self.finite(name, *value)?;
@@ -218,7 +325,8 @@ impl<'t> Checked<'t> {
                     .control
                     .as_ref()
                     .map_or_else(String::new, |control| format!(" of {}", control.name()));
-                let message = format!("`{}` is no work offset{of}; write `G54` or \"G154 P1\"", name.value);
+                let message =
+                    format!("`{}` is not a work offset{of}; write `G54` or \"G154 P1\"", name.value);
                 return Err(self.text.problem(name, message));
             }
             self.by_axis(axes)?;
@@ -226,7 +334,7 @@ impl<'t> Checked<'t> {
         let mut by_number = Vec::with_capacity(tools.tools.len());
         for (number, tool) in &tools.tools {
             let Ok(parsed) = number.value.parse::<u32>() else {
-                let message = format!("`{}` is no tool number, nor `table`", number.value);
+                let message = format!("`{}` is not a tool number, nor `table`", number.value);
                 return Err(self.text.problem(number, message));
             };
             let sizes = [tool.length, tool.posted_length, tool.diameter, tool.corner_radius];
@@ -272,6 +380,35 @@ impl<'t> Checked<'t> {
     }
 }
 
+/// The lowest figure of a linear axis.
+fn slowest_linear(figures: &ByAxis) -> Option<f64> {
+    match figures {
+        ByAxis::All(value) => Some(*value),
+        ByAxis::Each(each) => each
+            .iter()
+            .filter(|(axis, _)| rotary_axis(&axis.value).is_none())
+            .map(|(_, value)| value.value)
+            .reduce(f64::min),
+    }
+}
+
+/// What is wrong with an acceleration, in units a second squared, beside a rapid rate in units a minute: nearly always it
+/// counts in something else.
+pub(crate) fn implausible_acceleration(rapid: f64, acceleration: f64, unit: &str) -> Option<String> {
+    let seconds = rapid / 60.0 / acceleration;
+    if (SHORTEST_START..=LONGEST_START).contains(&seconds) {
+        return None;
+    }
+    let (only, seconds) = if seconds > LONGEST_START {
+        ("only after", format!("{seconds:.0} s"))
+    } else {
+        ("already after", format!("{:.4} ms", seconds * 1000.0))
+    };
+    Some(format!(
+        "the rapid rate {rapid} is reached {only} {seconds}: acceleration counts in {unit} a second squared, not in g or m/s²"
+    ))
+}
+
 fn is_program(name: &str) -> bool {
     let digits = name.strip_prefix(['O', 'o']).unwrap_or(name);
     !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
@@ -300,10 +437,10 @@ fn unknown_control(name: &str, error: &gcheck_controls::LoadError) -> String {
 }
 
 /// Words for a selector that names nothing.
-pub(crate) fn unknown_rule(unknown: &gcheck_rules::UnknownRule) -> String {
+pub(crate) fn unknown_rule(unknown: &gcheck_lint::UnknownRule) -> String {
     let near = unknown.suggestion.map_or_else(
         || "; `gcheck rules` lists them".to_owned(),
         |suggestion| format!("; did you mean `{suggestion}`?"),
     );
-    format!("`{}` is no rule, group or set of rules{near}", unknown.name)
+    format!("`{}` is not a rule, group or set of rules{near}", unknown.name)
 }

@@ -11,17 +11,8 @@ use gcheck_geometry::Mm;
 use gcheck_report::LineIndex;
 use gcheck_toolpath::{Beside, Spot, Step};
 
-use super::Session;
-
-/// Takes the steps of a run.
-pub(crate) trait Steps {
-    /// As the reference interpreter has it: sequence numbers are those of the block being executed, which under cutter
-    /// compensation may be later than the block that a move belongs to, and an optional stop is one whatever the switch says.
-    const AS_INTERPRETED: bool = false;
-
-    /// One event.
-    fn step(&mut self, step: &Step<'_>) -> io::Result<()>;
-}
+use super::session::Session;
+use super::steps::Steps;
 
 /// Watches a run and makes steps of its events.
 pub(super) struct Bridge<'s, S> {

@@ -1,32 +1,23 @@
-//! What is said beside the moves, on standard error: which control was used, why a run did not come to its end, and what it
-//! rests on.
+//! The messages beside the moves, on standard error: which control was used, why a run did not come to its end, and
+//! what it rests on.
 //!
-//! Knows: where things are said. Must not know: their wording (see `fault_words` and `gcheck_rules::assumptions`).
+//! Knows: where messages go. Must not know: their wording (see `fault_words` and `gcheck_lint`).
 
 use std::fmt::Write as _;
-use std::io::Write as _;
 use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_controls::Letter;
+use gcheck_diagnostics::StatedAssumption;
 use gcheck_engine::{ConcreteValue, Ending, Origin, RunResult, Stopped, Units};
 use gcheck_program::{Op, Value, Word};
 use gcheck_report::{FileReport, Report};
-use gcheck_rules::Described;
 use gcheck_syntax::SourceText;
 
-use super::Session;
+use super::session::Session;
 use crate::Problem;
+use crate::console::report;
 use crate::fault_words::{self, Culprit, Words};
-
-/// Says something on standard error; nothing where there is nothing to say.
-pub(crate) fn say(text: &str) {
-    let text = text.trim_end();
-    if !text.is_empty() {
-        // With standard error gone there is nobody left to tell.
-        let _ = writeln!(std::io::stderr(), "{text}");
-    }
-}
 
 /// Which control reads the program, and why that one.
 pub(crate) fn control_line(session: &Session<'_>) -> String {
@@ -50,7 +41,7 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
 /// Says why a run did not come to the end of the program.
 pub(crate) fn end_of_run(session: &Session<'_>, result: &RunResult) {
     if let Some(fault) = fault_of(session, result) {
-        crate::report(&problem_of(&fault));
+        report(&problem_of(&fault));
     }
 }
 
@@ -111,7 +102,7 @@ fn range(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>) -> Ran
     let start = origin.start as usize;
     let Some(file) = session.program.file(origin.at.file) else { return start..start };
     let Some(place) = file.loaded.place(origin.at.block, session.program.dialect()) else {
-        // Behind the last block: the end of the text.
+        // After the last block: the end of the text.
         let end = file.loaded.text().trim_end().len();
         return end..end;
     };
@@ -164,19 +155,19 @@ fn unknown_variables(session: &Session<'_>, result: &RunResult) -> Vec<u32> {
 fn comment_of(session: &Session<'_>, origin: Origin) -> Option<String> {
     let file = session.program.file(origin.at.file)?;
     let place = file.loaded.place(origin.at.block, session.program.dialect())?;
-    // A comment behind a statement is no part of the block's own range.
+    // A comment after a statement is not part of the block's own range.
     let text = file.loaded.line_from(place.range().start);
     let (_, rest) = text.split_once('(')?;
     let comment = rest.split(')').next()?.trim();
     (!comment.is_empty()).then(|| comment.to_owned())
 }
 
-/// What a run rests on that nobody told gcheck.
-pub(crate) struct Rests(Vec<Described>);
+/// What a run rests on that is not configured.
+pub(crate) struct Rests(Vec<StatedAssumption>);
 
 impl Rests {
     pub(crate) fn new(session: &Session<'_>, result: &RunResult) -> Self {
-        let mut all = gcheck_rules::describe_all(&result.assumptions, session.model);
+        let mut all = gcheck_lint::describe_all(&result.assumptions, session.model);
         let equipment = &session.prepared.equipment;
         if equipment.units_assumed && !session.axes.says_units {
             let (units, key) = match equipment.units {
@@ -184,18 +175,18 @@ impl Rests {
                 Units::Mm => ("millimetres", "mm"),
             };
             let text = format!("lengths are {units}: the program does not say");
-            all.insert(0, Described { text, pin: Some(format!("[machine] units = \"{key}\"")) });
+            all.insert(0, StatedAssumption { text, pin: Some(format!("[machine] units = \"{key}\"")) });
         }
         Self(all)
     }
 
     /// Further ones, in front of these.
-    pub(crate) fn after(mut self, mut first: Vec<Described>) -> Self {
+    pub(crate) fn after(mut self, mut first: Vec<StatedAssumption>) -> Self {
         first.append(&mut self.0);
         Self(first)
     }
 
-    pub(crate) fn described(&self) -> &[Described] {
+    pub(crate) fn described(&self) -> &[StatedAssumption] {
         &self.0
     }
 
@@ -205,11 +196,11 @@ impl Rests {
             return String::new();
         }
         let mut out = String::from("taken for granted\n");
-        for Described { text, .. } in &self.0 {
+        for StatedAssumption { text, .. } in &self.0 {
             // Writing to a string cannot fail.
             let _ = writeln!(out, "  {text}");
         }
-        let pins = gcheck_rules::pins(&self.0);
+        let pins = gcheck_diagnostics::pins(&self.0);
         if !pins.is_empty() {
             out.push_str("gcheck.toml can say\n");
             for line in pins {

@@ -6,16 +6,17 @@ use std::collections::BTreeMap;
 use std::io;
 
 use gcheck_controls::{CodeNumber, Control, Effect, Letter, LetterSet, Unset};
-use gcheck_engine::{Axis, BarFeeder, Event, Machine, Model, Position, Tool, Units, WorkOffset};
+use gcheck_engine::{Axis, BarFeeder, Dynamics, Event, Machine, Model, Position, Tool, Units, WorkOffset};
 use gcheck_geometry::{Mm, MmPerMin, Rpm, Seconds};
 use gcheck_program::{BlockTable, OKeyword, StatementKind};
-use gcheck_toolpath::{Step, Timing};
+use gcheck_toolpath::{Plan, Step, Timing};
 
 use super::rotary::RotaryAxes;
-use super::{Steps, tool_table};
+use super::steps::Steps;
+use super::tool_table;
 use crate::Problem;
 use crate::args::{Assignment, VariableName};
-use crate::config::{self, ExecutionFacts, FileSettings, ToolTable};
+use crate::config::{self, ByAxis, ExecutionFacts, FileSettings, MachineTable, ToolTable};
 
 /// The machine, and what output needs to know of it besides.
 #[derive(Debug)]
@@ -26,6 +27,8 @@ pub(crate) struct Equipment {
     /// Nobody said them.
     pub(crate) units_assumed: bool,
     pub(crate) timing: Timing,
+    /// How long the machine takes, where its acceleration is known.
+    pub(crate) plan: Option<Plan>,
     /// The setting that decides how helices are fed, when nobody told its value.
     pub(crate) helix_setting: Option<String>,
     /// Tools of the table on disk, in its order.
@@ -67,27 +70,21 @@ impl Equipment {
             units: in_force,
             units_assumed: configured.is_none(),
             timing: Timing::new(None, None),
+            plan: None,
             helix_setting: None,
             table: Vec::new(),
             remarks: BTreeMap::new(),
         };
-        let (mut rotary_rapid, mut feed_override) = (None, None);
         let mut rotary = RotaryAxes::default();
         for layer in layers {
             let in_layer = layer.units.map_or(in_force, units);
             equipment.put(layer, in_layer, control)?;
             rotary.put(&layer.machine, in_layer);
-            rotary_rapid = layer.machine.rotary_rapid.as_ref().map(|rate| rate.value).or(rotary_rapid);
-            feed_override = layer.machine.feed_override.as_ref().map(|part| part.value).or(feed_override);
         }
         equipment.machine.kinematics = rotary.kinematics();
         equipment.timing = Timing::of_machine(model, &equipment.machine);
-        if let Some(rate) = rotary_rapid {
-            equipment.timing = equipment.timing.with_rotary_rapid(rate);
-        }
-        if let Some(percent) = feed_override {
-            equipment.timing = equipment.timing.with_feed_override(percent);
-        }
+        equipment.contradictions(in_force)?;
+        equipment.plan = Plan::of_machine(model, &equipment.machine, &equipment.timing);
         let helix = control.semantics().helix.setting.as_ref();
         equipment.helix_setting =
             helix.filter(|number| !equipment.machine.settings.contains_key(*number)).cloned();
@@ -110,7 +107,20 @@ impl Equipment {
         let value = |placed: &Option<config::Placed<f64>>| placed.as_ref().map(|placed| placed.value);
         machine.max_rpm = value(&table.max_rpm).map(Rpm).or(machine.max_rpm);
         machine.max_feed = value(&table.max_feed).map(|feed| MmPerMin(feed * mm)).or(machine.max_feed);
-        machine.rapid = value(&table.rapid).map(|rate| MmPerMin(rate * mm)).or(machine.rapid);
+        put_dynamics(&mut machine.dynamics, table, mm);
+        match table.rapid.as_ref().map(|rapid| &rapid.value) {
+            Some(ByAxis::All(rate)) => {
+                machine.rapid = Some(MmPerMin(rate * mm));
+                machine.dynamics.rapid.retain(|axis, _| axis.is_rotary());
+            }
+            Some(ByAxis::Each(each)) => {
+                machine.dynamics.rapid.extend(by_axis(each, mm));
+                // What is not named is as fast as the fastest that is.
+                let linear = machine.dynamics.rapid.iter().filter(|(axis, _)| !axis.is_rotary());
+                machine.rapid = linear.map(|(_, rate)| *rate).reduce(f64::max).map(MmPerMin);
+            }
+            None => {}
+        }
         machine.bar.new_bar = value(&table.bar_length).map(|bar| Mm(bar * mm)).or(machine.bar.new_bar);
         machine.bar.bars = table.bars.or(machine.bar.bars);
         machine.tool_change = value(&table.tool_change_seconds).map(Seconds).or(machine.tool_change);
@@ -137,6 +147,28 @@ impl Equipment {
             self.put_tool(*number, tool, mm);
         }
         Ok(())
+    }
+
+    /// What layers say together, and a single one did not show.
+    fn contradictions(&self, units: Units) -> Result<(), Problem> {
+        let Some(rapid) = self.machine.rapid else { return Ok(()) };
+        let shown = |mm: f64| mm / units.in_mm();
+        if let Some(feed) = self.machine.max_feed.filter(|feed| rapid < *feed) {
+            return Err(Problem::new(format!(
+                "[machine] rapid is {} and max_feed {}: no axis cuts faster than it moves at rapid",
+                shown(rapid.0),
+                shown(feed.0)
+            )));
+        }
+        let linear = self.machine.dynamics.acceleration.iter().filter(|(axis, _)| !axis.is_rotary());
+        let unit = if units == Units::Inch { "inch" } else { "mm" };
+        match linear.map(|(_, value)| *value).reduce(f64::min) {
+            Some(least) => match config::implausible_acceleration(shown(rapid.0), shown(least), unit) {
+                Some(message) => Err(Problem::new(format!("[machine] {message}"))),
+                None => Ok(()),
+            },
+            None => Ok(()),
+        }
     }
 
     fn put_offset(&mut self, number: u16, axes: &[(String, f64)], mm: f64) {
@@ -197,6 +229,50 @@ impl Equipment {
     }
 }
 
+/// What a layer says of how quickly the machine moves, over what earlier ones said.
+fn put_dynamics(dynamics: &mut Dynamics, table: &MachineTable, mm: f64) {
+    let number = |placed: &Option<config::Placed<f64>>| placed.as_ref().map(|placed| placed.value);
+    let seconds = |placed: &Option<config::Placed<f64>>| number(placed).map(Seconds);
+    for (told, known) in
+        [(&table.acceleration, &mut dynamics.acceleration), (&table.jerk, &mut dynamics.jerk)]
+    {
+        match told.as_ref().map(|told| &told.value) {
+            Some(ByAxis::All(value)) => {
+                let linear = Axis::ALL.into_iter().filter(|axis| !axis.is_rotary());
+                known.extend(linear.map(|axis| (axis, value * mm)));
+            }
+            Some(ByAxis::Each(each)) => known.extend(by_axis(each, mm)),
+            None => {}
+        }
+    }
+    dynamics.block_time = seconds(&table.block_time).or(dynamics.block_time);
+    dynamics.look_ahead = table.look_ahead.as_ref().map(|ahead| ahead.value).or(dynamics.look_ahead);
+    let change = number(&table.corner_speed_change).map(|change| MmPerMin(change * mm));
+    dynamics.corner_change = change.or(dynamics.corner_change);
+    let spindle = number(&table.spindle_acceleration).map(Rpm);
+    dynamics.spindle_acceleration = spindle.or(dynamics.spindle_acceleration);
+    dynamics.orientation = seconds(&table.spindle_orient_seconds).or(dynamics.orientation);
+    dynamics.auxiliary = seconds(&table.auxiliary_seconds).or(dynamics.auxiliary);
+    dynamics.pocket = seconds(&table.pocket_seconds).or(dynamics.pocket);
+    dynamics.pockets = table.pockets.as_ref().map(|pockets| pockets.value).or(dynamics.pockets);
+    if let Some(changer) = table.tool_changer {
+        dynamics.turns_ahead = changer == config::ToolChanger::Arm;
+    }
+    dynamics.feed_override = number(&table.feed_override).or(dynamics.feed_override);
+    dynamics.rapid_override = number(&table.rapid_override).or(dynamics.rapid_override);
+    dynamics.rotary_rapid = number(&table.rotary_rapid).or(dynamics.rotary_rapid);
+}
+
+fn by_axis(
+    each: &BTreeMap<config::Placed<String>, config::Placed<f64>>,
+    mm: f64,
+) -> impl Iterator<Item = (Axis, f64)> + '_ {
+    each.iter().filter_map(move |(name, value)| {
+        let axis = axis_of(&name.value)?;
+        Some((axis, in_mm(axis, value.value, mm)))
+    })
+}
+
 fn units(units: config::Units) -> Units {
     match units {
         config::Units::Mm => Units::Mm,
@@ -240,7 +316,7 @@ pub(super) struct AxesSeen<'m> {
     letters: LetterSet,
     /// A block says in which units it is written.
     pub(super) says_units: bool,
-    /// Something is called, which may stand in another file and move what it likes.
+    /// Something is called, which may be in another file and move what it likes.
     pub(super) calls: bool,
 }
 

@@ -80,7 +80,7 @@ impl ToolTableFile {
     }
 }
 
-/// A line a tool, each value behind its letter.
+/// A line a tool, each value after its letter.
 fn words(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
     let mut table = ToolTableFile::default();
     for (start, line) in lines(text) {
@@ -98,7 +98,7 @@ fn words(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
             let word = word.trim();
             let Some(letter) = word.chars().next() else { continue };
             let value = word.get(letter.len_utf8()..).unwrap_or_default();
-            let no_number = || Mistake::new(range.clone(), format!("`{word}` is no letter with a number"));
+            let no_number = || Mistake::new(range.clone(), format!("`{word}` is not a letter with a number"));
             let parsed: f64 = value.parse().map_err(|_| no_number())?;
             if !parsed.is_finite() {
                 return Err(no_number());
@@ -188,7 +188,7 @@ fn columns(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
     let mut table = ToolTableFile::default();
     let mut lines = lines(text).filter(|(_, line)| !line.trim().is_empty());
     let Some((start, heading)) = lines.next() else { return Ok(table) };
-    // A mark of the byte order is no part of the first heading.
+    // A mark of the byte order is not part of the first heading.
     let cut = heading.len() - heading.trim_start_matches('\u{FEFF}').len();
     let (start, heading) = (start + cut, heading.get(cut..).unwrap_or_default());
     let separator = [';', '\t', ','].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
@@ -221,7 +221,7 @@ fn columns(text: &str, mm: f64) -> Result<ToolTableFile, Mistake> {
                 .parse()
                 .ok()
                 .filter(|value: &f64| value.is_finite())
-                .ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` is no number")))?;
+                .ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` is not a number")))?;
             let whole = || {
                 whole(value)
                     .ok_or_else(|| Mistake::new(range.clone(), format!("`{cell}` must be a whole number")))

@@ -10,7 +10,7 @@ use crate::shop::{BAD, GOOD, Shop};
 /// Longer than any of these may take in a debug build on a busy machine; hangs and quadratic work take far longer.
 const PATIENCE: Duration = Duration::from_mins(1);
 
-/// Checks what is said when `part.nc` has this content, beside a file with a finding.
+/// Checks the messages when `part.nc` has this content, beside a file with a finding.
 fn check_content(content: &[u8], expected: &Expect) {
     let shop = Shop::with(&[("other.nc", BAD)]);
     shop.file("part.nc", content);
@@ -21,7 +21,7 @@ fn check_content(content: &[u8], expected: &Expect) {
     );
 }
 
-/// Checks what is said when `gcheck.toml` has this content, beside a folder with a sound one.
+/// Checks the messages when `gcheck.toml` has this content, beside a folder with a sound one.
 fn check_configuration(content: &str, expected: &Expect) {
     let shop = Shop::with(&[
         ("shop/gcheck.toml", content),
@@ -33,7 +33,7 @@ fn check_configuration(content: &str, expected: &Expect) {
     expected.assert_eq(&shop.gcheck("check shop sound --output-format concise --quiet").to_string());
 }
 
-/// Checks what is said about arguments, in a folder with one good program.
+/// Checks the messages about arguments, in a folder with one good program.
 fn check_arguments(arguments: &str, expected: &Expect) {
     let shop = Shop::with(&[("part.nc", GOOD)]);
     expected.assert_eq(&shop.gcheck(arguments).to_string());
@@ -92,7 +92,7 @@ fn a_binary() {
         &noise,
         &expect![[r#"
         other.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: part.nc: is no text, so no part program
+        ! error: part.nc: is not text, so it is not a part program
         exit 2
     "#]],
     );
@@ -117,7 +117,7 @@ fn utf_16() {
         &text,
         &expect![[r#"
         other.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: part.nc: is no text, so no part program
+        ! error: part.nc: is not text, so it is not a part program
         exit 2
     "#]],
     );
@@ -290,7 +290,7 @@ fn a_configuration_that_is_no_text() {
     let shop = Shop::with(&[("part.nc", BAD)]);
     shop.file("gcheck.toml", b"control = \"\xFF\"\n");
     expect![[r#"
-        ! error: gcheck.toml: is no configuration: it holds bytes that are no UTF-8
+        ! error: gcheck.toml: is not a configuration: it holds bytes that are not UTF-8
         exit 2
     "#]]
     .assert_eq(&shop.gcheck("check").to_string());
@@ -313,7 +313,7 @@ fn names_that_do_not_exist() {
         "[rules]\nselect = [\"words\", \"unknwn-code\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:20: `unknwn-code` is no rule, group or set of rules; did you mean `unknown-code`?
+        ! error: shop/gcheck.toml:2:20: `unknwn-code` is not a rule, group or set of rules; did you mean `unknown-code`?
         !   |
         ! 2 | select = ["words", "unknwn-code"]
         !   |                    ^^^^^^^^^^^^^
@@ -324,7 +324,7 @@ fn names_that_do_not_exist() {
         "[rules]\nunknwn-code = \"off\"\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:1: `unknwn-code` is no rule, group or set of rules; did you mean `unknown-code`?
+        ! error: shop/gcheck.toml:2:1: `unknwn-code` is not a rule, group or set of rules; did you mean `unknown-code`?
         !   |
         ! 2 | unknwn-code = "off"
         !   | ^^^^^^^^^^^
@@ -335,7 +335,7 @@ fn names_that_do_not_exist() {
         "control = \"haas-mill\"\n[machine]\naxes = [\"X\", \"Q\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:3:14: `Q` is no axis of haas-mill; the axes are A, B, C, U, V, W, X, Y, Z
+        ! error: shop/gcheck.toml:3:14: `Q` is not an axis of haas-mill; the axes are A, B, C, U, V, W, X, Y, Z
         !   |
         ! 3 | axes = ["X", "Q"]
         !   |              ^^^
@@ -346,7 +346,7 @@ fn names_that_do_not_exist() {
         "[codes]\nX5 = { title = \"no code\" }\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:1: `X5` is no code; write `M51` or `G150`
+        ! error: shop/gcheck.toml:2:1: `X5` is not a code; write `M51` or `G150`
         !   |
         ! 2 | X5 = { title = "no code" }
         !   | ^^
@@ -357,7 +357,7 @@ fn names_that_do_not_exist() {
         "control = \"haas-mill\"\n[offsets]\nG999 = { X = 1.0 }\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:3:1: `G999` is no work offset of haas-mill; write `G54` or "G154 P1"
+        ! error: shop/gcheck.toml:3:1: `G999` is not a work offset of haas-mill; write `G54` or "G154 P1"
         !   |
         ! 3 | G999 = { X = 1.0 }
         !   | ^^^^
@@ -368,7 +368,7 @@ fn names_that_do_not_exist() {
         "[per-file-ignores]\n\"old/**\" = [\"quirk\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:13: `quirk` is no rule, group or set of rules; `gcheck rules` lists them
+        ! error: shop/gcheck.toml:2:13: `quirk` is not a rule, group or set of rules; `gcheck rules` lists them
         !   |
         ! 2 | "old/**" = ["quirk"]
         !   |             ^^^^^^^
@@ -390,7 +390,7 @@ fn names_that_do_not_exist() {
         "[files]\nexclude = [\"[a\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:12: `[a` is no pattern: unclosed character class; missing ']'
+        ! error: shop/gcheck.toml:2:12: `[a` is not a pattern: unclosed character class; missing ']'
         !   |
         ! 2 | exclude = ["[a"]
         !   |            ^^^^
@@ -424,7 +424,7 @@ fn a_configuration_that_extends_itself_or_nothing() {
         "extend = \"base.toml\"\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:1:10: `extend` names `base.toml`, which is no file
+        ! error: shop/gcheck.toml:1:10: `extend` names `base.toml`, which is not a file
         !   |
         ! 1 | extend = "base.toml"
         !   |          ^^^^^^^^^^^
@@ -456,21 +456,21 @@ fn an_unknown_rule_among_the_arguments() {
     check_arguments(
         "check --select nonsense",
         &expect![[r#"
-        ! error: `nonsense` is no rule, group or set of rules; `gcheck rules` lists them
+        ! error: `nonsense` is not a rule, group or set of rules; `gcheck rules` lists them
         exit 2
     "#]],
     );
     check_arguments(
         "check --ignore unknown-cod",
         &expect![[r#"
-        ! error: `unknown-cod` is no rule, group or set of rules; did you mean `unknown-code`?
+        ! error: `unknown-cod` is not a rule, group or set of rules; did you mean `unknown-code`?
         exit 2
     "#]],
     );
     check_arguments(
         "check --extend-select unknown-code,modl",
         &expect![[r#"
-        ! error: `modl` is no rule, group or set of rules; did you mean `modal`?
+        ! error: `modl` is not a rule, group or set of rules; did you mean `modal`?
         exit 2
     "#]],
     );
@@ -630,7 +630,7 @@ fn rotary_axes_that_cannot_be() {
         "[machine]\nrotary_order = [\"X\", \"B\"]\n",
         &expect![[r#"
         sound/a.nc:3:1: error[unknown-code] unknown code `G999`
-        ! error: shop/gcheck.toml:2:17: `X` is no rotary axis
+        ! error: shop/gcheck.toml:2:17: `X` is not a rotary axis
         !   |
         ! 2 | rotary_order = ["X", "B"]
         !   |                 ^^^

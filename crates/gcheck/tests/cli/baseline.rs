@@ -186,7 +186,7 @@ fn a_baseline_of_a_later_version_is_refused() {
         !   |
         ! 1 | {
         !   | ^
-        !   help: use the gcheck that wrote it, or delete it and write it anew with `--update-baseline`
+        !   help: use the gcheck that wrote it, or delete it and write it again with `--update-baseline`
         exit 2
     "#]]
     .assert_eq(&shop.gcheck(CHECK).to_string());

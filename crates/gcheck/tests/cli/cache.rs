@@ -216,7 +216,7 @@ fn a_folder_that_holds_other_things_is_refused() {
     let shop = shop();
     let run = shop.gcheck("check --control haas-mill --cache-dir jobs a.nc");
     expect![[r#"
-        ! error: jobs: holds other things, so it is no place for the cache
+        ! error: jobs: holds other files, so it cannot be the cache
         !   help: name a folder of its own: one that is empty or does not exist yet
         exit 2
     "#]]
@@ -251,7 +251,7 @@ fn without_a_name_it_lies_among_the_users_caches() {
             assert!(shop.path(place).join("CACHEDIR.TAG").exists(), "{variable}");
         }
     }
-    // Nobody named this one, so that it cannot be made is no error.
+    // Nobody named this one, so that it cannot be made is not an error.
     let run = shop.gcheck_with(
         &[("HOME", &shop.path("a.nc").to_string_lossy())],
         "check --control haas-mill jobs/good.nc",

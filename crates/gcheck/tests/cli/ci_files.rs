@@ -150,8 +150,8 @@ fn a_release_is_packed() {
         shop.file(file, text(file));
     }
     shop.file("fixtures/tour/part.nc", BAD);
-    fs::create_dir_all(shop.path("target/some-target/release")).unwrap();
-    fs::copy(env!("CARGO_BIN_EXE_gcheck"), shop.path("target/some-target/release/gcheck")).unwrap();
+    fs::create_dir_all(shop.path("target/some-target/dist")).unwrap();
+    fs::copy(env!("CARGO_BIN_EXE_gcheck"), shop.path("target/some-target/dist/gcheck")).unwrap();
     let mut command = shop.command();
     command = {
         let mut bash = Command::new("bash");

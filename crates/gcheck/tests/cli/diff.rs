@@ -1,4 +1,4 @@
-//! `gcheck diff`: which programs make the machine do the same, and what is said of those that do not.
+//! `gcheck diff`: which programs make the machine do the same, and the messages of those that do not.
 
 use expect_test::expect;
 use serde_json::Value;
@@ -235,7 +235,7 @@ fn missing_files_and_two_standard_inputs_are_errors() {
     assert_eq!(shop.gcheck("diff - -").code, 2);
 }
 
-/// Moves to where the axes stand already, before the first that is known: a program is always the same as itself.
+/// Moves to where the axes are already, before the first that is known: a program is always the same as itself.
 #[test]
 fn a_program_is_the_same_as_itself() {
     for program in [

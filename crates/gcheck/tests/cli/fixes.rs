@@ -1,4 +1,4 @@
-//! `--fix`, `--unsafe-fixes`, `--diff`: what is mended, what is left, and that no program is ever damaged.
+//! `--fix`, `--unsafe-fixes`, `--diff`: what is fixed, what is left, and that no program is ever damaged.
 
 use expect_test::expect;
 
@@ -16,7 +16,7 @@ fn a_safe_fix_is_made_and_the_rest_reported() {
     expect![[r#"
         part.nc:4:6: error[letter-o-for-zero] letter `O` instead of a zero in `X1O.`
         ! part.nc: control haas-mill, set by `--control`
-        ! 1 error in 1 file (6 lines); 1 mended
+        ! 1 error in 1 file (6 lines); 1 fixed
         exit 1
     "#]]
     .assert_eq(&shop.gcheck(&format!("{CHECK} --fix")).to_string());
@@ -30,7 +30,7 @@ fn other_fixes_are_made_on_request() {
     let shop = Shop::with(&[("part.nc", MENDABLE)]);
     expect![[r#"
         ! part.nc: control haas-mill, set by `--control`
-        ! no findings in 1 file (6 lines); 2 mended
+        ! no findings in 1 file (6 lines); 2 fixed
         exit 0
     "#]]
     .assert_eq(&shop.gcheck(&format!("{CHECK} --fix --unsafe-fixes")).to_string());
@@ -50,7 +50,7 @@ fn a_difference_changes_nothing() {
          G21 G90 G17
          G0 X1O. Y2.
          M30
-        ! 1 finding would be mended in 1 file
+        ! 1 finding would be fixed in 1 file
         exit 1
     "#]]
     .assert_eq(&shop.gcheck(&format!("{CHECK} --diff")).to_string().replace('\r', ""));
@@ -105,7 +105,7 @@ fn a_link_stays_a_link() {
 fn standard_input_and_flags_without_their_command() {
     let shop = Shop::new();
     expect![[r#"
-        ! error: standard input cannot be mended
+        ! error: standard input cannot be fixed
         !   help: `--diff` shows what would change
         exit 2
     "#]]
@@ -134,7 +134,7 @@ fn a_file_that_changes_while_it_is_mended_is_left_alone() {
     drop(pipe);
     let output = child.wait_with_output().unwrap();
     expect![[r#"
-        error: part.nc: was changed by somebody else meanwhile, and is left alone
+        error: part.nc: was changed by another program in the meantime, and is not written
           help: run gcheck again
     "#]]
     .assert_eq(&String::from_utf8_lossy(&output.stderr));

@@ -26,7 +26,7 @@ fn full() {
           │ ^^^^ no such code
           │
           = note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]
-          = help: correct the code, or declare `G999` under `[codes]` if it is the shop's own
+          = help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
 
         1 error in 1 file (6 lines)
         ! jobs/part.nc: control haas-mill, set by `--control`
@@ -53,7 +53,7 @@ fn github() {
     let run =
         shop().gcheck("check jobs/part.nc --control haas-mill --select unknown-code --output-format github");
     expect![[r#"
-        ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::jobs/part.nc:4:1: unknown-code unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is the shop's own
+        ::error title=gcheck (unknown-code),file=jobs/part.nc,line=4,endLine=4,col=1,endColumn=5::jobs/part.nc:4:1: unknown-code unknown code `G999`%0A  note: Haas mill (classic control and NGC) has no `G999`  [HM17 p.243 to 356, Haas online manual; M codes of options may be missing]%0A  help: correct the code, or declare `G999` under `[codes]` if it is a code of your shop
         ! jobs/part.nc: control haas-mill, set by `--control`
         ! 1 error in 1 file (6 lines)
         exit 1

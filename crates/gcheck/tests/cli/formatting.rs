@@ -202,7 +202,7 @@ fn files_that_cannot_be_read_or_are_no_programs() {
     shop.file("a.nc", ROUGH);
     let run = shop.gcheck("fmt --control haas-mill --quiet");
     expect![[r#"
-        ! error: picture.nc: is no text, so no part program
+        ! error: picture.nc: is not text, so it is not a part program
         exit 2
     "#]]
     .assert_eq(&run.to_string());

@@ -85,7 +85,7 @@ fn what_cannot_be_explained() {
     check_refusal(
         "explain unknwn-code",
         &expect![[r#"
-        ! error: `unknwn-code` is no rule and no code; did you mean `unknown-code`?
+        ! error: `unknwn-code` is neither a rule nor a code; did you mean `unknown-code`?
         !   help: `gcheck rules` and `gcheck codes` list them
         exit 2
     "#]],

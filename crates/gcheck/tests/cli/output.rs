@@ -159,7 +159,7 @@ fn statistics_count_by_rule() {
     expect![[r#"
         a.nc and 2 more files: control haas-mill, set by `--control`
         2  unknown-code           code that the control does not have
-        1  missing-decimal-point  no decimal point where the control counts smallest steps
+        1  missing-decimal-point  no decimal point where the control counts least increments
         2 errors, 1 warning in 3 files (15 lines)
     "#]]
     .assert_eq(&run.stderr);
@@ -237,7 +237,7 @@ fn several_outputs_of_one_run() {
         let alone = shop.gcheck(&format!("check --control haas-mill --quiet --output-format {format}"));
         assert_eq!(shop.read(file), alone.stdout, "{format}");
     }
-    // What stands before `=` and is no format belongs to the name.
+    // What is before `=` and is not a format belongs to the name.
     let run = shop.gcheck("check --control haas-mill --quiet -o a=b.txt");
     assert_eq!(run.code, 1, "{run}");
     assert!(shop.read("a=b.txt").contains("unknown-code"));

@@ -109,7 +109,8 @@ fn the_name_of_the_output_says_what_is_drawn() {
     let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.png");
     assert_eq!(run.code, 2);
     assert!(
-        run.stderr.contains("plate.png: cannot tell what to draw") && run.stderr.contains("`.html`"),
+        run.stderr.contains("plate.png: the name does not say what to draw")
+            && run.stderr.contains("`.html`"),
         "{}",
         run.stderr
     );
@@ -136,7 +137,7 @@ fn a_program_that_moves_nothing_is_no_mistake() {
     }
 }
 
-/// Of text that is no UTF-8, of names with quotes, of markup in comments nothing becomes a part of the page.
+/// Of text that is not UTF-8, of names with quotes, of markup in comments nothing becomes a part of the page.
 #[test]
 fn text_of_a_program_stays_text() {
     let shop = Shop::new();
@@ -247,7 +248,7 @@ fn a_page_works_in_a_browser() {
     assert_eq!(text("lineOfFinding"), "27");
 
     assert_eq!(text("playStops"), "Play");
-    // The first place that is known comes behind a tool change.
+    // The first place that is known comes after a tool change.
     assert_eq!(text("clockAtStart"), "0:05");
     assert_ne!(text("clockInPlay"), text("clockAtEnd"));
     assert!(text("afterOneStep").starts_with("line "), "{seen:#}");

@@ -141,7 +141,7 @@ struct Element {
 impl Element {
     fn read(document: &str) -> Self {
         assert!(document.starts_with("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"), "{document}");
-        // What XML 1.0 has no way to say must not stand in it, not even escaped.
+        // What XML 1.0 has no way to say must not be in it, not even escaped.
         let is_allowed = |c: char| matches!(c, '\t' | '\n' | '\r' | '\u{20}'..='\u{FFFD}' | '\u{10000}'..);
         assert!(document.chars().all(is_allowed), "{document:?}");
         let mut reader = Reader::from_str(document);

@@ -121,7 +121,7 @@ fn the_control_and_what_is_taken_for_granted_are_said_beside_the_moves() {
               8  end
         ! part.nc: control haas-mill, set by `--control`
         ! taken for granted
-        !   where the axes stand at the start is not known
+        !   the positions of the axes at the start are not known
         !   the work offset G54 is not known
         !   block delete is off: blocks with `/` were executed
         !   the optional stop is off: `M1` was passed over
@@ -158,9 +158,9 @@ fn variables_are_set_before_the_program_starts() {
 fn a_setting_that_is_none_is_refused() {
     for (set, message) in [
         ("#100", "write `#100=2.5` or `#<name>=1`"),
-        ("#x=1", "`#x` is no variable; write `#100` or `#<name>`"),
-        ("#100=much", "`much` is no number"),
-        ("#100=inf", "`inf` is no number that a control can hold"),
+        ("#x=1", "`#x` is not a variable; write `#100` or `#<name>`"),
+        ("#100=much", "`much` is not a number"),
+        ("#100=inf", "`inf` is not a number that a control can hold"),
     ] {
         let run = run(PART, &format!("--set {set}"));
         assert_eq!(run.code, 2, "{run}");
@@ -431,17 +431,17 @@ fn a_tool_table_with_a_mistake_is_refused_at_its_place() {
         );
     };
     check("t.tbl", "T1 Z1\nP2 Z2\n", "2:1: a tool's line has its number: `T1`");
-    check("t.tbl", "T1 Zx\n", "1:4: `Zx` is no letter with a number");
-    check("t.tbl", "T1 Z\n", "1:4: `Z` is no letter with a number");
+    check("t.tbl", "T1 Zx\n", "1:4: `Zx` is not a letter with a number");
+    check("t.tbl", "T1 Z\n", "1:4: `Z` is not a letter with a number");
     check(
         "t.tbl",
         "T1 K2\n",
         "1:4: `K` says nothing of a tool; known are T, P, X, Y, Z, A, B, C, U, V, W, D, I, J and Q",
     );
     check("t.tbl", "T1.5\n", "1:1: `T1.5` must be a whole number");
-    check("t.tbl", "T1 Zinf\n", "1:4: `Zinf` is no letter with a number");
+    check("t.tbl", "T1 Zinf\n", "1:4: `Zinf` is not a letter with a number");
     check("t.csv", "length\n1\n", "1:1: the first line has no column called `tool`, `number` or `T`");
-    check("t.csv", "tool,length\n1,long\n", "2:3: `long` is no number");
+    check("t.csv", "tool,length\n1,long\n", "2:3: `long` is not a number");
     check("t.csv", "tool,length\n,5\n", "2:1: this line has no tool number");
     let run = Shop::with(&[("part.ngc", PART)]).gcheck("run part.ngc --config tools.table=t.tbl");
     expect![[r#"
@@ -532,7 +532,7 @@ fn only_axes_that_move_are_shown_to_people() {
     };
     assert!(!heading("G0 X1\nM2\n").contains('A'));
     assert!(heading("G0 A1\nM2\n").contains('A'));
-    // Arguments of a call are no axes, and what a called program moves counts.
+    // Arguments of a call are not axes, and what a called program moves counts.
     assert!(heading("o1 sub\nG0 B#1\no1 endsub\no1 call [2]\nM2\n").contains('B'));
 }
 

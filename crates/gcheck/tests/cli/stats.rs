@@ -45,7 +45,7 @@ G55 = { X = -100.0, Y = -200.0, Z = 0.0 }
 fn figures_close_with_what_they_rest_on() {
     let run = Shop::with(&[("part.nc", PART)]).gcheck("stats part.nc --control haas-mill");
     expect![[r#"
-        cycle time 0:47.6 min: cutting 0:37.2 (78 %), rapid 0:00.4 (1 %); 2 tool changes 0:10.0
+        cycle time 0:47.6 min (lower bound): cutting 0:37.2 (78 %), rapid 0:00.4 (1 %); 2 tool changes 0:10.0
 
         tool                          time  cutting   rapid  change  cut mm  rapid mm  feed         speed          holes
         T1     D=10. FLAT END MILL  0:27.9   0:22.8  0:00.1  0:05.0      76        26  200/min      3000 rpm
@@ -65,11 +65,11 @@ fn figures_close_with_what_they_rest_on() {
         assumed
           rapid moves at 25400 mm/min on every axis (set machine.rapid)
           5 s for a tool change (set machine.tool_change_seconds)
-          axes and spindle reach their speed at once: real times are longer
+          axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
 
         taken for granted
           setting 28 (canned cycle act without X/Y) is `on`, as usual
-          where the axes stand at the start is not known
+          the positions of the axes at the start are not known
           the work offset G54 is not known
           the work offset G55 is not known
           the length of tool 1 is not known
@@ -94,7 +94,7 @@ fn figures_close_with_what_they_rest_on() {
 fn a_machine_file_leaves_little_to_assume() {
     let run = Shop::with(&[("part.nc", PART), ("gcheck.toml", MACHINE)]).gcheck("stats part.nc");
     expect![[r#"
-        cycle time 0:46.1 min: cutting 0:37.2 (81 %), rapid 0:00.9 (2 %); 2 tool changes 0:08.0
+        cycle time 0:46.1 min (lower bound): cutting 0:37.2 (81 %), rapid 0:00.9 (2 %); 2 tool changes 0:08.0
 
         tool                          time  cutting   rapid  change  cut mm  rapid mm  feed         speed          holes
         T1     D=10. FLAT END MILL  0:26.9   0:22.8  0:00.1  0:04.0      76        26  200/min      3000 rpm
@@ -113,11 +113,11 @@ fn a_machine_file_leaves_little_to_assume() {
           machine coordinates of 1 move
 
         assumed
-          axes and spindle reach their speed at once: real times are longer
+          axes and spindle reach their speed at once: real times are longer (set machine.acceleration)
 
         taken for granted
           setting 28 (canned cycle act without X/Y) is `on`, as usual
-          where the axes stand at the start is not known
+          the positions of the axes at the start are not known
           in effect at the start, as at power-on: G0 G80 G17 G90 G94 G40 G49 G98 G54 G64 G50 G69 G100 G255
         gcheck.toml can say
           [settings]
@@ -160,12 +160,193 @@ fn json_is_for_other_programs() {
     expect![[r#"
         [machine] rapid = …
         [machine] tool_change_seconds = …
+        [machine] acceleration = …
         [settings] 28 = true
         [offsets] G54 = { X = …, Y = …, Z = … }
         [offsets] G55 = { X = …, Y = …, Z = … }
         [tools] 1.length = …
         [tools] 2.length = …"#]]
     .assert_eq(&pins.join("\n"));
+}
+
+/// The machine file with more lines in `[machine]`.
+fn machine_with(lines: &str) -> String {
+    MACHINE.replacen("[offsets]", &format!("{lines}\n[offsets]"), 1)
+}
+
+#[test]
+fn with_the_machines_acceleration_times_are_an_estimate() {
+    let machine = machine_with("acceleration = { X = 1000.0, Z = 500.0 }\nspindle_acceleration = 1500.0");
+    let shop = Shop::with(&[("part.nc", PART), ("gcheck.toml", &machine)]);
+    let text = shop.gcheck("stats part.nc").stdout;
+    expect!["cycle time 0:53.4 min (estimate): cutting 0:37.2 (70 %), rapid 0:00.9 (2 %), acceleration 0:03.3 (6 %), spindle 0:04.0 (7 %); 2 tool changes 0:08.0"].assert_eq(text.split("\n\n").next().unwrap());
+    let json = shop.gcheck("stats part.nc --output-format json").json();
+    assert_eq!(json["times"], "estimate");
+    let of = |seconds: &serde_json::Value, part: &str| seconds[part].as_f64().unwrap();
+    let causes =
+        ["cutting", "rapid", "acceleration", "starved", "spindle", "auxiliary", "dwell", "tool_change"];
+    let used = json["tools"].as_array().unwrap().iter().filter(|tool| of(&tool["seconds"], "total") > 0.0);
+    for seconds in used.chain([&json["total"]]).map(|row| &row["seconds"]) {
+        let sum: f64 = causes.iter().map(|cause| of(seconds, cause)).sum();
+        assert!((sum - of(seconds, "total")).abs() < 1e-5, "{seconds}");
+        assert!(of(seconds, "acceleration") > 0.0 && of(seconds, "spindle") > 0.0, "{seconds}");
+    }
+    let bound = Shop::with(&[("part.nc", PART), ("gcheck.toml", MACHINE)])
+        .gcheck("stats part.nc --output-format json")
+        .json();
+    assert_eq!(bound["times"], "lower-bound");
+    assert!(of(&bound["total"]["seconds"], "total") < of(&json["total"]["seconds"], "total"));
+}
+
+#[test]
+fn segments_that_come_too_fast_are_the_slowest_place() {
+    let segments: String = (1..=400).map(|ix| format!("X{:.3}\n", f64::from(ix) * 0.05)).collect();
+    let part = format!("%\nO1\nG21 G90 G94 G54 G17\nG0 X0. Y0.\nG1 F6000.\n{segments}M30\n%\n");
+    let machine = machine_with("acceleration = 3000.0\nblock_time = 0.002\nlook_ahead = 40");
+    let shop = Shop::with(&[("part.nc", &part), ("gcheck.toml", &machine)]);
+    let json = shop.gcheck("stats part.nc --output-format json").json();
+    // The last blocks come slowly enough, because the axes brake.
+    let place = &json["slowest"][0];
+    assert_eq!(
+        (place["cause"].as_str(), place["last_line"].as_u64()),
+        (Some("data-starved"), Some(400)),
+        "{json:#}"
+    );
+    let text = shop.gcheck("stats part.nc").stdout;
+    let line = text.lines().find(|line| line.contains("data starved:")).unwrap_or(&text);
+    expect!["  lines 14 to 400: 0:00.6 of 0:00.8 lost, data starved: 2000 blocks/s, and the control prepares 500; 387 moves of 0.05 mm on the average"].assert_eq(line);
+    expect![[r#"
+        part.nc:59:1: info[data-starved] data starved: 2000 blocks/s, and the control prepares 500
+    "#]]
+    .assert_eq(&shop.gcheck("check part.nc --output-format concise --select data-starved").stdout);
+}
+
+#[test]
+#[expect(
+    clippy::too_many_lines,
+    clippy::format_push_string,
+    reason = "one table of values and their messages"
+)]
+fn figures_that_no_machine_has_are_refused_with_their_line() {
+    let mut messages = String::new();
+    for line in [
+        "acceleration = 0.0",
+        "acceleration = -500.0",
+        "acceleration = { X = 1000.0, Z = nan }",
+        "acceleration = { Q = 1000.0 }",
+        "acceleration = {}",
+        "acceleration = \"fast\"",
+        "acceleration = 5.0",
+        "acceleration = 9999999.0",
+        "jerk = inf",
+        "block_time = 2.0",
+        "block_time = 0.0",
+        "look_ahead = 0",
+        "pockets = 0",
+        "rapid_override = 150.0",
+        "max_feed = 40000.0",
+        "pocket_seconds = -1.0",
+        "tool_changer = \"robot\"",
+        "max_rpm = 8000\nspindle_acceleration = 1.0",
+    ] {
+        let shop = Shop::with(&[("part.nc", PART), ("gcheck.toml", &machine_with(line))]);
+        let run = shop.gcheck("stats part.nc");
+        assert_eq!((run.code, run.stdout.as_str()), (2, ""), "{line}: {run}");
+        messages += &format!("{line}\n  {}\n", run.stderr.trim_end().replace('\n', "\n  "));
+    }
+    expect![[r#"
+        acceleration = 0.0
+          error: gcheck.toml:7:16: must be greater than zero, and finite
+            |
+          7 | acceleration = 0.0
+            |                ^^^
+        acceleration = -500.0
+          error: gcheck.toml:7:16: must be greater than zero, and finite
+            |
+          7 | acceleration = -500.0
+            |                ^^^^^^
+        acceleration = { X = 1000.0, Z = nan }
+          error: gcheck.toml:7:34: must be greater than zero, and finite
+            |
+          7 | acceleration = { X = 1000.0, Z = nan }
+            |                                  ^^^
+        acceleration = { Q = 1000.0 }
+          error: gcheck.toml:7:18: `Q` is not an axis of haas-mill; the axes are A, B, C, U, V, W, X, Y, Z
+            |
+          7 | acceleration = { Q = 1000.0 }
+            |                  ^
+        acceleration = {}
+          error: gcheck.toml:7:16: names no axis
+            |
+          7 | acceleration = {}
+            |                ^^
+        acceleration = "fast"
+          error: gcheck.toml:7:16: wrong type: text "fast", expected a number, or a table of numbers by axis
+            |
+          7 | acceleration = "fast"
+            |                ^^^^^^
+        acceleration = 5.0
+          error: gcheck.toml:7:16: the rapid rate 30000 is reached only after 100 s: acceleration counts in mm a second squared, not in g or m/s²
+            |
+          7 | acceleration = 5.0
+            |                ^^^
+        acceleration = 9999999.0
+          error: gcheck.toml:7:16: the rapid rate 30000 is reached already after 0.0500 ms: acceleration counts in mm a second squared, not in g or m/s²
+            |
+          7 | acceleration = 9999999.0
+            |                ^^^^^^^^^
+        jerk = inf
+          error: gcheck.toml:7:8: must be greater than zero, and finite
+            |
+          7 | jerk = inf
+            |        ^^^
+        block_time = 2.0
+          error: gcheck.toml:7:14: 2 s for a block: block_time counts in seconds, 0.0005 for 2,000 blocks a second
+            |
+          7 | block_time = 2.0
+            |              ^^^
+        block_time = 0.0
+          error: gcheck.toml:7:14: must be greater than zero
+            |
+          7 | block_time = 0.0
+            |              ^^^
+        look_ahead = 0
+          error: gcheck.toml:7:14: a control looks 1 to 100000 blocks ahead
+            |
+          7 | look_ahead = 0
+            |              ^
+        pockets = 0
+          error: gcheck.toml:7:11: a magazine has at least one pocket
+            |
+          7 | pockets = 0
+            |           ^
+        rapid_override = 150.0
+          error: gcheck.toml:7:18: a rapid override is at most 100 percent
+            |
+          7 | rapid_override = 150.0
+            |                  ^^^^^
+        max_feed = 40000.0
+          error: gcheck.toml:5:9: the rapid rate 30000 is lower than max_feed (40000): no axis cuts faster than it moves at rapid
+            |
+          5 | rapid = 30000.0
+            |         ^^^^^^^
+        pocket_seconds = -1.0
+          error: gcheck.toml:7:18: must not be negative
+            |
+          7 | pocket_seconds = -1.0
+            |                  ^^^^
+        tool_changer = "robot"
+          error: gcheck.toml:7:16: unknown value `robot`; known are carousel, arm
+            |
+          7 | tool_changer = "robot"
+            |                ^^^^^^^
+        max_rpm = 8000
+        spindle_acceleration = 1.0
+          error: gcheck.toml:8:24: the spindle takes 8000 s to its highest speed: spindle_acceleration counts in 1/min a second
+            |
+          8 | spindle_acceleration = 1.0
+            |                        ^^^
+    "#]].assert_eq(&messages);
 }
 
 #[test]

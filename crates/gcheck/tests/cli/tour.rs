@@ -17,7 +17,7 @@ fn the_tour_shows_its_mistakes() {
     assert_eq!(output.status.code(), Some(1));
     assert_eq!(String::from_utf8_lossy(&output.stderr), "");
     expect![[r#"
-        fixtures/tour/bore.nc:23:6: warning[touches-do-not-meet] the first touch did not go along Y
+        fixtures/tour/bore.nc:23:6: warning[touches-do-not-meet] the first touch was not along Y
         fixtures/tour/bore.nc:29:5: error[probing-in-wrong-mode] work offset measured with a tool length on (`G43`)
         fixtures/tour/bore.nc:29:15: warning[probe-feed-too-high] probing at 150 inch/min (`F`)
         fixtures/tour/bore.nc:38:5: error[word-forbidden] `X6.` in a block with `G37`
@@ -28,21 +28,21 @@ fn the_tour_shows_its_mistakes() {
         fixtures/tour/bracket.nc:23:5: warning[missing-decimal-point] decimal point missing: `X-15`
         fixtures/tour/bushing.nc:13:7: error[letter-o-for-zero] letter `O` instead of a zero in `Z-O.125`
         fixtures/tour/bushing.nc:16:10: error[jump-target-missing] jump target `N210` does not exist in this program
-        fixtures/tour/bushing.nc:25:17: warning[subprogram-missing] called program `O3099` is not here
+        fixtures/tour/bushing.nc:25:17: warning[subprogram-missing] called program `O3099` is missing
         fixtures/tour/impeller.nc:9:1: error[five-axis-length-without-offset] 5-axis length compensation without a length offset (`G143` without `H`)
-        fixtures/tour/impeller.nc:12:9: warning[five-axis-axis-left-out] `Y` and `Z` stand still while `A` and `B` tilt the tool (`G143`)
+        fixtures/tour/impeller.nc:12:9: warning[five-axis-axis-left-out] `Y` and `Z` do not move while `A` and `B` tilt the tool (`G143`)
         fixtures/tour/impeller.nc:15:1: warning[five-axis-feed-per-minute] feed per minute (`G94`) while the tool tilts (`G143`)
         fixtures/tour/impeller.nc:16:1: error[refused-in-five-axis-mode] arc (`G2`) under `G143`
         fixtures/tour/impeller.nc:18:1: error[five-axis-length-in-incremental] incremental words under 5-axis length compensation (`G143`)
         fixtures/tour/impeller.nc:20:4: warning[five-axis-length-left-on] 5-axis length compensation is still on at the tool change (`G143`)
-        fixtures/tour/impeller.nc:25:19: error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0.82, not 1 (`G141`)
+        fixtures/tour/impeller.nc:25:19: error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0.82, not 1 (`G141`)
         fixtures/tour/impeller.nc:27:1: warning[cutter-vector-incomplete] move without a direction under 3D cutter compensation (`G141`)
         fixtures/tour/manifold.nc:10:1: error[loop-end-missing] loop `DO1` has no `END1`
         fixtures/tour/manifold.nc:15:1: warning[arc-without-centre] arc without centre or radius: `G3`
         fixtures/tour/manifold.nc:16:8: warning[two-codes-of-one-group] `G0` and `G1` belong to one modal group
         fixtures/tour/manifold.nc:18:19: error[jump-target-missing] jump target `N900` does not exist in this program
         fixtures/tour/pin.nc:15:1: info[chuck-moved-at-bar-feed] chuck is open before the bar is fed (`M11`)
-        fixtures/tour/pin.nc:15:1: warning[turret-in-the-way-of-bar] tool stands in the way of the bar
+        fixtures/tour/pin.nc:15:1: warning[turret-in-the-way-of-bar] tool is in the way of the bar
         fixtures/tour/pin.nc:15:12: warning[bar-push-shorter-than-part] bar is pushed by less than the part is long
         fixtures/tour/plate.nc:3:1: info[program-number-missing] program has no number
         fixtures/tour/plate.nc:8:5: error[malformed-number] number `-2.5.0` has two decimal points

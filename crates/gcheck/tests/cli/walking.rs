@@ -138,6 +138,6 @@ fn standard_input_without_a_name() {
     assert_eq!(run.findings(), ["a.nc:3:1: error[unknown-code]", "stdin:3:1: error[unknown-code]"]);
     assert_eq!(
         shop.gcheck_reading("check -", b"\x7fELF\x02\x01\x01\0\0\0\0\0").stderr,
-        "error: stdin: is no text, so no part program\n"
+        "error: stdin: is not text, so it is not a part program\n"
     );
 }

@@ -20,15 +20,15 @@ const RUNS: usize = 3;
 const STARTS: usize = 21;
 const SMALL: &str = "O1000\nG21 G90 G94\nT1 M6\nG43 H1\nS800 M3\nG0 X0. Y0.\nG1 X10. F200.\nM30\n";
 
-/// Builds the program in release; gives where it is, and the folder of the inputs.
+/// Builds the program as it is published; gives where it is, and the folder of the inputs.
 pub(super) fn build() -> anyhow::Result<(PathBuf, PathBuf)> {
     let target = workspace::members()?.target_directory.into_std_path_buf();
     let build = Command::new("cargo")
         .current_dir(workspace::root())
-        .args(["build", "--quiet", "--release", "--package", "gcheck"])
+        .args(["build", "--quiet", "--profile", "dist", "--package", "gcheck"])
         .status()?;
     ensure!(build.success(), "the release build fails");
-    let gcheck = target.join("release").join(format!("gcheck{}", std::env::consts::EXE_SUFFIX));
+    let gcheck = target.join("dist").join(format!("gcheck{}", std::env::consts::EXE_SUFFIX));
     let inputs = target.join("bench-inputs");
     fs::create_dir_all(&inputs)?;
     Ok((gcheck, inputs))

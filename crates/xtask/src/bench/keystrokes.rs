@@ -51,7 +51,7 @@ impl Bench {
         let control = gcheck_controls::load(CONTROL)?;
         let mut database = Database::new();
         let start = Instant::now();
-        let id = database.open(&text, Settings::new(control));
+        let id = database.open(&text, Settings::new(control, gcheck_rules::RULES));
         let _ = database.analysis(id, &|| false);
         let opened = start.elapsed().as_secs_f64() * 1e3;
         Ok(Self { database, id, text, opened })

@@ -73,7 +73,7 @@ fn find() -> Option<PathBuf> {
     env::split_paths(&folders).map(|folder| folder.join("rs274")).find(|file| file.is_file())
 }
 
-/// A program as the interpreter reads it: to it `O1000` alone is no program number but a word without its keyword.
+/// A program as the interpreter reads it: to it `O1000` alone is not a program number but a word without its keyword.
 fn readable(program: &str) -> String {
     program.replacen("O1000 ", "", 1)
 }
@@ -88,7 +88,7 @@ fn its_seconds(peer: &Path, path: &Path, folder: &Path) -> anyhow::Result<f64> {
     let (table, parameters) = (folder.join("peer.tbl"), folder.join("peer.var"));
     let tools: String = (1..=20).map(|tool| format!("T{tool} P{tool} Z1.5 D0.25\n")).collect();
     fs::write(&table, tools)?;
-    // It writes this file anew when it ends.
+    // It writes this file again when it ends.
     fs::write(&parameters, "")?;
     let [table, parameters, text] = [&*table, &*parameters, path].map(Path::to_string_lossy);
     let arguments = ["-t", &*table, "-v", &*parameters, "-g", &*text];

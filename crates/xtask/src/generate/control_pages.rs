@@ -10,7 +10,8 @@ use gcheck_controls::{
     SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
 };
 
-use super::{Generated, markdown};
+use super::generated::Generated;
+use super::markdown;
 
 const FOLDER: &str = "docs/controls";
 const DATA: &str = "crates/gcheck-controls/data";
@@ -26,7 +27,7 @@ pub(super) fn generate() -> anyhow::Result<Generated> {
     }
     let mut index = markdown::header(DATA);
     index.push_str("# Controls\n\nWhat gcheck knows about each control.\n");
-    index.push_str("`manual` facts stand in a manual or in the control's own source, `observed` ones were seen in real programs, ");
+    index.push_str("`manual` facts are in a manual or in the control's own source, `observed` ones were seen in real programs, ");
     index.push_str("`assumed` ones are general knowledge and never the ground of an error.\n\n");
     index.push_str(&markdown::table(&["control", "for", "G codes", "M codes", "by confidence"], &rows));
     files.push((Path::new(FOLDER).join("README.md"), index));
@@ -62,7 +63,7 @@ fn page(control: &Control) -> String {
         markdown::codes(axes)
     );
     text.push_str("Whatever gcheck says about a program for this control rests on the facts below.\n");
-    text.push_str("How sure a fact is stands beside it: see [the list of controls](README.md).\n");
+    text.push_str("The certainty of a fact is beside it: see [the list of controls](README.md).\n");
     section(&mut text, "How text is read", &syntax(control.syntax()));
     section(&mut text, "How numbers are read", &numbers(control.numbers()));
     section(&mut text, "Limits", &limits(control.limits()));
@@ -111,7 +112,7 @@ fn syntax(rules: &SyntaxRules) -> String {
 fn numbers(rules: &NumberRules) -> String {
     let unpointed = match rules.unpointed {
         Unpointed::LeastIncrement => "one least increment",
-        Unpointed::AsWritten => "the number as it stands",
+        Unpointed::AsWritten => "the number as it is written",
         Unpointed::ByParameter => "either, by a parameter",
     };
     let mut text = format!("A length without a decimal point (`X1`) is {unpointed}");

@@ -1,4 +1,4 @@
-//! `crates/gcheck-rules/src/rules/generated.rs`: the list of rules, from the folders they stand in.
+//! `crates/gcheck-rules/src/rules/generated.rs`: the list of rules, from the folders they are in.
 //!
 //! Knows: `rules/<group>/<rule_id>.rs`. Must not know: what is in a rule; it works while gcheck-rules does not compile.
 
@@ -6,10 +6,10 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Generated;
+use super::generated::Generated;
 use crate::workspace;
 
-/// Where rules stand.
+/// Where rules are.
 pub(crate) const RULES: &str = "crates/gcheck-rules/src/rules";
 
 /// The registry file.
@@ -55,7 +55,7 @@ pub(crate) fn file(groups: &[Group]) -> (PathBuf, String) {
     let list = if all.is_empty() { "&[]".to_owned() } else { format!("&[\n{all}]") };
     let _ = write!(
         text,
-        "\n/// Sorted by group, then id.\npub(crate) static ALL: &[&crate::RuleEntry] = {list};\n"
+        "\n/// Sorted by group, then id.\npub(crate) static ALL: &[&gcheck_lint::RuleEntry] = {list};\n"
     );
     (Path::new(RULES).join("generated.rs"), text)
 }
@@ -85,7 +85,7 @@ mod tests {
             }
 
             /// Sorted by group, then id.
-            pub(crate) static ALL: &[&crate::RuleEntry] = &[
+            pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
                 &syntax::a_b::RULE,
                 &words::c::RULE,
                 &words::d::RULE,

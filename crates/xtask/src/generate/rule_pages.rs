@@ -1,19 +1,21 @@
-//! `docs/rules/`: a page for each rule and an index, from the documentation that stands in the rule's file.
+//! `docs/rules/`: a page for each rule and an index, from the documentation that is in the rule's file.
 //!
 //! Knows: the shape of the pages. Must not know: any rule.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-use gcheck_rules::{RuleMeta, RuleSet, all};
+use gcheck_diagnostics::{RuleMeta, RuleSet};
+use gcheck_rules::RULES;
 
-use super::{Generated, markdown, registry};
+use super::generated::Generated;
+use super::{markdown, registry};
 
 const FOLDER: &str = "docs/rules";
 
 /// All pages.
 pub(super) fn generate() -> Generated {
-    let rules: Vec<&RuleMeta> = all().iter().map(|rule| rule.meta).collect();
+    let rules: Vec<&RuleMeta> = RULES.iter().map(|rule| rule.meta).collect();
     let mut files = vec![(Path::new(FOLDER).join("README.md"), index(&rules))];
     files.extend(rules.iter().map(|rule| (path(rule), page(rule))));
     files
@@ -36,7 +38,7 @@ fn page(rule: &RuleMeta) -> String {
         rule.since.to_owned(),
     ];
     text.push_str(&markdown::table(
-        &["severity", "in the sets", "mended by", "group", "sees", "since"],
+        &["severity", "in the sets", "fixed by", "group", "sees", "since"],
         &[row],
     ));
     if !rule.aliases.is_empty() {
@@ -86,10 +88,10 @@ fn with_plainsides(docs: &str) -> String {
 fn index(rules: &[&RuleMeta]) -> String {
     let mut text = markdown::header(&format!("the rules under {}", registry::RULES));
     let default = rules.iter().filter(|rule| rule.recommended).count();
-    let mending = rules.iter().filter(|rule| !rule.mends.option().is_empty()).count();
+    let mending = rules.iter().filter(|rule| !rule.fixability.option().is_empty()).count();
     let _ = writeln!(
         text,
-        "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`); {mending} can mend what they find.",
+        "# Rules\n\n{} rules, {default} of them on by default (the set `recommended`); {mending} can fix what they find.",
         rules.len()
     );
     text.push_str("`error` means that the control alarms or the move is certainly wrong, `warning` a likely crash, scrap or trap, ");
@@ -113,7 +115,7 @@ fn index(rules: &[&RuleMeta]) -> String {
                 vec![link, severity, sets(rule), mended_by(rule), rule.summary.to_owned()]
             })
             .collect();
-        text.push_str(&markdown::table(&["rule", "severity", "in the sets", "mended by", "reports"], &rows));
+        text.push_str(&markdown::table(&["rule", "severity", "in the sets", "fixed by", "reports"], &rows));
     }
     text
 }
@@ -124,7 +126,7 @@ Further sets are chosen on the command line (`--select strict`, `--extend-select
 ";
 
 const MENDING: &str = "
-Mended by `--fix` is what changes no move; `--unsafe-fixes` mends as well what may change one, or what only the programmer can decide.
+`--fix` applies fixes that change no move; `--unsafe-fixes` also applies those that may change one, or that need the programmer's decision.
 ";
 
 /// The sets as a page shows them: `strict` holds all that is recommended, and is not repeated there.
@@ -135,7 +137,7 @@ fn sets(rule: &RuleMeta) -> String {
 }
 
 fn mended_by(rule: &RuleMeta) -> String {
-    match rule.mends.option() {
+    match rule.fixability.option() {
         "" => String::new(),
         option => format!("`{option}`"),
     }

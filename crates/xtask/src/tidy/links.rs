@@ -1,4 +1,4 @@
-//! Every link of a page leads somewhere, and every page of the book stands in its table of contents.
+//! Every link of a page leads somewhere, and every page of the book is in its table of contents.
 //!
 //! Knows: Markdown, how headings become anchors. Must not know: what the pages are about. Links to other sites are not
 //! followed: a test that needs the network fails for reasons of its own.
@@ -8,12 +8,15 @@ use std::path::Path;
 
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 
-use super::Problem;
+use super::problem::Problem;
 use crate::workspace::TextFile;
 
 /// The book's table of contents, and the folder of its pages.
 const CONTENTS: &str = "docs/SUMMARY.md";
 const BOOK: &str = "docs/";
+
+/// Folders of the repository: a page that names a path in one of them names a path that exists.
+const FOLDERS: &[&str] = &["crates/", "docs/", "editors/", "fixtures/", "tests/", ".github/"];
 
 /// Where Markdown is input, not documentation.
 const NOT_PAGES: &[&str] = &["fixtures/", ".test-tools/"];
@@ -21,12 +24,14 @@ const NOT_PAGES: &[&str] = &["fixtures/", ".test-tools/"];
 /// A page: where it leads, and what can be led to.
 struct Page<'f> {
     file: &'f TextFile,
-    /// With the lines they stand on.
+    /// With the lines they are on.
     links: Vec<(usize, String)>,
+    /// Paths in the repository that the text names as code, with their lines.
+    paths: Vec<(usize, String)>,
     anchors: BTreeSet<String>,
 }
 
-/// Dead links, and pages that the book does not list. `exists` tells of files that are no text: pictures, folders.
+/// Dead links, and pages that the book does not list. `exists` tells of files that are not text: pictures, folders.
 pub(super) fn problems(files: &[TextFile], exists: impl Fn(&str) -> bool) -> Vec<Problem> {
     let pages: BTreeMap<&str, Page<'_>> = files
         .iter()
@@ -36,6 +41,9 @@ pub(super) fn problems(files: &[TextFile], exists: impl Fn(&str) -> bool) -> Vec
     let mut problems = Vec::new();
     let mut listed = BTreeSet::new();
     for (path, page) in &pages {
+        for (line, named) in page.paths.iter().filter(|(_, named)| !exists(named)) {
+            problems.push(Problem::new(*path, *line, format!("`{named}` is not there")));
+        }
         for (line, link) in &page.links {
             let (target, anchor) = link.split_once('#').map_or((link.as_str(), None), |(t, a)| (t, Some(a)));
             let target = if target.is_empty() { (*path).to_owned() } else { resolved(path, target) };
@@ -43,7 +51,7 @@ pub(super) fn problems(files: &[TextFile], exists: impl Fn(&str) -> bool) -> Vec
             match pages.get(target.as_str()) {
                 Some(to) => {
                     if *path == CONTENTS && !listed.insert(target.clone()) {
-                        say(format!("`{target}` stands twice in the contents"));
+                        say(format!("`{target}` is in the contents twice"));
                     }
                     if let Some(anchor) = anchor.filter(|anchor| !to.anchors.contains(*anchor)) {
                         say(format!("`{target}` has no heading `#{anchor}`"));
@@ -55,12 +63,12 @@ pub(super) fn problems(files: &[TextFile], exists: impl Fn(&str) -> bool) -> Vec
         }
     }
     for path in pages.keys().filter(|path| path.starts_with(BOOK) && **path != CONTENTS) {
-        // A tree without a book has no contents to stand in.
+        // A tree without a book has no contents to be in.
         if pages.contains_key(CONTENTS) && !listed.contains(*path) {
             problems.push(Problem::new(
                 *path,
                 0,
-                format!("the page stands in no line of {CONTENTS}: add one, or run `cargo xtask gen` if it is generated"),
+                format!("the page is in no line of {CONTENTS}: add one, or run `cargo xtask gen` if it is generated"),
             ));
         }
     }
@@ -73,15 +81,20 @@ fn is_markdown(path: &str) -> bool {
 
 impl<'f> Page<'f> {
     fn new(file: &'f TextFile) -> Self {
-        let (mut links, mut anchors) = (Vec::new(), BTreeSet::new());
+        let (mut links, mut paths, mut anchors) = (Vec::new(), Vec::new(), BTreeSet::new());
         let mut heading: Option<String> = None;
         let options = Options::ENABLE_TABLES | Options::ENABLE_FOOTNOTES;
+        let line_of = |start: usize| file.text.get(..start).unwrap_or_default().matches('\n').count() + 1;
         for (event, range) in Parser::new_ext(&file.text, options).into_offset_iter() {
+            if let Event::Code(code) = &event
+                && is_path(code)
+            {
+                paths.push((line_of(range.start), code.to_string()));
+            }
             match event {
                 Event::Start(Tag::Link { dest_url, .. } | Tag::Image { dest_url, .. }) => {
                     if is_own(&dest_url) {
-                        let before = file.text.get(..range.start).unwrap_or_default();
-                        links.push((before.matches('\n').count() + 1, dest_url.into_string()));
+                        links.push((line_of(range.start), dest_url.into_string()));
                     }
                 }
                 Event::Start(Tag::Heading { .. }) => heading = Some(String::new()),
@@ -100,7 +113,7 @@ impl<'f> Page<'f> {
                 _ => {}
             }
         }
-        Self { file, links, anchors }
+        Self { file, links, paths, anchors }
     }
 }
 
@@ -110,9 +123,15 @@ impl std::fmt::Debug for Page<'_> {
     }
 }
 
-/// Does a link lead into the repository? An empty one stands in the contents for a chapter without a page.
+/// Does a link lead into the repository? An empty one is in the contents for a chapter without a page.
 fn is_own(link: &str) -> bool {
     !link.is_empty() && !link.starts_with('/') && !link.contains("://") && !link.starts_with("mailto:")
+}
+
+/// Is it a path in one of the folders, without a place to fill in?
+fn is_path(code: &str) -> bool {
+    let is_whole = !code.contains([' ', '<', '*', '…', '{', ':']);
+    is_whole && FOLDERS.iter().any(|folder| code.starts_with(folder))
 }
 
 /// The anchor of a heading, as code hosts and the book make it.
@@ -171,7 +190,13 @@ mod tests {
     }
 
     #[test]
-    fn a_page_stands_in_the_contents_once() {
+    fn a_path_that_a_page_names_exists() {
+        let page = "`docs/picture.png`, `docs/none.rs`, `crates/<name>/src`, `docs/*.md`.\n";
+        assert_eq!(found(&[("docs/a.md", page)]), ["docs/a.md:1: `docs/none.rs` is not there"]);
+    }
+
+    #[test]
+    fn a_page_is_in_the_contents_once() {
         let contents = "# Contents\n\n- [A](a.md)\n- [Group]()\n- [A again](a.md)\n";
         let said = found(&[
             ("docs/SUMMARY.md", contents),
@@ -180,7 +205,7 @@ mod tests {
             ("CHANGELOG.md", ""),
         ]);
         assert_eq!(said.len(), 2, "{said:?}");
-        assert_eq!(said[0], "docs/SUMMARY.md:5: `docs/a.md` stands twice in the contents");
-        assert!(said[1].starts_with("docs/b.md: the page stands in no line"), "{said:?}");
+        assert_eq!(said[0], "docs/SUMMARY.md:5: `docs/a.md` is in the contents twice");
+        assert!(said[1].starts_with("docs/b.md: the page is in no line"), "{said:?}");
     }
 }

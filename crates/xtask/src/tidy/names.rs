@@ -3,7 +3,7 @@
 //! Knows: names of builders; those of controls come from the folders of the knowledge base. Documentation, examples in
 //! it, tests and dev crates may name whom they like.
 
-use super::Problem;
+use super::problem::Problem;
 use super::tokens::{RustFile, Token};
 use crate::workspace::TextFile;
 

@@ -2,7 +2,7 @@
 //!
 //! Knows: beginnings of paths that exist on one machine only.
 
-use super::Problem;
+use super::problem::Problem;
 use crate::workspace::TextFile;
 
 const MACHINE: &[&str] = &["/work/", "/root/", "../shared"];

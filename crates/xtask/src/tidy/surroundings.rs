@@ -3,7 +3,7 @@
 //! Knows: the crates that meet the user. All others are functions of their arguments, so that they can be cached, run in
 //! an editor or a browser, and give the same answer twice.
 
-use super::Problem;
+use super::problem::Problem;
 use super::tokens::{Placed, RustFile, Token, starts_with};
 
 /// Crates under `crates/` that may; the end-to-end tests and build scripts may, too.

@@ -4,7 +4,7 @@
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 
-use super::Problem;
+use super::problem::Problem;
 use crate::workspace::TextFile;
 
 /// A token, as far as the checks look at it.
@@ -34,10 +34,10 @@ pub(super) struct RustFile<'f> {
 }
 
 impl<'f> RustFile<'f> {
-    /// Reads a file; text that is no sequence of Rust tokens is a problem of its own.
+    /// Reads a file; text that is not a sequence of Rust tokens is a problem of its own.
     pub(super) fn new(file: &'f TextFile) -> Result<Self, Problem> {
         let stream: TokenStream = file.text.parse().map_err(|e: proc_macro2::LexError| {
-            Problem::new(&file.path, e.span().start().line, "is no Rust")
+            Problem::new(&file.path, e.span().start().line, "is not Rust")
         })?;
         let mut tokens = Vec::new();
         flatten(stream, is_test_file(&file.path), &mut tokens);
@@ -52,6 +52,13 @@ impl<'f> RustFile<'f> {
     /// The tokens outside of tests.
     pub(super) fn product(&self) -> Vec<&Placed> {
         self.tokens.iter().filter(|placed| !placed.in_test).collect()
+    }
+
+    /// All of the file belongs to tests.
+    pub(super) fn mark_as_test(&mut self) {
+        for placed in &mut self.tokens {
+            placed.in_test = true;
+        }
     }
 
     /// The crate's folder name, if the file is a source of a crate: `gcheck-rules` of `crates/gcheck-rules/src/lib.rs`.

@@ -1,6 +1,6 @@
 //! Mistakes in arcs.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -158,7 +158,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "arc-code-left-on",
         Fear::Scrap,
-        "the `G01` behind an arc is forgotten",
+        "the `G01` after an arc is forgotten",
         &["arc-mode-left-on", "arc-without-centre", "motion-without-axis-words"],
         |p| {
             p.each(|block| {

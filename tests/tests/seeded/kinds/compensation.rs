@@ -1,6 +1,6 @@
 //! Mistakes with cutter compensation.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -20,7 +20,7 @@ fn off(block: &Block) -> Option<&Word> {
     block.code(&[Effect::CompensationOff]).filter(|_| block.before.is_compensating)
 }
 
-/// The block before which compensation was switched on stands in the profile of a roughing cycle that no finishing cycle
+/// The block before which compensation was switched on is in the profile of a roughing cycle that no finishing cycle
 /// follows: the profile tells the cycle a shape, and its blocks are never carried out.
 fn is_only_described(p: &Program, off: &Block) -> bool {
     let Some(on) = p.blocks[..off.ix].iter().rposition(|block| block.code(&ON).is_some()) else {
@@ -62,7 +62,7 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 off(block).filter(|_| !is_only_described(p, block))?;
-                // A tool change or the next tool's first line would mend it: every G40 behind is forgotten.
+                // A tool change or the next tool's first line would fix it: every G40 after is forgotten.
                 let all =
                     p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::CompensationOff]));
                 Some(all.map(|word| p.without(word)).collect::<Vec<_>>())

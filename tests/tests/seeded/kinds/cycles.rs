@@ -1,6 +1,6 @@
 //! Mistakes with canned cycles.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -102,7 +102,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "cycle-with-rotary-word",
         Fear::Alarm,
-        "a rotary axis stands in a block of a cycle, on a control that refuses it",
+        "a rotary axis is in a block of a cycle, on a control that refuses it",
         &["cycle-with-rotary-word"],
         |p| {
             p.each(|block| {
@@ -116,7 +116,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "cycle-not-cancelled",
         Fear::Crash,
-        "`G80` and the `G00` behind it are forgotten: the next positions are drilled",
+        "`G80` and the `G00` after it are forgotten: the next positions are drilled",
         &["cycle-left-on", "maybe-cycle-left-on", "cycle-r-below-bottom", "cycle-under-compensation"],
         |p| {
             p.each(|block| {

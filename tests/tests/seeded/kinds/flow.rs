@@ -1,6 +1,6 @@
 //! Mistakes with programs, jumps, calls and loops.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 use gcheck_program::{OKeyword, StatementKind};
@@ -63,7 +63,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["subprogram-without-return", "unreachable-block"],
         |p| {
             p.each(|block| {
-                // A main program that `/M30` ends goes on behind it.
+                // A main program that `/M30` ends goes on after it.
                 let mut before = p.blocks[..block.ix].iter();
                 let is_behind = before.any(|other| !other.is_skippable && other.code(&ENDS).is_some());
                 let word = block.code(&[Effect::Return]).filter(|_| is_behind)?;
@@ -130,7 +130,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "jump-target-twice",
         Fear::Crash,
-        "the sequence number that a jump looks for stands twice",
+        "the sequence number of a jump exists twice",
         &["ambiguous-jump-target"],
         |p| {
             p.each(|block| {
@@ -194,7 +194,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "main-runs-into-subprogram",
         Fear::Crash,
-        "the main program has no end and runs into the subprogram behind it",
+        "the main program has no end and runs into the subprogram after it",
         &["fall-into-subprogram", "program-end-missing", "return-outside-subroutine"],
         |p| {
             p.each(|block| {

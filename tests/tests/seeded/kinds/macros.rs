@@ -1,6 +1,6 @@
 //! Mistakes with variables and expressions.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 use gcheck_program::{StatementKind, Target};
@@ -135,7 +135,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "parentheses-for-brackets",
         Fear::Alarm,
-        "parentheses stand for the brackets of an expression",
+        "parentheses are written instead of the brackets of an expression",
         &[
             "missing-operand",
             "unclosed-bracket",

@@ -1,6 +1,6 @@
 //! Mistakes with modes: units, positions and increments, planes, shifts and the like.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -23,13 +23,13 @@ fn before_a_cut(p: &Program, line: &str) -> Vec<Seed> {
     })
 }
 
-/// The blocks behind this one, up to the next that chooses what a feed means.
+/// The blocks after this one, up to the next that chooses what a feed means.
 fn under_mode<'p>(p: &'p Program, block: &Block) -> impl Iterator<Item = &'p Block> {
     let modes = [Effect::FeedPerMinute, Effect::FeedPerRevolution, Effect::FeedInverseTime];
     p.behind(block).iter().take_while(move |next| next.code(&modes).is_none())
 }
 
-/// As [`before_a_cut`], where another tool comes behind.
+/// As [`before_a_cut`], where another tool comes after.
 fn before_a_cut_of_several(p: &Program, line: &str) -> Vec<Seed> {
     let last = p
         .blocks
@@ -92,7 +92,7 @@ pub(super) const KINDS: &[Kind] = &[
                 let fits = return_in_increments(above)
                     || above.before.is_incremental && above.code(&[Effect::ReturnReference(1)]).is_some();
                 fits.then_some(())?;
-                // A program that says G90 again at the next tool mends it: every G90 behind is forgotten.
+                // A program that says G90 again at the next tool fixes it: every G90 after is forgotten.
                 let all = p.blocks[block.ix..].iter().filter_map(|block| block.code(&[Effect::Absolute]));
                 Some(all.map(|word| p.without(word)).collect::<Vec<_>>())
             })
@@ -120,7 +120,7 @@ pub(super) const KINDS: &[Kind] = &[
         |p| {
             p.each(|block| {
                 let word = block.code(&[Effect::Absolute]).filter(|_| block.moves(&[Effect::Rapid]))?;
-                // Behind other moves of the tool it is another slip: some programs go by both all the time.
+                // After other moves of the tool it is another slip: some programs go by both all the time.
                 let mut before = p.blocks[..block.ix].iter();
                 let is_first = !before.any(|b| b.before.section == block.before.section && b.moves(&MOVES));
                 is_first.then(|| p.instead(word, "G91"))
@@ -189,7 +189,7 @@ pub(super) const KINDS: &[Kind] = &[
             "compensation-gouge",
         ],
         |p| {
-            // A plane that is stated anew before the next arc harms nobody, nor does one of an arc that is none of XY.
+            // A plane that is stated again before the next arc harms nobody, nor does one of an arc that is none of XY.
             let planes = [Effect::PlaneXy, Effect::PlaneZx, Effect::PlaneYz];
             let arcs = [Effect::ArcClockwise, Effect::ArcCounterClockwise];
             let first_arc = |block: &Block| {
@@ -232,7 +232,7 @@ pub(super) const KINDS: &[Kind] = &[
             if p.is_lathe() || p.text.contains("G93") {
                 return Vec::new();
             }
-            // With a feed in every block behind it the control has what it asks for.
+            // With a feed in every block after it the control has what it asks for.
             let place = |seed: &Seed| seed.edits[0].range.start;
             let is_felt = |seed: &Seed| {
                 let block = p.blocks.iter().find(|block| block.range.start >= place(seed));
@@ -367,7 +367,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "motion-after-cancel",
         Fear::Alarm,
-        "a position behind `G80` without a kind of motion, on a control that refuses it",
+        "a position after `G80` without a motion mode, on a control that refuses it",
         &["axis-words-without-motion-mode"],
         |p| {
             p.each(|block| {

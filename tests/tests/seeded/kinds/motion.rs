@@ -1,6 +1,6 @@
 //! Mistakes with moves, feed and spindle.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -359,7 +359,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "corner-before-rapid",
         Fear::Alarm,
-        "a rounding to the next move (`,R`) stands in front of a rapid move",
+        "a rounding to the next move (`,R`) is before a rapid move",
         &["corner-before-rapid"],
         |p| {
             p.each(|block| {

@@ -1,6 +1,6 @@
 //! Mistakes with probes, tilting heads and cylinders.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -41,7 +41,7 @@ pub(super) const KINDS: &[Kind] = &[
             p.each(|block| {
                 let word = block.word(b'Z').filter(|_| block.code(&PROBES).is_some())?;
                 let away = [Effect::ReturnReference(1), Effect::ReturnReference(2), Effect::Incremental];
-                // Where the probe stands must be known: it did not go to a reference point since.
+                // Where the probe is must be known: it did not go to a reference point since.
                 let since = p.blocks[..block.ix].iter().rev().take_while(|b| b.code(&away).is_none());
                 let above = since.into_iter().find_map(|before| before.word(b'Z'))?;
                 above.number?;

@@ -1,6 +1,6 @@
 //! Mistakes with tools, their offsets and the work offset.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -243,7 +243,7 @@ pub(super) const KINDS: &[Kind] = &[
                 block.words.iter().any(|w| matches!(w.effect, Some(Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))))
             };
             p.each(|block| {
-                // Chosen anew before the tool moves, it is right again.
+                // Chosen again before the tool moves, it is right again.
                 let next = p.behind(block).iter().find(|next| chooses(next) || next.moves(&[Effect::Rapid, Effect::Linear]));
                 let is_mended = !block.has(b"XYZ") && next.is_some_and(|next| chooses(&next));
                 block.code(&[Effect::WorkOffset(1)]).filter(|_| !is_mended).map(|word| p.instead(word, "G56"))

@@ -1,6 +1,6 @@
 //! Mistakes in turning and bar work.
 //!
-//! Knows: how each is made. Must not know: what is said about it.
+//! Knows: how each is made. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -203,7 +203,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "diameter-and-increment",
         Fear::Alarm,
-        "`X` and `U` stand in one block",
+        "`X` and `U` are in one block",
         &["axis-given-twice"],
         |p| {
             p.each(|block| {
@@ -271,7 +271,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "bar-not-freed",
         Fear::Crash,
-        "the parting tool still stands in the bar when the bar is fed",
+        "the parting tool is still in the bar when the bar is fed",
         &["turret-in-the-way-of-bar"],
         |p| {
             p.each(|block| {

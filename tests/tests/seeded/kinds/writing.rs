@@ -1,6 +1,6 @@
 //! Mistakes in writing: characters, numbers, words.
 //!
-//! Knows: how each looks. Must not know: what is said about it.
+//! Knows: how each looks. Must not know: the findings about it.
 
 use gcheck_controls::Effect;
 
@@ -117,7 +117,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "tape-mark-in-the-middle",
         Fear::Alarm,
-        "a `%` of a pasted program stands in the middle",
+        "a `%` of a pasted program is in the middle",
         &["stray-tape-mark", "program-end-missing"],
         |p| {
             p.each(|block| {
@@ -150,7 +150,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "comma-for-point",
         Fear::Alarm,
-        "a comma stands for the decimal point (`X1,25`)",
+        "a comma is written instead of the decimal point (`X1,25`)",
         &[
             "unexpected-text",
             "malformed-number",
@@ -185,7 +185,7 @@ pub(super) const KINDS: &[Kind] = &[
         &["zero-for-letter-o"],
         |p| {
             p.each(|block| {
-                // `O0` is no number of a program.
+                // `O0` is not a number of a program.
                 let is_number = |word: &&Word| block.words.len() == 1 && word.number != Some(0.0);
                 let word = block.word(b'O').filter(is_number)?;
                 Some(p.instead(word, format!("0{}", digits(p, word))))
@@ -212,14 +212,14 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "value-lost",
         Fear::Alarm,
-        "the value behind a letter is lost (`X Y2.`)",
+        "the value after a letter is lost (`X Y2.`)",
         &["address-without-value"],
         |p| literals(p, b"XYZFST", |_, word| Some(p.value(word, "").into())),
     ),
     Kind::new(
         "point-on-whole-number",
         Fear::Alarm,
-        "a decimal point stands behind a tool or offset number (`H1.`)",
+        "a decimal point follows a tool or offset number (`H1.`)",
         &["decimal-point-on-integer"],
         |p| {
             literals(p, b"THD", |block, word| {
@@ -237,7 +237,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "too-many-digits",
         Fear::Alarm,
-        "a number has more digits than the control takes",
+        "a number has more digits than the control accepts",
         &["too-many-digits"],
         |p| {
             literals(p, b"XYZ", |_, word| {
@@ -275,7 +275,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "word-twice",
         Fear::Alarm,
-        "an address stands twice in a block (`X1. Y2. X3.`)",
+        "an address twice in a block (`X1. Y2. X3.`)",
         &["word-given-twice"],
         |p| {
             p.each(|block| {
@@ -308,7 +308,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "comment-in-comment",
         Fear::Alarm,
-        "a comment stands inside a comment",
+        "a comment is inside a comment",
         &["nested-comment", "stray-parenthesis"],
         |p| {
             comments(p)
@@ -320,7 +320,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "remark-without-parentheses",
         Fear::Alarm,
-        "a remark stands in the program without parentheses",
+        "a remark is in the program without parentheses",
         &[
             "unexpected-text",
             "address-without-value",
@@ -349,7 +349,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "dash-for-minus",
         Fear::Alarm,
-        "a long dash from a word processor stands for the minus sign",
+        "a long dash from a word processor replaces the minus sign",
         &["non-ascii-text", "unexpected-text"],
         |p| {
             literals(p, b"XYZ", |_, word| {
@@ -408,7 +408,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "two-codes-of-a-group",
         Fear::Crash,
-        "two codes that exclude each other stand in a block (`G00 G01`)",
+        "two codes that exclude each other are in a block (`G00 G01`)",
         &["two-codes-of-one-group"],
         |p| {
             p.each(|block| {
@@ -420,7 +420,7 @@ pub(super) const KINDS: &[Kind] = &[
     Kind::new(
         "two-m-codes",
         Fear::Alarm,
-        "two M codes stand in a block of a control that takes one",
+        "two M codes are in a block of a control that accepts one",
         &["too-many-m-codes", "two-codes-of-one-group", "code-must-stand-alone", "codes-conflict"],
         |p| {
             p.each(|block| {

@@ -23,12 +23,13 @@ use crate::cycles::{
 };
 use crate::event::{TravelKind, Units};
 use crate::fault::{ArcFault, CycleFault, Fault};
+use crate::lattice::Perhaps;
 use crate::model::Role;
-use crate::observer::{Observer, Origin};
+use crate::observer::Observer;
+use crate::origin::{At, Origin};
 use crate::position::Axis;
-use crate::state::{At, Frame, FrameKind, State, TurningWords};
+use crate::state::{Frame, FrameKind, Locals, State};
 use crate::value::Domain;
-use crate::variables::Locals;
 
 /// Blocks that reading one profile may execute. A profile of more is taken for one whose loop never ends.
 const MOST_BLOCKS: u32 = 5_000;
@@ -133,7 +134,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The first of two blocks: depth and way back, or shift and passes.
     fn store_first_block(&mut self, effect: Effect, state: &mut State<D>) {
-        let mut words: TurningWords = state.turning();
+        let mut words = state.turning();
         let length = |letter: char| self.length(Letter::of(letter), state);
         let (in_x, in_z, back) = (length('U'), length('W'), length('R'));
         if effect == Effect::RepeatPattern {
@@ -155,12 +156,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G71` to `G73` between sequence numbers.
     fn rough_profile(&mut self, effect: Effect, blocks: ProfileBlocks, state: &mut State<D>) -> Step {
         let checked = self.check_feed(state);
-        let profile = self.read_profile(blocks, Plane::Zx, &mut state.clone())?;
+        let mut scratch = state.clone();
+        let read = self.read_profile(blocks, Plane::Zx, &mut scratch);
+        state.note_reads_of(&scratch);
+        let profile = read?;
         let half = if state.is_diameter(self.model) == Some(true) { 2.0 } else { 1.0 };
         let length = |letter: char| self.length(Letter::of(letter), state).unwrap_or(0.0);
         let stock = (Mm(length('W')), Mm(length('U') / half));
         let more = (Mm(length('K')), Mm(length('I')));
-        let from = state.position.xyz();
+        let from = state.position().xyz();
         let mut strokes = Vec::new();
         let mut out = |stroke| strokes.push(stroke);
         let result = if !profile.complete {
@@ -193,7 +197,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let unknown: Vec<CodeIx> = codes.filter(|ix| self.model.effect(*ix) == effect).collect();
             self.assumptions.extend(unknown.into_iter().map(Assumption::Passes));
         }
-        let start = state.position;
+        let start = *state.position();
         let held = self.hold_compensation(state)?;
         let outcome = self.carry_out(&strokes, result, Plane::Zx, start, state);
         Self::release_compensation(held, state);
@@ -237,7 +241,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let (origin, words) = (self.origin, self.words.clone());
         let pending = std::mem::take(&mut self.pending);
-        let start = state.position;
+        let start = *state.position();
         let mut block = blocks.first;
         let mut left = MOST_BLOCKS;
         while (blocks.first..=blocks.last).contains(&block) {
@@ -304,29 +308,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(end) = end else { return Err(Fault::LoopMismatch) };
         let blocks = ProfileBlocks { file: sub.file, first: sub.block + 1, last: end.saturating_sub(1) };
         let mut scratch = state.clone();
-        scratch.frames.push(Frame {
-            kind: FrameKind::OWord,
-            entry: sub,
-            caller: at,
-            repeats: Some(0),
-            locals: Some(Locals::new(self.model.semantics().locals[1], &D::number(0.0))),
-            counters: Vec::new(),
-            saved: None,
-            restore_on_return: false,
-            wanted_branch: None,
-            bar_feed: None,
-        });
+        let locals = Locals::new(self.model.semantics().locals[1], &D::number(0.0));
+        let frame = Frame::new(FrameKind::OWord, sub, at, Some(0));
+        scratch.calls.push(Frame { locals: Perhaps::Yes(locals), ..frame });
         // The way to the first point was a rapid, and so is what the subprogram gives no code.
         scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
-        let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
+        let read = self.read_profile(blocks, Plane::Zx, &mut scratch);
+        state.note_reads_of(&scratch);
+        let profile = read?;
         // What the subprogram leaves as motion mode and in variables stays.
         if let Some(mode) = scratch.mode(Role::Motion).only() {
             state.set_mode(Role::Motion, mode);
             state.set_mode(Role::Cycle, self.model.code_with(Effect::CycleCancel));
         }
-        state.variables = scratch.variables;
-
-        let from = state.position.xyz();
+        state.variables = scratch.variables.clone();
+        let from = state.position().xyz();
         let mut strokes = Vec::new();
         let mut out = |stroke| strokes.push(stroke);
         let result = if !profile.complete {
@@ -336,8 +332,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let words = LayeredFinish { first: Mm(depth), last: Mm(nearest), passes: passes as u32, units };
             if words.passes == 0 {
                 // Nothing moves, and yet the interpreter goes on from the end of the subprogram.
-                state.position = scratch.position;
-                state.actual = self.axes_of(&scratch.position, state);
+                state.points.position.put(*scratch.position());
+                state.points.actual.put(self.axes_of(scratch.position(), state));
                 Ok(from)
             } else {
                 layered_finish(from, &profile.segments, &words, &mut out)
@@ -368,7 +364,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.observer.before(behind, state);
         }
         // The cycles end on the contour: where, nobody knows when the contour is not known.
-        let mut unknown = state.position;
+        let mut unknown = *state.position();
         for axis in [Axis::X, Axis::Z] {
             unknown.set(axis, f64::NAN);
         }
@@ -410,9 +406,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step<ReadProfile> {
         let (origin, words) = (self.origin, self.words.clone());
         let pending = std::mem::take(&mut self.pending);
-        state.compensation = None;
-        state.left_compensation = None;
-        let [first, second, _] = plane.to_local(state.position.xyz());
+        state.compensation.on.put(Perhaps::No);
+        state.compensation.left.put(Perhaps::No);
+        let [first, second, _] = plane.to_local(state.position().xyz());
         let mut drawing = Drawing { plane, segments: Vec::new(), corners: Vec::new(), complete: true };
         drawing.complete &= self.read_blocks(blocks, state, &mut drawing)?;
         self.origin = origin;
@@ -549,12 +545,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let tangent = angle.to_radians().tan();
             match (self.names_axis(first), self.names_axis(second)) {
                 (true, false) => {
-                    let way = target.raw(first) - state.position.raw(first);
-                    target.set(second, state.position.raw(second) + way * tangent);
+                    let way = target.raw(first) - state.position().raw(first);
+                    target.set(second, state.position().raw(second) + way * tangent);
                 }
                 (false, true) => {
-                    let way = target.raw(second) - state.position.raw(second);
-                    target.set(first, state.position.raw(first) + way / tangent);
+                    let way = target.raw(second) - state.position().raw(second);
+                    target.set(first, state.position().raw(first) + way / tangent);
                 }
                 _ => {}
             }
@@ -572,8 +568,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
         drawing.segments.push(ProfileSegment::Line { to, rapid });
-        state.position = target;
-        state.actual = target;
+        state.points.position.put(target);
+        state.points.actual.put(target);
         Ok(())
     }
 
@@ -582,7 +578,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let plane = drawing.plane;
         let ([first, second, _], [i, j, _]) = plane_axes(plane);
         let direction = if ccw { ArcDirection::Ccw } else { ArcDirection::Cw };
-        let (start, end) = (state.position.xyz(), target.xyz());
+        let (start, end) = (state.position().xyz(), target.xyz());
         let tolerance = self.arc_tolerance(state);
         let has_centre = self.words.has(i) || self.words.has(j);
         let arc = match self.length(Letter::of('R'), state) {
@@ -595,7 +591,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let absolute = state.effect(Role::ArcCentre, self.model) == Some(Effect::ArcCentreAbsolute);
                 let diameter = state.is_diameter(self.model) == Some(true);
                 let coordinate = |axis: Axis, letter: Letter| {
-                    let here = state.position.raw(axis);
+                    let here = state.position().raw(axis);
                     Mm(match self.length(letter, state) {
                         Some(value) if absolute && axis == Axis::X && diameter => value / 2.0,
                         Some(value) if absolute => value,
@@ -610,8 +606,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
         drawing.segments.push(ProfileSegment::Arc { to, centre: arc.centre(), ccw });
-        state.position = target;
-        state.actual = target;
+        state.points.position.put(target);
+        state.points.actual.put(target);
         Ok(())
     }
 }

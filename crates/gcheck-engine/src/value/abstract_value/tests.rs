@@ -146,7 +146,7 @@ fn one_side_of_a_condition_may_decide_it() {
 
 #[test]
 fn joining_keeps_few_numbers_apart() {
-    let join = |a: &AbstractValue, b: &AbstractValue| Abstract::join(a, b);
+    let join = |a: &AbstractValue, b: &AbstractValue| Lattice::join(a, b);
     assert_eq!(join(&Number(1.0), &Number(2.0)), set(&[1.0, 2.0]));
     assert_eq!(join(&Number(1.0), &Vacant), set_or_nothing(&[1.0]));
     assert_eq!(join(&from_to(1.0, 2.0), &Number(5.0)), from_to(1.0, 5.0));
@@ -156,7 +156,7 @@ fn joining_keeps_few_numbers_apart() {
 
 #[test]
 fn widening_goes_to_the_next_threshold_then_to_infinity() {
-    let widen = |a: &AbstractValue, b: &AbstractValue| Abstract::widen(a, b);
+    let widen = |a: &AbstractValue, b: &AbstractValue| Lattice::widen(a, b);
     assert_eq!(widen(&from_to(1.0, 2.0), &from_to(1.0, 3.0)), from_to(1.0, 10.0));
     assert_eq!(widen(&from_to(1.0, 10.0), &from_to(2.0, 10.0)), from_to(1.0, 10.0));
     assert_eq!(widen(&from_to(1.0, 10.0), &from_to(0.5, 10.0)), from_to(0.0, 10.0));
@@ -175,7 +175,7 @@ fn a_counting_loop_ends_with_its_bounds() {
         rounds += 1;
         let inside = Abstract::assume(&at_head, BinaryOp::Less, 50.0, semantics).unwrap();
         let after = Abstract::binary(BinaryOp::Add, &inside, &Number(1.0), semantics).unwrap();
-        let next = Abstract::widen(&at_head, &after);
+        let next = Lattice::widen(&at_head, &after);
         if next == at_head {
             break;
         }
@@ -271,7 +271,7 @@ fn abstraction() -> impl Strategy<Value = AbstractValue> {
 fn pair() -> impl Strategy<Value = (ConcreteValue, AbstractValue)> {
     let exact = concrete().prop_map(|value| (value, exactly(value)));
     let more = (concrete(), abstraction())
-        .prop_map(|(value, other)| (value, Abstract::join(&exactly(value), &other)));
+        .prop_map(|(value, other)| (value, Lattice::join(&exactly(value), &other)));
     let near = (concrete(), number(), number()).prop_map(|(value, below, above)| {
         let of = |x: f64| AbstractValue::interval(x - below.abs(), x + above.abs(), false);
         (value, if let ConcreteValue::Number(x) = value { of(x) } else { Unknown })
@@ -416,7 +416,7 @@ proptest! {
         if let Some((run, paths)) = evaluate(&expression, on.semantics()) {
             prop_assert!(paths.is_ok(), "{run:?} but {paths:?}");
             let paths = paths.unwrap();
-            prop_assert!(paths.covers(run), "{run:?} not in {paths:?}");
+            prop_assert!(paths.allows(run), "{run:?} not in {paths:?}");
             prop_assert!(is_canonical(&paths), "{paths:?}");
         }
     }
@@ -428,7 +428,7 @@ proptest! {
         let run = Concrete::binary(op, &a.0, &b.0, on.semantics());
         let paths = Abstract::binary(op, &a.1, &b.1, on.semantics());
         match (run, paths) {
-            (Ok(run), Ok(paths)) => prop_assert!(paths.covers(run), "{run:?} not in {paths:?}"),
+            (Ok(run), Ok(paths)) => prop_assert!(paths.allows(run), "{run:?} not in {paths:?}"),
             (Ok(run), Err(fault)) => prop_assert!(false, "{run:?} but {fault:?}"),
             (Err(_), _) => {}
         }
@@ -445,7 +445,7 @@ proptest! {
             (Concrete::call(function, &[a.0], on.semantics()), Abstract::call(function, &[a.1], on.semantics()))
         };
         match (run, paths) {
-            (Ok(run), Ok(paths)) => prop_assert!(paths.covers(run), "{run:?} not in {paths:?}"),
+            (Ok(run), Ok(paths)) => prop_assert!(paths.allows(run), "{run:?} not in {paths:?}"),
             (Ok(run), Err(fault)) => prop_assert!(false, "{run:?} but {fault:?}"),
             (Err(_), _) => {}
         }
@@ -478,13 +478,13 @@ proptest! {
             other => other,
         };
         let run = if let ConcreteValue::Number(x) = run { Concrete::number(x) } else { run };
-        let paths = Abstract::join(&value.1, &exactly(run));
+        let paths = Lattice::join(&value.1, &exactly(run));
         let left = Abstract::assume(&paths, op, bound, on.semantics());
         if Concrete::assume(&run, op, bound, on.semantics()).is_some() {
-            prop_assert!(left.as_ref().is_some_and(|left| left.covers(run)), "{run:?} not in {left:?}");
+            prop_assert!(left.as_ref().is_some_and(|left| left.allows(run)), "{run:?} not in {left:?}");
         }
         if let Some(left) = left {
-            prop_assert!(Abstract::contains(&paths, &left), "{left:?} came out of {paths:?}");
+            prop_assert!(Lattice::covers(&paths, &left), "{left:?} came out of {paths:?}");
             prop_assert!(is_canonical(&left));
         }
     }
@@ -493,25 +493,25 @@ proptest! {
     fn assuming_vacancy_keeps_what_satisfies(value in pair(), vacant in any::<bool>()) {
         let left = Abstract::assume_vacant(&value.1, vacant);
         if Concrete::assume_vacant(&value.0, vacant).is_some() {
-            prop_assert!(left.is_some_and(|left| left.covers(value.0)));
+            prop_assert!(left.is_some_and(|left| left.allows(value.0)));
         }
     }
 
     #[test]
     fn joining_and_widening_hold_both(a in abstraction(), b in abstraction()) {
-        for both in [Abstract::join(&a, &b), Abstract::widen(&a, &b)] {
-            prop_assert!(Abstract::contains(&both, &a), "{both:?}");
-            prop_assert!(Abstract::contains(&both, &b), "{both:?}");
+        for both in [Lattice::join(&a, &b), Lattice::widen(&a, &b)] {
+            prop_assert!(Lattice::covers(&both, &a), "{both:?}");
+            prop_assert!(Lattice::covers(&both, &b), "{both:?}");
             prop_assert!(is_canonical(&both), "{both:?}");
         }
-        prop_assert_eq!(Abstract::join(&a, &b), Abstract::join(&b, &a));
-        prop_assert_eq!(Abstract::join(&a, &a), a);
+        prop_assert_eq!(Lattice::join(&a, &b), Lattice::join(&b, &a));
+        prop_assert_eq!(Lattice::join(&a, &a), a);
     }
 
     #[test]
     fn containing_is_what_every_member_says(outer in abstraction(), inner in pair()) {
-        if Abstract::contains(&outer, &inner.1) {
-            prop_assert!(outer.covers(inner.0));
+        if Lattice::covers(&outer, &inner.1) {
+            prop_assert!(outer.allows(inner.0));
         }
     }
 
@@ -520,7 +520,7 @@ proptest! {
         let mut value = first;
         let mut steps = 0;
         for next in rest {
-            let wider = Abstract::widen(&value, &next);
+            let wider = Lattice::widen(&value, &next);
             steps += usize::from(wider != value);
             value = wider;
         }
@@ -549,8 +549,8 @@ fn widening_one_step_at_a_time_comes_to_an_end() {
         if !beyond.is_finite() {
             break;
         }
-        let next = Abstract::widen(&value, &Number(beyond.max(hi.next_up().min(f64::MAX))));
-        let next = Abstract::widen(&next, &Number(lo.next_down().max(f64::MIN)));
+        let next = Lattice::widen(&value, &Number(beyond.max(hi.next_up().min(f64::MAX))));
+        let next = Lattice::widen(&next, &Number(lo.next_down().max(f64::MIN)));
         if next == value {
             break;
         }
@@ -558,7 +558,7 @@ fn widening_one_step_at_a_time_comes_to_an_end() {
         steps += 1;
         assert!(steps <= 64, "{value:?}");
     }
-    assert_eq!(Abstract::widen(&value, &Vacant), Unknown);
+    assert_eq!(Lattice::widen(&value, &Vacant), Unknown);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use expect_test::{Expect, expect};
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 use gcheck_syntax::SourceText;
 
 use crate::testing::{FEED_MISSING, at, everything, file, on, render, rendered, report};
@@ -352,8 +352,11 @@ fn bytes_that_are_no_text() {
 #[test]
 fn a_label_in_a_file_that_is_not_at_hand() {
     let mut finding = on("G1", "G1");
-    let label =
-        gcheck_rules::Label { file: Some("O9.nc".into()), range: 5..7, message: "called here".to_owned() };
+    let label = gcheck_diagnostics::Label {
+        file: Some("O9.nc".into()),
+        range: 5..7,
+        message: "called here".to_owned(),
+    };
     finding.labels.push(label);
     check(
         "G1",

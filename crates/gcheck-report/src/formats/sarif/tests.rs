@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use expect_test::expect_file;
-use gcheck_rules::{Finding, Severity};
+use gcheck_diagnostics::{Finding, Severity};
 use serde_json::Value;
 
 use super::*;

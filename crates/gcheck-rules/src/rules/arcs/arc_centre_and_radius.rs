@@ -2,16 +2,17 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// A block under an arc mode gives a centre and a radius, on a control that takes one of them.
     ///
-    /// Blocks that name the arc (`G2`, `G3`) are judged by `words-exclude-each-other` where the control's page says it.
+    /// Where the control's page excludes the two words from a block with `G2` or `G3`, `words-exclude-each-other`
+    /// reports that block.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm; it does not say which of the two was meant.
+    /// The control stops with an alarm: it cannot know which of the two was meant.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -31,7 +32,7 @@ declare_rule! {
         summary: "arc with a centre and a radius",
         severity: Error,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ArcCentreAndRadius) },
     }
@@ -47,10 +48,10 @@ impl PathRule for ArcCentreAndRadius {
         let is_centre = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K');
         report.add(
             cx.finding(&META, cx.letter_range('R'), "arc with a centre and a radius (`R`)")
-                .label("one of the two is enough")
+                .label("an arc takes only one of the two")
                 .also(cx.word_range(is_centre), "the centre is given here")
-                .help("take out the centre or the radius")
-                .fix_if(cx.taking_away('R', "take the radius out"))
+                .help("remove the centre or the radius")
+                .fix_if(cx.removal_of('R', "remove the radius"))
                 .at_most(limit(cx.model.semantics().confidence)),
         );
     }
@@ -59,7 +60,7 @@ impl PathRule for ArcCentreAndRadius {
 /// Does a code of the block say that the words exclude each other? Then that has been reported.
 fn is_told(cx: &PathCx<'_>) -> bool {
     let codes = cx.codes();
-    let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+    let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
     codes.any(|code| code.entry().not_together.iter().flatten().any(|letters| letters == "R"))
 }
 

@@ -1,20 +1,23 @@
 //! An arc whose end does not lie on its circle.
 
-use gcheck_controls::{Effect, Letter, Unpointed};
-use gcheck_engine::{ArcFault, Event, Fact, Fault, Position, Role, Units};
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{ArcFault, Event, Fault, Position, Units};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::declare::declare_rule;
+use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
+use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The start and the end of an arc are not equally far from its centre, by more than the control lets pass.
+    /// The start and the end of an arc are not equally far from its centre, and the difference is larger than the
+    /// control accepts.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or cuts a spiral. The usual causes are a sign of `I` or `J`, a centre counted from
-    /// the origin instead of the start, and a start point that is not where it was thought to be.
+    /// The control stops with an alarm, or cuts a spiral. The usual causes are a wrong sign of `I` or `J`, a centre
+    /// measured from the origin instead of from the start point, and a start point that is not where the programmer
+    /// expected it.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -28,7 +31,7 @@ declare_rule! {
     /// G2 X10 Y0 I5 J0 F100
     /// M2
     /// ```
-    /// Where the tool comes from is not known.
+    /// The start point is unknown.
     /// ```nc,quiet,haas-mill
     /// G2 X10. Y0 I4. J0 F10.
     /// M30
@@ -49,7 +52,7 @@ declare_rule! {
 struct ArcEndOffCircle {
     /// The programmed point before the block.
     at: Option<Position>,
-    /// An arc was told of whose centre fits when it is counted from the origin: the others say the same.
+    /// An arc was reported whose centre fits when it is measured from the origin: the others have the same cause.
     absolute: bool,
     /// The file has arcs; asked once.
     has_arcs: Option<bool>,
@@ -93,17 +96,17 @@ impl PathRule for ArcEndOffCircle {
             .label(format!("the centre is {from} from the start and {to} from the end"));
         finding = if is_absolute {
             finding
-                .note("counted from the origin instead of the start of the arc, the centre fits; arcs like this one are told of once")
-                .help("have the centres written as distances from the start of the arc")
+                .note("measured from the origin instead of from the start of the arc, the centre fits; only the first arc like this is reported")
+                .help("write the centre as distances from the start of the arc")
         } else {
             finding
                 .help("check the signs of the centre words, the end point, and where the block before ends")
         };
-        report.add(judged(cx, finding));
+        report.add(limited_by_arc_facts(cx, finding));
     }
 }
 
-/// Would the arc be one if its centre were counted from the origin?
+/// Would the arc be valid if its centre were measured from the origin?
 fn fits_from_origin(cx: &PathCx<'_>, from: &Position) -> bool {
     let (Some(block), Some(plane)) = (cx.place(), cx.state().plane(cx.model)) else { return false };
     let unit = cx.state().units(cx.model).map_or(f64::NAN, Units::in_mm);
@@ -123,48 +126,12 @@ fn fits_from_origin(cx: &PathCx<'_>, from: &Position) -> bool {
     start > 0.01 && (start - end).abs() <= f64::max(0.02, start * 0.002)
 }
 
-/// Were numbers of this block or of those before it written without decimal point, on a control that counts them in least
-/// increments? Which of the two was meant is another rule's business, and where the tool stands hangs on it.
-pub(crate) fn counts_least_increments(cx: &PathCx<'_>) -> bool {
-    if cx.scene.control().numbers().unpointed == Unpointed::AsWritten {
-        return false;
-    }
-    let at = cx.origin().at;
-    let is_unpointed = |word: &Word| {
-        matches!(word.letter.ascii(), b'X' | b'Y' | b'Z' | b'U' | b'V' | b'W' | b'I' | b'J' | b'K' | b'R')
-            && !word.shape.point
-            && word.number().is_some_and(|number| number.abs() > 0.0)
-    };
-    (at.block.saturating_sub(8)..=at.block).any(|block| {
-        let place = cx.place_of(gcheck_engine::At { block, ..at });
-        place.is_some_and(|place| place.table.words(place.block()).iter().any(is_unpointed))
-    })
-}
-
-/// The finding no more severe than what an arc's geometry rests on: the control's tolerance, and modes that nobody set.
-pub(crate) fn judged(cx: &PathCx<'_>, finding: Finding) -> Finding {
-    let finding = finding.at_most(limit(cx.model.semantics().arcs.confidence));
-    [(Role::Plane, "the plane"), (Role::Distance, "absolute or incremental")].into_iter().fold(
-        finding,
-        |finding, (role, what)| {
-            if cx.trace().set_by(Fact::Mode(role)).is_some() {
-                return finding;
-            }
-            let code = cx.code_name(role).map_or_else(String::new, |code| format!(" (`{code}`)"));
-            finding
-                .at_most(Severity::Warning)
-                .assuming(format!("{what}{code} is as the control has it at the start"))
-        },
-    )
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_centre_is_marked() {
@@ -231,7 +198,7 @@ mod tests {
     #[test]
     fn words_give_both_radii_in_the_units_of_the_program() {
         let program = "G20 G0 X0 Y0\nG2 X1. Y0 I.4 F10.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             arc ends 0.2 in off its circle
               here: the centre is 0.4 in from the start and 0.6 in from the end

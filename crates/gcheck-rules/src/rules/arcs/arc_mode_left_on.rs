@@ -5,16 +5,16 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{ArcFault, At, Fact, Fault, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block gives an end point only, while an arc (`G2`, `G3`) of an earlier block is still the kind of motion.
+    /// A block gives only an end point, while the motion mode is still an arc (`G2`, `G3`) from an earlier block.
     ///
     /// ## Why it matters
-    /// A `G1` or `G0` is missing behind the arc. The control stops with an alarm, or goes straight to the point, whatever was
-    /// meant; on some a parameter decides.
+    /// A `G1` or `G0` is missing after the arc. The control stops with an alarm, or moves straight to the point,
+    /// whatever was meant; on some controls a parameter decides.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -42,7 +42,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ArcModeLeftOn {
-    /// Blocks that chose the arcs told of: the first block without centre speaks for those behind it.
+    /// Blocks that chose the reported arcs: the first block without a centre stands for those after it.
     told: BTreeSet<Option<At>>,
 }
 
@@ -60,24 +60,21 @@ impl PathRule for ArcModeLeftOn {
         if *fault != Fault::Arc(ArcFault::NoCentre) || cx.origin().letters.intersects(LetterSet::of("IJKR")) {
             return;
         }
-        // A block that names the arc itself is another matter: a word is missing there.
+        // In a block that names the arc itself a word is missing: other rules report that.
         let arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
         if cx.has_effect(arc) || !cx.state().effect(Role::Motion, cx.model).is_some_and(arc) {
             return;
         }
         let Some(code) = cx.code_name(Role::Motion) else { return };
         let fact = Fact::Mode(Role::Motion);
-        let setting = cx.scene.control().settings().iter().find(|setting| setting.title == SETTING.0);
-        let value = setting.and_then(|setting| cx.scene.setting(&setting.number)).map(|(value, _)| value);
+        let setting = cx.control().settings().iter().find(|setting| setting.title == SETTING.0);
+        let value =
+            setting.and_then(|setting| cx.environment.setting(&setting.number)).map(|(value, _)| value);
         if value == Some(SETTING.1) || !self.told.insert(cx.trace().set_by(fact)) {
             return;
         }
         let mut finding = cx
-            .finding(
-                &META,
-                cx.range(),
-                format!("end point alone while an arc is the kind of motion (`{code}`)"),
-            )
+            .finding(&META, cx.range(), format!("end point alone while the motion mode is an arc (`{code}`)"))
             .label("neither centre nor radius")
             .help("write `G1` or `G0` if the move is straight, else give the centre or the radius");
         finding = match setting {
@@ -107,7 +104,7 @@ mod tests {
             "G17 G21 G90 G0 X0 Y0\nG2 X10 I5 F100\nX20\nY5\nG1 X0\nM2\n",
             &expect![[r#"
                 3 | X20
-                  | ^^^ error[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
+                  | ^^^ error[arc-mode-left-on] end point alone while the motion mode is an arc (`G2`)
             "#]],
         );
     }
@@ -125,9 +122,9 @@ mod tests {
             "fanuc-mill",
             program,
             &expect![[r#"
-            3 | X20.
-              | ^^^^ info[arc-mode-left-on] end point alone while an arc is the kind of motion (`G2`)
-        "#]],
+                3 | X20.
+                  | ^^^^ info[arc-mode-left-on] end point alone while the motion mode is an arc (`G2`)
+            "#]],
         );
     }
 

@@ -3,12 +3,13 @@
 use gcheck_engine::{ArcFault, Fault};
 use gcheck_geometry::Mm;
 
-use super::arc_end_off_circle::{counts_least_increments, judged};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The end of an arc is further from its start than twice the radius, so no circle of that radius meets both.
+    /// The end of an arc is further from its start than twice the radius, so no circle of that radius passes through
+    /// both.
     ///
     /// ## Why it matters
     /// The control stops with an alarm in the middle of the cut.
@@ -52,7 +53,7 @@ impl PathRule for ArcRadiusTooSmall {
             ))
             .note(format!("an arc to this end needs a radius of {} or more", cx.shown(Mm(half_chord))))
             .help("check the radius, the end point, and where the block before ends");
-        report.add(judged(cx, finding));
+        report.add(limited_by_arc_facts(cx, finding));
     }
 }
 

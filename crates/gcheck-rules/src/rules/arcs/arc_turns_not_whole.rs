@@ -1,12 +1,12 @@
-//! An arc with a number of turns that is none.
+//! An arc whose number of turns is not whole.
 
 use gcheck_engine::{ArcFault, Fault};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// `P` of an arc counts its turns on this control, and its computed value is no whole number above zero.
+    /// On this control `P` of an arc counts its turns, and its computed value is not a whole number above zero.
     ///
     /// ## Why it matters
     /// The control stops with an alarm.
@@ -39,7 +39,7 @@ impl PathRule for ArcTurnsNotWhole {
         if *fault == Fault::Arc(ArcFault::Turns) {
             report.add(
                 cx.finding(&META, cx.letter_range('P'), "number of turns of an arc (`P`) that is not whole")
-                    .label("counts turns, a started one as a whole")
+                    .label("counts turns; a turn that is begun counts as one")
                     .help("give a whole number above zero"),
             );
         }

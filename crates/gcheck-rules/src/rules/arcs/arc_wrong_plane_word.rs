@@ -5,17 +5,17 @@ use gcheck_engine::{ArcFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Plane;
 use gcheck_program::{Value, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// An arc has a centre word of the axis that stands on its plane: `K` in the XY plane (`G17`). Or the block of an arc in
-    /// the ZX or YZ plane (`G18`, `G19`) has words for X and Y, where to go or where the centre is, and none for Z: it is an
-    /// arc of the XY plane.
+    /// An arc has the centre word of the axis that is perpendicular to its plane: `K` in the XY plane (`G17`). Or an
+    /// arc in the ZX or YZ plane (`G18`, `G19`) has words for X and Y, as end point or centre, and no word for Z: it
+    /// looks like an arc in the XY plane.
     ///
     /// ## Why it matters
-    /// The plane or the word is not the one that was meant. Some controls stop with an alarm; others do not read the word and
-    /// cut an arc in the wrong plane.
+    /// Either the plane or the word is wrong. Some controls stop with an alarm; others ignore the word and cut an arc
+    /// in the wrong plane.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -39,7 +39,7 @@ declare_rule! {
     /// G2 X10. Z0 I5. K0 F100.
     /// M30
     /// ```
-    /// A zero does no harm where the control does not refuse it.
+    /// A zero does no harm on a control that accepts it.
     /// ```nc,quiet,haas-mill
     /// G17 G21 G90 G0 X0 Y0 Z0
     /// G2 X10. Y0 I5. J0 K0 F100.
@@ -80,13 +80,13 @@ impl PathRule for ArcWrongPlaneWord {
         }
         report.add(
             finding(cx, foreign, arc.plane)
-                .note("the control does not read this word in the active plane")
+                .note("the control ignores this word in the active plane")
                 .at_most(Severity::Warning),
         );
     }
 }
 
-/// The centre word of the axis that stands on a plane.
+/// The centre word of the axis that is perpendicular to a plane.
 fn centre_word_across(plane: Plane) -> char {
     match plane {
         Plane::Xy => 'K',
@@ -116,14 +116,14 @@ fn is_meant_for_xy(cx: &PathCx<'_>, plane: Plane) -> bool {
 fn arc_of_another_plane(cx: &PathCx<'_>, plane: Plane) -> Finding {
     let name = name_of(plane);
     let code = cx.code_name(Role::Plane).unwrap_or_default();
-    let xy = cx.cancel_of(Effect::PlaneXy).unwrap_or_default();
+    let xy = cx.name_of_effect(Effect::PlaneXy).unwrap_or_default();
     let finding = cx
         .finding(
             &META,
             cx.range(),
             format!("arc with words for X and Y, but the {name} plane is active (`{code}`)"),
         )
-        .label(format!("without Z: looks meant for the XY plane (`{xy}`)"))
+        .label(format!("no word for Z: this looks like an arc in the XY plane (`{xy}`)"))
         .help(format!("choose the plane of the arc (`{xy}`)"))
         .at_most(Severity::Warning);
     cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("the plane (`{code}`)"))
@@ -147,7 +147,7 @@ fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
             format!("`{letter}` does not belong to an arc in the {name} plane"),
         )
         .label(format!("the active plane is `{code}`"))
-        .help("choose the plane of the arc, or take the word out");
+        .help("choose the plane of the arc, or remove the word");
     cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("the plane (`{code}`)"))
 }
 

@@ -2,16 +2,16 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use super::arc_end_off_circle::{counts_least_increments, judged};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// An arc given by its radius ends where it starts.
     ///
     /// ## Why it matters
-    /// Any circle of that radius through the point would do, so the control alarms or makes no move at all, and the
-    /// circle is missing from the part.
+    /// Many circles of that radius pass through the point, so the control stops with an alarm or makes no move at all,
+    /// and the circle is missing from the part.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -48,7 +48,7 @@ impl PathRule for FullCircleByRadius {
             .finding(&META, cx.letter_range('R'), "arc by radius (`R`) ends where it starts")
             .label("the radius does not say where the centre is")
             .help("give the centre of a full circle (`I`, `J`, `K`), or cut it as two half circles");
-        report.add(judged(cx, finding));
+        report.add(limited_by_arc_facts(cx, finding));
     }
 }
 

@@ -2,15 +2,15 @@
 
 use gcheck_engine::{ArcFault, Fault};
 
-use super::arc_end_off_circle::{counts_least_increments, judged};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// The centre of an arc lies on its start or end, or its radius is zero.
     ///
     /// ## Why it matters
-    /// There is no such arc: the control stops with an alarm, or goes straight to the end point through the part.
+    /// There is no such arc: the control stops with an alarm, or moves straight to the end point through the part.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -48,7 +48,7 @@ impl PathRule for ZeroRadiusArc {
             .finding(&META, cx.word_range(is_size), "arc with a radius of zero")
             .label("the centre lies on the start or the end of the arc")
             .help("give the distance from the start to the centre, or write a straight move (`G1`)");
-        report.add(judged(cx, finding));
+        report.add(limited_by_arc_facts(cx, finding));
     }
 }
 

@@ -1,17 +1,17 @@
-//! A bar feed inside the cutoff program of another.
+//! A bar feed inside the cutoff program of another bar feed.
 
 use gcheck_engine::Event;
 
-use crate::bar_feeder::lengths;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feed_name, bar_feed_range, bar_feeder, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// The cutoff program that a bar feed calls (`G105 P…`) feeds the bar itself.
     ///
     /// ## Why it matters
-    /// The feed that called the program goes on when it comes back: the bar is pushed twice, and the second part hangs out of
-    /// the chuck.
+    /// When the cutoff program returns, the bar feed that called it goes on: the bar is pushed twice, and the second
+    /// part hangs out of the chuck.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -61,16 +61,16 @@ impl PathRule for BarFeedInCutoffProgram {
 }
 
 fn check(cx: &PathCx<'_>, report: &mut Report<'_>) {
-    if cx.bar_feeder().is_none() {
+    if bar_feeder(cx).is_none() {
         return;
     }
     let Some(caller) = cx.state().frames().iter().rev().find(|frame| frame.is_cutoff()) else { return };
-    let name = cx.bar_feed_name();
+    let name = bar_feed_name(cx);
     let mut finding = cx
-        .finding(&META, cx.bar_feed_range(), format!("cutoff program feeds the bar itself (`{name}`)"))
-        .label("feeds, and the feed that called feeds again")
-        .help("part off and come back with `M99`; leave the feed to the block that calls");
-    // Where the program stands in another file than its caller, the call cannot be shown.
+        .finding(&META, bar_feed_range(cx), format!("cutoff program feeds the bar itself (`{name}`)"))
+        .label("feeds the bar, and the bar feed that called this program feeds it again")
+        .help("part off and return with `M99`; leave the feed to the block that calls");
+    // If the program is in another file than its caller, the call cannot be shown.
     if cx.range_of(caller.caller).is_none() {
         finding = finding.assuming("this program is called by a bar feed");
     }

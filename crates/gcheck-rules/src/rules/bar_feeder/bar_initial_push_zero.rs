@@ -4,18 +4,17 @@ use gcheck_controls::Letter;
 use gcheck_engine::Event;
 use gcheck_program::Word;
 
-use crate::bar_feeder::{Given, Length, lengths};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Given, Length, bar_feeder, given, length_range, lengths};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The initial push of a bar feed (`G105`) is zero, so that the reference position (`#3112`) stands in for it.
+    /// The initial push of a bar feed (`G105`) is zero, so the control uses the reference position (`#3112`) instead.
     ///
-    /// It does so where `I` and `#3101` are zero. What a zero of the block means while `#3101` is not zero, the manual does
-    /// not say.
+    /// It does so if `I` and `#3101` are zero. The manual does not say what `I0` means while `#3101` is not zero.
     ///
     /// ## Why it matters
-    /// The reference position is set when the feeder is set up. It stands for another length than this part needs.
+    /// The reference position is set when the feeder is set up. It is usually not the length that this part needs.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -44,30 +43,30 @@ struct BarInitialPushZero;
 
 impl PathRule for BarInitialPushZero {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(rules) = cx.bar_feeder() else { return };
+        let Some(rules) = bar_feeder(cx) else { return };
         if lengths(event).is_none() {
             return;
         }
         let stored = cx.known_variable(rules.initial_push);
         let (variable, reference) = (rules.initial_push, rules.reference);
-        let by_word = cx.given(Length::Initial, rules) == Given::Word;
+        let by_word = given(cx, Length::Initial, rules) == Given::Word;
         if by_word && !writes_zero(cx) || !by_word && stored != Some(0.0) {
             return;
         }
-        // Somebody who told the reference position knows that it is used.
+        // If the reference position is configured, its use is deliberate.
         if stored == Some(0.0) && cx.state().variables().is_written(reference) {
             return;
         }
-        let range = cx.length_range(Length::Initial);
+        let range = length_range(cx, Length::Initial);
         let finding = match stored {
             Some(stored) if stored != 0.0 => cx
                 .finding(&META, range, format!("initial push is zero, and `#{variable}` is not"))
-                .label("by what a new bar is pushed is not certain")
+                .label("it is not certain how far a new bar is pushed")
                 .note(format!(
                     "the reference position `#{reference}` is used when both are zero  [{}]",
                     source(cx)
                 ))
-                .help("leave `I` out to push by the variable, or give the length"),
+                .help("remove `I` to push by the variable, or give the length"),
             _ => cx
                 .finding(
                     &META,
@@ -76,13 +75,13 @@ impl PathRule for BarInitialPushZero {
                 )
                 .label("the initial push is zero")
                 .note(format!(
-                    "`#{reference}` stands in for `I` and `#{variable}` when both are zero  [{}]",
+                    "`#{reference}` replaces `I` and `#{variable}` when both are zero  [{}]",
                     source(cx)
                 ))
                 .assuming(format!("`#{reference}` was set when the feeder was set up"))
-                .help("give the push of a new bar: the part, its cutoff and what is faced off"),
+                .help("give the push of a new bar: the part, the cutoff and the facing allowance"),
         };
-        // A zero of the block alone: what the variable holds nobody told.
+        // The block alone gives a zero: the variable's value is unknown.
         report.add(if by_word && stored.is_none() {
             finding.assuming(format!("`#{variable}` is zero as well")).at_most(Severity::Info)
         } else {
@@ -99,7 +98,7 @@ fn writes_zero(cx: &PathCx<'_>) -> bool {
 
 fn source(cx: &PathCx<'_>) -> String {
     let codes = cx.codes();
-    let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+    let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
     let feed = codes.find(|code| code.effect() == gcheck_controls::Effect::BarFeed);
     feed.map_or_else(String::new, |code| code.entry().source.clone())
 }

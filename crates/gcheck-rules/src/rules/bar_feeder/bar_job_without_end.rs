@@ -3,20 +3,19 @@
 use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, Ending, Event};
 
-use crate::bar_feeder::lengths;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feeder, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A bar job starts again (`M99`) as long as there is bar: neither a limit of the feeder nor a block that ends the program
-    /// stops it.
+    /// A bar job starts again (`M99`) as long as there is bar: no limit of the feeder and no end of program stops it.
     ///
-    /// This is how many posts write bar jobs, so that it is an *info*.
+    /// Many post-processors write bar jobs like this, so it is an *info*.
     ///
     /// ## Why it matters
-    /// The machine makes parts until the magazine is empty. A last part that is wanted earlier needs a limit, or a block
-    /// delete (`/M30`) in front of the return.
+    /// The machine makes parts until the magazine is empty. To stop earlier, the job needs a limit, or a block with
+    /// block delete (`/M30`) before the return.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -86,11 +85,11 @@ impl PathRule for BarJobWithoutEnd {
     }
 }
 
-/// `back` is the effect of the word that leads back to the start, as far as a code does.
+/// `back` is the effect of the word that leads back to the start, if a code does.
 fn check(cx: &PathCx<'_>, back: Effect, report: &mut Report<'_>) {
-    let Some(rules) = cx.bar_feeder() else { return };
+    let Some(rules) = bar_feeder(cx) else { return };
     let limits = [rules.most_parts, rules.most_bars, rules.most_length];
-    // Zero is no limit; a limit that nobody knows is one.
+    // Zero is not a limit; an unknown limit is taken as one.
     let is_limited = limits
         .iter()
         .any(|limit| cx.state().variables().is_written(*limit) && cx.known_variable(*limit) != Some(0.0));
@@ -101,13 +100,13 @@ fn check(cx: &PathCx<'_>, back: Effect, report: &mut Report<'_>) {
     let range = cx.word_range(|word| word.code.is_some() && cx.model.effect(word.code) == back);
     report.add(
         cx.finding(&META, range, "bar job repeats until no bar is left")
-            .label("starts the next part, whatever was made")
+            .label("starts the next part, however many were made")
             .assuming(format!(
                 "the feeder's limits (`#{}`, `#{}`) are not set on its page",
                 limits[0], limits[1]
             ))
             .help(format!(
-                "set the number of parts (`#{}`), or keep a `/M30` in front to end the job",
+                "set the number of parts (`#{}`), or put a `/M30` before this block to end the job",
                 limits[0]
             )),
     );

@@ -1,22 +1,22 @@
-//! A bar that comes out at the length no manual decides.
+//! A bar that ends at exactly the length for which the manual has no answer.
 
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::bar_feeder::{Length, lengths};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Length, length_range, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// After some parts exactly as much is left of a bar as a part and its clamping need (`J` and `K` of `G105`, with
-    /// `bar_length` of the machine file).
+    /// After some parts, exactly as much of the bar is left as one part and its clamping need (`J` and `K` of `G105`,
+    /// with `bar_length` of the machine file).
     ///
     /// ## Why it matters
-    /// A longer bar is pushed, a shorter one is changed. Of a bar that is just as long the manual says nothing: the last part
-    /// of each bar is made or not.
+    /// A longer bar is pushed, a shorter one is changed. For a bar of exactly this length the manual says nothing: the
+    /// last part of each bar may or may not be made.
     ///
     /// ## Reported
-    /// With bars of 1000 mm, of which 100 are left behind nine parts:
+    /// With bars of 1000 mm, of which 100 mm are left after nine parts:
     /// ```nc,reported,haas-lathe
     /// G21
     /// M5
@@ -43,7 +43,7 @@ struct BarJustLongEnough;
 
 impl PathRule for BarJustLongEnough {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(bar) = cx.scene.machine.engine.bar.new_bar else {
+        let Some(bar) = cx.environment.machine.engine.bar.new_bar else {
             cx.enough();
             return;
         };
@@ -51,7 +51,7 @@ impl PathRule for BarJustLongEnough {
         if told.part <= Mm::ZERO || told.clamping < Mm::ZERO || told.initial <= Mm::ZERO {
             return;
         }
-        // Behind the first push there must be a whole number of parts, and the clamping.
+        // After the first push there must be a whole number of parts, and the clamping.
         let parts = (bar - told.initial - told.clamping).0 / told.part.0;
         let whole = parts.round();
         if !(whole >= 1.0 && (parts - whole).abs() * told.part.0 < 1e-6) {
@@ -61,11 +61,11 @@ impl PathRule for BarJustLongEnough {
         report.add(
             cx.finding(
                 &META,
-                cx.length_range(Length::Part),
+                length_range(cx, Length::Part),
                 "bar comes out just long enough for its last part",
             )
             .label(format!(
-                "{} are left behind {made}: `J` and `K` exactly",
+                "{} are left after {made}: `J` and `K` exactly",
                 cx.shown(told.part + told.clamping)
             ))
             .note("the manual says what happens with a longer bar and with a shorter one")
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn in_inches_too() {
-        // 10 inches are left behind the first push and for the clamping.
+        // 10 inches are left after the first push and for the clamping.
         let mut world = World::of_examples(&META);
         world.machine.engine.bar.new_bar = Some(gcheck_geometry::Mm(12.0 * 25.4));
         check_rule_in(

@@ -1,22 +1,23 @@
-//! A bar feed whose lengths nobody gives.
+//! A bar feed without its lengths.
 
 use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::Event;
 
-use crate::bar_feeder::{Given, Length, lengths};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Given, Length, bar_feed_range, bar_feeder, given, lengths};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A bar feed (`G105`) takes a length from the control's page: neither the block nor the program gives it, and nobody
-    /// told it.
+    /// A bar feed (`G105`) takes a length from the control's page: the block, the program and the configuration do not
+    /// give it.
     ///
-    /// A bare `G105` is the usual form, and the finding is an *info*. Where the machine file describes the bar
-    /// (`bar_length`), its lengths are missing there as well, and it is a *warning*.
+    /// A bare `G105` is the usual form, so the finding is an *info*. If the machine file describes the bar
+    /// (`bar_length`) without these lengths, it is a *warning*.
     ///
     /// ## Why it matters
-    /// The bar is pushed by what the last job left on the page. A part too short is scrap; a push too long meets the turret.
+    /// The bar is pushed by what the last job left on the page. A part that is too short is scrap; a push that is too
+    /// long hits the turret.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -33,7 +34,7 @@ declare_rule! {
     /// M99
     /// ```
     rule "bar-length-missing" in "bar_feeder" {
-        summary: "bar feed whose lengths stand on the control's page",
+        summary: "bar feed that takes its lengths from the control's page",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -43,7 +44,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct BarLengthMissing {
-    /// Words of feeds before: that they do not last is told by another rule.
+    /// Words of earlier feeds: another rule reports that they do not last.
     overridden: LetterSet,
 }
 
@@ -55,19 +56,19 @@ impl PathRule for BarLengthMissing {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(rules) = cx.bar_feeder() else { return };
+        let Some(rules) = bar_feeder(cx) else { return };
         if lengths(event).is_none() {
             return;
         }
         let mut missing = Vec::new();
         for length in Length::ALL {
             let letter = Letter::of(length.letter());
-            match cx.given(length, rules) {
+            match given(cx, length, rules) {
                 Given::Word => {
                     self.overridden.insert(letter);
                 }
-                Given::Nobody if !self.overridden.contains(letter) => missing.push(length),
-                Given::Nobody | Given::Variable => {}
+                Given::Nowhere if !self.overridden.contains(letter) => missing.push(length),
+                Given::Nowhere | Given::Variable => {}
             }
         }
         let Some(first) = missing.first() else { return };
@@ -78,12 +79,12 @@ impl PathRule for BarLengthMissing {
             [one] => format!("{} of the bar feed is not given ({variables})", one.words()),
             _ => "lengths of the bar feed are not given".to_owned(),
         };
-        let is_described = cx.scene.machine.engine.bar.new_bar.is_some();
+        let is_described = cx.environment.machine.engine.bar.new_bar.is_some();
         let pin = format!("\"#{}\" = …", first.variable(rules));
         let words: Vec<String> =
             missing.iter().map(|one| format!("`{}` ({})", one.letter(), one.words())).collect();
         let finding = cx
-            .finding(&META, cx.bar_feed_range(), title)
+            .finding(&META, bar_feed_range(cx), title)
             .label(format!(
                 "takes {variables} as the control has {}",
                 if missing.len() == 1 { "it" } else { "them" }
@@ -93,7 +94,7 @@ impl PathRule for BarLengthMissing {
                 if missing.len() == 1 { "is" } else { "are" }
             ))
             .help(format!(
-                "give {} in the block, or tell gcheck what the page holds: {pin} under `[variables]`",
+                "give {} in the block, or configure the values of the page: {pin} under `[variables]`",
                 listed(&words)
             ));
         report.add(if is_described { finding } else { finding.at_most(Severity::Info) });
@@ -160,7 +161,7 @@ mod tests {
         );
     }
 
-    /// Given, though nobody knows how much.
+    /// Given, with an unknown value.
     #[test]
     fn a_value_that_is_not_known_is_given() {
         check_rule(&RULE, "haas-lathe", "#3100=#500\n#3101=#501\nM5\nG105 K#502\nM99\n", &expect![[""]]);

@@ -1,20 +1,20 @@
-//! A variable that gives a bar feed a length it cannot have.
+//! A variable that gives a bar feed an impossible length.
 
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::bar_feeder::{Given, Length, lengths};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Given, Length, bar_feed_range, bar_feeder, given, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A bar feed (`G105`) takes a length from its variable, and the variable holds no length: a part of zero or less, a
-    /// clamping length or a push below zero, a reference position of zero where it stands in for the push.
+    /// A bar feed (`G105`) takes a length from its variable, and the value cannot be a length: a part of zero or less,
+    /// a clamping length or a push below zero, a reference position of zero that replaces the push.
     ///
-    /// Words of the block are judged where they stand, by the rules about numbers.
+    /// The rules about numbers judge the words of the block itself.
     ///
     /// ## Why it matters
-    /// A bar that is pushed by nothing makes a part out of air; the next pass cuts where the last part was.
+    /// The bar does not move, and the next pass cuts air where the last part was.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -43,7 +43,7 @@ struct BarLengthNotUsable;
 
 impl PathRule for BarLengthNotUsable {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(rules) = cx.bar_feeder() else { return };
+        let Some(rules) = bar_feeder(cx) else { return };
         let Some(told) = lengths(event) else { return };
         for length in Length::ALL {
             let value = length.of(told);
@@ -51,9 +51,9 @@ impl PathRule for BarLengthNotUsable {
                 Length::Part => value > Mm::ZERO,
                 Length::Initial | Length::Clamping => value >= Mm::ZERO,
             };
-            // An initial push of zero that came through is a reference position of zero.
+            // An initial push of zero here means that the reference position is zero too.
             let is_reference = length == Length::Initial && value == Mm::ZERO;
-            let by_variable = cx.given(length, rules) == Given::Variable || is_reference;
+            let by_variable = given(cx, length, rules) == Given::Variable || is_reference;
             if !value.is_known() || is_usable && !is_reference || !by_variable {
                 continue;
             }
@@ -63,12 +63,12 @@ impl PathRule for BarLengthNotUsable {
             let label = match length {
                 Length::Part => "the bar is not pushed to the next part",
                 Length::Initial => "a new bar is not pushed out of the chuck",
-                Length::Clamping => "nothing would have to stay in the chuck",
+                Length::Clamping => "no length would have to stay in the chuck",
             };
             report.add(
                 cx.finding(
                     &META,
-                    cx.bar_feed_range(),
+                    bar_feed_range(cx),
                     format!("{name} of the bar feed is {how} (`#{variable}`)"),
                 )
                 .label(label)

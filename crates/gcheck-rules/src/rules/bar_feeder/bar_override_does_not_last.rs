@@ -1,14 +1,14 @@
-//! A length of a bar feed that an earlier feed gave for itself alone.
+//! A length of a bar feed that only an earlier feed gave.
 
 use gcheck_engine::{At, Event};
 
-use crate::bar_feeder::{Given, Length, lengths};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Given, Length, bar_feed_range, bar_feeder, given, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A bar feed (`G105`) leaves out a length that an earlier one gave: that counted for its own block only.
+    /// A bar feed (`G105`) omits a length that an earlier one gave: such a length counts for its own block only.
     ///
     /// ## Why it matters
     /// `I`, `J` and `K` do not change what the control has stored. The later feed pushes by the stored length, which may be
@@ -56,24 +56,24 @@ impl PathRule for BarOverrideDoesNotLast {
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(rules) = cx.bar_feeder() else { return };
+        let Some(rules) = bar_feeder(cx) else { return };
         let Some(told) = lengths(event) else { return };
         for (slot, length) in self.given.iter_mut().zip(Length::ALL) {
             let value = length.of(told).0;
-            if cx.given(length, rules) == Given::Word {
+            if given(cx, length, rules) == Given::Word {
                 *slot = Some((cx.origin().at, value));
                 continue;
             }
             let Some((at, before)) = *slot else { continue };
-            // Set by the program on the way, or told, and unknown all the same: nobody can say that it differs.
-            let is_unknown = value.is_nan() && cx.given(length, rules) == Given::Variable;
+            // Set by the program or the configuration, and still unknown: it may be the same.
+            let is_unknown = value.is_nan() && given(cx, length, rules) == Given::Variable;
             if is_unknown || (value - before).abs() < 1e-6 {
                 continue;
             }
             let (letter, variable) = (length.letter(), length.variable(rules));
             let message = format!("`{letter}` of the earlier bar feed does not last");
             let mut finding = cx
-                .finding(&META, cx.bar_feed_range(), message)
+                .finding(&META, bar_feed_range(cx), message)
                 .label(if value.is_nan() {
                     format!("takes `#{variable}` from the control")
                 } else {

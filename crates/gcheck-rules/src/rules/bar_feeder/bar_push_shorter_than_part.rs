@@ -1,20 +1,19 @@
-//! A part that is longer than the bar is pushed.
+//! A part that is longer than the push of the bar.
 
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::bar_feeder::{Length, lengths};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::parting::Parting;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Length, bar_feeder, length_range, lengths};
+use crate::facts::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The bar is pushed (`J` of `G105`, `#3100`) by less than the part is long: the cut that parts it off stands farther
-    /// behind the face.
+    /// The push of the bar (`J` of `G105`, `#3100`) is shorter than the part: the parting cut is farther from the face.
     ///
-    /// The part is taken to reach from `Z0` to the deepest cut across the centre. What the parting tool takes away comes on
-    /// top; it is not counted here.
+    /// The part is assumed to reach from `Z0` to the deepest cut across the centre. The width of the parting tool comes
+    /// on top; it is not counted here.
     ///
     /// ## Why it matters
     /// The end of the bar does not reach `Z0`. The next part comes out too short, or its face is not cut.
@@ -69,7 +68,7 @@ impl PathRule for BarPushShorterThanPart {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() {
+        if bar_feeder(cx).is_none() {
             return;
         }
         if let Some(parting) = Parting::of(cx, event)
@@ -83,20 +82,20 @@ impl PathRule for BarPushShorterThanPart {
         let Some(told) = lengths(event) else { return };
         let Some(parting) = self.deepest.take() else { return };
         let length = Mm(-parting.z.0);
-        // A push of nothing is another rule's.
+        // Another rule reports a push of zero.
         if !(told.part > Mm::ZERO && length.0 - told.part.0 > 1e-3) {
             return;
         }
         let mut finding = cx
-            .finding(&META, cx.length_range(Length::Part), "bar is pushed by less than the part is long")
+            .finding(&META, length_range(cx, Length::Part), "bar is pushed by less than the part is long")
             .label(format!(
-                "pushes {}; the part is cut off {} behind `Z0`",
+                "pushes {}; the part is cut off {} from `Z0`",
                 cx.shown(told.part),
                 cx.shown(length)
             ))
             .assuming("`Z0` is at the face of the part")
             .help(
-                "push by the part, the width of the parting tool and what is faced off (`J` or its variable)",
+                "push by the part, the width of the parting tool and the facing allowance (`J` or its variable)",
             );
         if let Some(range) = cx.range_of(parting.at) {
             finding = finding.also(range, "cut off here");

@@ -2,11 +2,12 @@
 
 use gcheck_engine::Event;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::bar_feeder;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A program sets the bar feeder up (`G105 Q…`): a mode for work by hand, not for a job that runs.
+    /// A program uses a mode of `G105 Q…` that sets the bar feeder up: that is work by hand, not part of a running job.
     ///
     /// Loading and unloading a bar are modes that programs use.
     ///
@@ -38,16 +39,16 @@ struct BarSetupModeInProgram;
 
 impl PathRule for BarSetupModeInProgram {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(rules) = cx.bar_feeder() else { return };
+        let Some(rules) = bar_feeder(cx) else { return };
         let Event::BarSetup(Some(mode)) = event else { return };
         if rules.program_modes.contains(mode) {
             return;
         }
         report.add(
             cx.finding(&META, cx.letter_range('Q'), format!("program sets the bar feeder up (`Q{mode}`)"))
-                .label("a mode for work by hand")
+                .label("a mode for setting up by hand")
                 .assuming(format!("mode {mode} is a setup mode on this feeder"))
-                .help("leave `Q` out to feed the bar; set the feeder up from MDI"),
+                .help("remove `Q` to feed the bar; set the feeder up from MDI"),
         );
     }
 }

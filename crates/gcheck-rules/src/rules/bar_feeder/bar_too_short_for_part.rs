@@ -3,8 +3,8 @@
 use gcheck_engine::Event;
 use gcheck_geometry::Mm;
 
-use crate::bar_feeder::{Length, lengths};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{Length, length_range, lengths, resting_on_units};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
@@ -12,8 +12,8 @@ declare_rule! {
     /// a new bar is pushed so far out that less than the clamping length stays in the chuck.
     ///
     /// ## Why it matters
-    /// No bar is ever long enough: each feed takes the next bar, until the magazine is empty. A bar that is held by too
-    /// little flies out.
+    /// No bar is long enough: each feed takes the next bar, until the magazine is empty. A bar that is clamped too
+    /// short flies out.
     ///
     /// ## Reported
     /// With bars of 1000 mm:
@@ -43,30 +43,30 @@ struct BarTooShortForPart;
 
 impl PathRule for BarTooShortForPart {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let Some(bar) = cx.scene.machine.engine.bar.new_bar else {
+        let Some(bar) = cx.environment.machine.engine.bar.new_bar else {
             cx.enough();
             return;
         };
         let Some(told) = lengths(event) else { return };
         let (part, clamping, initial) = (told.part, told.clamping, told.initial);
-        // Numbers below zero are another rule's.
+        // Another rule reports numbers below zero.
         if part > Mm::ZERO && clamping >= Mm::ZERO && part + clamping > bar {
             let finding =
-                cx.finding(&META, cx.length_range(Length::Part), "part and its clamping are longer than a new bar")
+                cx.finding(&META, length_range(cx, Length::Part), "part and its clamping are longer than a new bar")
                     .label(format!(
                         "{} and {} to clamp; a bar has {}",
                         cx.shown(part),
                         cx.shown(clamping),
                         cx.shown(bar)
                     ))
-                    .note("a bar that is shorter is taken out for the next one: every feed would take a new bar")
+                    .note("the feeder replaces a bar that is too short: every feed would take a new bar")
                     .help("correct the part length (`J`), the clamping length (`K`) or `bar_length` of the machine file");
-            report.add(cx.resting_on_units(finding));
+            report.add(resting_on_units(cx, finding));
         } else if clamping >= Mm::ZERO && initial > Mm::ZERO && bar - initial < clamping {
             report.add(
                 cx.finding(
                     &META,
-                    cx.length_range(Length::Initial),
+                    length_range(cx, Length::Initial),
                     "new bar is pushed too far out to be clamped",
                 )
                 .label(format!(

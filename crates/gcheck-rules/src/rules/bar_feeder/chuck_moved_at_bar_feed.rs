@@ -3,12 +3,13 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Truth};
 
-use crate::bar_feeder::lengths;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feed_range, bar_feeder, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The program opens the chuck before a bar feed (`M11`), or closes it behind one (`M10`): the feed does both itself.
+    /// The program opens the chuck before a bar feed (`M11`), or closes it after one (`M10`): the feed does both
+    /// itself.
     ///
     /// ## Why it matters
     /// A chuck that is open before the feeder holds the bar lets it slip, and the bar is no longer where the feeder knows it.
@@ -42,26 +43,26 @@ struct ChuckMovedAtBarFeed;
 
 impl PathRule for ChuckMovedAtBarFeed {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() || lengths(event).is_none() || cx.state().bar().clamped() != Truth::False
+        if bar_feeder(cx).is_none() || lengths(event).is_none() || cx.state().bar().clamped() != Truth::False
         {
             return;
         }
-        let opener = cx.cancel_of(Effect::ChuckUnclamp).unwrap_or_default();
+        let opener = cx.name_of_effect(Effect::ChuckUnclamp).unwrap_or_default();
         let finding = cx
-            .finding(&META, cx.bar_feed_range(), format!("chuck is open before the bar is fed (`{opener}`)"))
+            .finding(&META, bar_feed_range(cx), format!("chuck is open before the bar is fed (`{opener}`)"))
             .label("the feed opens and closes the chuck itself")
-            .help(format!("leave `{opener}` out"));
+            .help(format!("remove `{opener}`"));
         report.add(cx.resting_on(finding, Fact::Chuck, &format!("`{opener}`")));
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() || !cx.has_effect(|effect| effect == Effect::ChuckClamp) {
+        if bar_feeder(cx).is_none() || !cx.has_effect(|effect| effect == Effect::ChuckClamp) {
             return;
         }
         let Some(at) = cx.trace().set_by(Fact::Chuck) else { return };
         let feed = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::BarFeed);
         let Some(feed) = feed.filter(|_| cx.state().bar().clamped() == Truth::True) else { return };
-        let closer = cx.cancel_of(Effect::ChuckClamp).unwrap_or_default();
+        let closer = cx.name_of_effect(Effect::ChuckClamp).unwrap_or_default();
         report.add(
             cx.finding(
                 &META,
@@ -70,7 +71,7 @@ impl PathRule for ChuckMovedAtBarFeed {
             )
             .label("closes what is closed")
             .also(feed, "opens and closes the chuck itself")
-            .help(format!("leave `{closer}` out")),
+            .help(format!("remove `{closer}`")),
         );
     }
 }

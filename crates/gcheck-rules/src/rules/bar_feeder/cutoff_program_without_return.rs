@@ -1,17 +1,18 @@
-//! A cutoff program in another file that does not come back to the bar feed.
+//! A cutoff program in another file that does not return to the bar feed.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::At;
 use gcheck_program::Word;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::bar_feeder;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The cutoff program that a bar feed calls (`G105 P…`) stands in another file, and has no return (`M99`): it ends the job,
-    /// or its text just ends.
+    /// The cutoff program that a bar feed calls (`G105 P…`) is in another file and has no return (`M99`): it ends the
+    /// job, or its text just ends.
     ///
-    /// Of a cutoff program in the same file `subprogram-without-return` speaks.
+    /// For a cutoff program in the same file, see `subprogram-without-return`.
     ///
     /// ## Why it matters
     /// The part is cut off and nothing follows: no push, no clamping, no next part.
@@ -50,7 +51,7 @@ const MOST_BLOCKS: u32 = 20_000;
 
 impl PathRule for CutoffProgramWithoutReturn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() || !cx.has_effect(|effect| effect == Effect::BarFeed) {
+        if bar_feeder(cx).is_none() || !cx.has_effect(|effect| effect == Effect::BarFeed) {
             return;
         }
         let Some(place) = cx.place() else { return };
@@ -82,7 +83,7 @@ impl PathRule for CutoffProgramWithoutReturn {
         report.add(
             cx.finding(&META, cx.letter_range('P'), "cutoff program has no return (`M99`)")
                 .label(if ends { "ends the whole job" } else { "runs to the end of its text" })
-                .note(format!("the program stands in `{}`", file.name))
+                .note(format!("the program is in `{}`", file.name))
                 .help("end the cutoff program with `M99`"),
         );
     }

@@ -3,8 +3,8 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Event, Fact, Role, Truth};
 
-use crate::bar_feeder::lengths;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feed_range, bar_feeder, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -12,8 +12,8 @@ declare_rule! {
     /// tool is still on.
     ///
     /// ## Why it matters
-    /// The feed is where one part ends and the next begins. What is left on belongs to the part that was cut off, and the
-    /// next one begins with it.
+    /// At the bar feed one part ends and the next begins. A mode that is left on belongs to the part that was cut off,
+    /// and the next part begins with it.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -45,7 +45,7 @@ struct ModeOnAtBarFeed;
 
 impl PathRule for ModeOnAtBarFeed {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() || lengths(event).is_none() {
+        if bar_feeder(cx).is_none() || lengths(event).is_none() {
             return;
         }
         for role in [Role::Compensation, Role::Cycle, Role::PolarInterpolation, Role::Cylinder] {
@@ -54,22 +54,22 @@ impl PathRule for ModeOnAtBarFeed {
             };
             let Some((what, off)) = on(cx.model.effect(code), role) else { continue };
             let name = cx.name_of(code);
-            let off = off.and_then(|off| cx.cancel_of(off)).unwrap_or_else(|| name.clone());
+            let off = off.and_then(|off| cx.name_of_effect(off)).unwrap_or_else(|| name.clone());
             let finding = cx
                 .finding(
                     &META,
-                    cx.bar_feed_range(),
+                    bar_feed_range(cx),
                     format!("{what} is still on while the bar is fed (`{name}`)"),
                 )
                 .label("the next part begins with it")
-                .help(format!("end it with `{off}` before the bar is fed"));
+                .help(format!("end it with `{off}` before this the bar is fed"));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }
         if cx.state().live_tool() == Truth::True {
-            let off = cx.cancel_of(Effect::LiveToolOff).unwrap_or_default();
+            let off = cx.name_of_effect(Effect::LiveToolOff).unwrap_or_default();
             report.add(
-                cx.finding(&META, cx.bar_feed_range(), "live tool still turns while the bar is fed")
-                    .label("the turret may stand near the bar")
+                cx.finding(&META, bar_feed_range(cx), "live tool still turns while the bar is fed")
+                    .label("the turret may be near the bar")
                     .help(format!("stop it with `{off}` before the bar is fed")),
             );
         }

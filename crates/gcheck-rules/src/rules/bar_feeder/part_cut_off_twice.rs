@@ -2,14 +2,14 @@
 
 use gcheck_engine::{Event, Frame};
 
-use crate::bar_feeder::lengths;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::parting::Parting;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feeder, lengths};
+use crate::facts::parting::Parting;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The program parts off, and the bar feed behind it calls a cutoff program that parts off once more (`G105 P…`).
+    /// The program parts off, and the next bar feed calls a cutoff program that parts off again (`G105 P…`).
     ///
     /// ## Why it matters
     /// The second cut is made in the air, or takes a disc off the next part.
@@ -70,7 +70,7 @@ impl PathRule for PartCutOffTwice {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() {
+        if bar_feeder(cx).is_none() {
             return;
         }
         let Some(parting) = Parting::of(cx, event) else { return };
@@ -82,7 +82,7 @@ impl PathRule for PartCutOffTwice {
         let mut finding = cx
             .finding(&META, cx.range(), "part is cut off a second time")
             .label("cuts off again")
-            .help("part off in the cutoff program or in front of the feed, not in both");
+            .help("part off in the cutoff program or before the feed, not in both");
         if let Some(range) = cx.range_of(before.at) {
             finding = finding.also(range, "cut off here");
         }

@@ -1,16 +1,16 @@
-//! A tool that stands where the bar is pushed.
+//! A tool in the way of the bar that is fed.
 
 use gcheck_engine::{Axis, Event};
 use gcheck_geometry::Mm;
 
-use crate::bar_feeder::lengths;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::bar_feed::{bar_feed_range, bar_feeder, lengths};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The bar is fed (`G105`) while the tool still stands in it: behind the face and near the centre, as after a parting cut
-    /// without the way back.
+    /// The bar is fed (`G105`) while the tool is still in its way: behind the face and near the centre, as after a
+    /// parting cut without a retract.
     ///
     /// ## Why it matters
     /// The bar is pushed into the tool.
@@ -64,7 +64,7 @@ impl PathRule for TurretInTheWayOfBar {
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        if cx.bar_feeder().is_none() {
+        if bar_feeder(cx).is_none() {
             return;
         }
         if let Event::Travel(travel) = event
@@ -89,7 +89,7 @@ impl PathRule for TurretInTheWayOfBar {
         }
         let diameter = if cx.state().is_diameter(cx.model) == Some(false) { x } else { 2.0 * x };
         report.add(
-            cx.finding(&META, cx.bar_feed_range(), "tool stands in the way of the bar")
+            cx.finding(&META, bar_feed_range(cx), "tool is in the way of the bar")
                 .label(format!("the tool is at `X` {}, `Z` {}", cx.shown(Mm(diameter)), cx.shown(Mm(z))))
                 .assuming("`Z0` is at the face of the part")
                 .help("move the tool clear of the bar before it is fed: first in X, then in Z"),
@@ -112,7 +112,7 @@ mod tests {
             "O1\nG20\nG105 J2. P2\nM99\nO2\nG0 X2.1 Z-1.625\nG1 X-0.04 F0.004\nM99\n",
             &expect![[r#"
                 3 | G105 J2. P2
-                  | ^^^^ warning[turret-in-the-way-of-bar] tool stands in the way of the bar
+                  | ^^^^ warning[turret-in-the-way-of-bar] tool is in the way of the bar
             "#]],
         );
     }

@@ -2,17 +2,16 @@
 
 use gcheck_engine::{CompensationFault, Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
     /// Under cutter compensation the tool does not fit into a corner or an arc of the contour.
     ///
-    /// The rule speaks only where the tool's size is known: from a configured tool table, from `G10`, or from the block itself
-    /// (`G41.1 D6`).
+    /// The rule needs the tool's size: from a configured tool table, from `G10`, or from the block itself (`G41.1 D6`).
     ///
     /// ## Why it matters
-    /// The control stops with an alarm in the middle of the contour, or the tool cuts into its other side.
+    /// The control stops with an alarm in the middle of the contour, or the tool gouges the other side of the contour.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -53,9 +52,9 @@ impl PathRule for CompensationGouge {
         let name = cx.code_name(Role::Compensation).unwrap_or_default();
         let finding = cx
             .finding(&META, cx.range(), format!("the tool does not fit into the contour (`{name}`)"))
-            .label("with the tool's size the path cuts into its other side here")
+            .label("with this size of tool the path gouges the other side of the contour here")
             .help("use a smaller tool, or open the corner");
-        // The shape of the path is a rule of the control: as sure as what is known of it.
+        // The control shapes the path: the finding is as certain as what is known of that.
         let confidence = cx.model.semantics().confidence;
         let is_refused = cx.model.semantics().compensation.freezes_modes;
         report.add(finding.at_most(if is_refused { limit(confidence) } else { Severity::Warning }));

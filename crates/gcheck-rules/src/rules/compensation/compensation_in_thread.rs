@@ -3,19 +3,19 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
-use super::super::spindle::thread_at_surface_speed::is_thread;
-use super::compensation_left_on::is_on;
-use crate::boundary::LeftOn;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::is_on;
+use crate::facts::cutting::is_thread;
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A thread is cut while the path is offset by the nose of the tool (`G41`, `G42`).
+    /// A thread is cut while the path is offset by the nose radius of the tool (`G41`, `G42`).
     ///
     /// ## Why it matters
-    /// A threading tool has no nose to allow for: the control shifts the thread along the part, or passes over the offset in
-    /// these blocks and comes back with a jump. Most often the `G40` of the turning before is missing.
+    /// Threading needs no nose compensation: the control shifts the thread along the part, or ignores the offset in
+    /// these blocks and returns to it with a jump. Most often the `G40` after the turning is missing.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -68,7 +68,7 @@ impl PathRule for CompensationInThread {
         if is_broken || !cx.has_effect(is_thread) {
             return;
         }
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Compensation, is_on) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
         let fact = Fact::Mode(Role::Compensation);
         let set_by = cx.trace().set_by(fact);
         if set_by.is_none() || set_by == self.told {
@@ -76,14 +76,14 @@ impl PathRule for CompensationInThread {
         }
         self.told = set_by;
         let name = cx.name_of(code);
-        let off = cx.cancel_of(Effect::CompensationOff).unwrap_or_default();
+        let off = cx.name_of_effect(Effect::CompensationOff).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
                 cx.effect_range(is_thread),
                 format!("the thread is cut under nose compensation (`{name}`)"),
             )
-            .label("the path is offset by the nose of the tool")
+            .label("the path is offset by the nose radius of the tool")
             .help(format!("leave the contour with `{off}` before the thread"))
             .at_most(Severity::Warning);
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));

@@ -1,19 +1,21 @@
-//! Cutter compensation that nobody switched off.
+//! Cutter compensation that is not switched off.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark};
+use crate::facts::compensation::{is_on, left_on_finding};
+use crate::facts::modes::{ActiveMode, left_on};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Cutter compensation is still on where the tool is changed or the program ends.
+    /// Cutter compensation is still on when the tool is changed or the program ends.
     ///
     /// ## Why it matters
-    /// The way to the tool change is made beside the programmed path, and the next tool begins with the offset of the last
-    /// one. Some controls stop with an alarm.
+    /// The tool moves to the tool change beside the programmed path, and the next tool begins with the offset of the
+    /// last one. Some controls stop with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -42,7 +44,7 @@ declare_rule! {
         summary: "cutter compensation left on",
         severity: Error,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(CompensationLeftOn { told: None }) },
     }
@@ -62,13 +64,13 @@ impl PathRule for CompensationLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(place) = cx.boundary() {
+        if let Some(place) = boundary(cx) {
             self.judge(cx, place, report);
         }
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.judge(cx, Boundary::ProgramEnd, report);
         }
     }
@@ -76,7 +78,7 @@ impl PathRule for CompensationLeftOn {
 
 impl CompensationLeftOn {
     fn judge(&mut self, cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Compensation, is_on) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Compensation, is_on) else { return };
         let set_by = cx.trace().set_by(Fact::Mode(Role::Compensation));
         if set_by.is_some() && set_by == self.told {
             return;
@@ -84,7 +86,7 @@ impl CompensationLeftOn {
         self.told = set_by;
         let name = cx.name_of(code);
         let message = format!("cutter compensation is still on {} (`{name}`)", place.words());
-        let finding = finding(cx, &META, place, message);
+        let finding = left_on_finding(cx, &META, place, message);
         let is_refused = place == Boundary::ToolChange && cx.model.semantics().compensation.freezes_modes;
         let finding = if is_refused {
             finding
@@ -92,37 +94,14 @@ impl CompensationLeftOn {
                 .at_most(limit(cx.model.semantics().confidence))
         } else if place == Boundary::ProgramEnd && cx.end_resets(Role::Compensation) {
             finding
-                .note("the end of the program switches it off on this control; the way out was made beside the path")
+                .note("the end of the program switches it off on this control; the retract was made beside the programmed path")
                 .at_most(Severity::Info)
         } else {
             finding.at_most(Severity::Warning)
         };
-        let finding = finding.fix_if(cx.block_before(cx.cancel_of(Effect::CompensationOff).as_deref()));
+        let finding = finding.fix_if(cx.block_before(cx.name_of_effect(Effect::CompensationOff).as_deref()));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Compensation), &format!("`{name}`")));
     }
-}
-
-/// Is the path offset by the size of the cutter?
-pub(super) fn is_on(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::CompensationLeft
-            | Effect::CompensationRight
-            | Effect::CompensationLeftByDiameter
-            | Effect::CompensationRightByDiameter
-            | Effect::CompensationVector
-    )
-}
-
-/// What both rules say of it.
-pub(super) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, place: Boundary, message: String) -> Finding {
-    let cancel = cx.cancel_of(Effect::CompensationOff).unwrap_or_default();
-    cx.finding(rule, cx.boundary_range(place), message)
-        .label(match place {
-            Boundary::ToolChange => "the next tool begins with it",
-            Boundary::ProgramEnd => "the program ends with it",
-        })
-        .help(format!("leave the contour on a straight move with `{cancel}` before the tool goes away"))
 }
 
 #[cfg(test)]
@@ -130,8 +109,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_control_that_refuses_it_makes_it_an_error() {
@@ -190,7 +168,7 @@ mod tests {
     #[test]
     fn what_it_says() {
         let found = findings(
-            &Selection::only(&RULE),
+            &only(&RULE),
             "fanuc-mill",
             "G41 D1 G1 X10. F100.\nG0 Z50.\nT2 M6\nM30\n",
             &World::default(),

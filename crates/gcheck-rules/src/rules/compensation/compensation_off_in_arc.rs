@@ -3,18 +3,17 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
 
-use super::compensation_left_on::is_on;
-use super::compensation_on_in_arc::stands_in_plane;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::{is_on, stays_in_plane};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The first move after cutter compensation is switched off (`G40`) is an arc.
     ///
     /// ## Why it matters
-    /// The way from the offset path back to the programmed one must be straight. The control stops with an alarm, with the tool
-    /// still at the contour.
+    /// The move from the offset path back to the programmed one must be straight. The control stops with an alarm, with
+    /// the tool still at the contour.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -57,7 +56,7 @@ impl PathRule for CompensationOffInArc {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(super::compensation_left_on::is_on)
+        program.may(is_on)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -90,7 +89,7 @@ impl CompensationOffInArc {
         let Some(ended) = self.ended else { return };
         // Moves that compensation held back come out with the block that switches it off.
         let is_older = cx.origin().at.file == ended.file && cx.origin().at.block < ended.block;
-        if is_older || stands_in_plane(cx, event) {
+        if is_older || stays_in_plane(cx, event) {
             return;
         }
         self.ended = None;
@@ -103,7 +102,7 @@ impl CompensationOffInArc {
 fn tell(cx: &PathCx<'_>, ended: At, report: &mut Report<'_>) {
     let code = cx.find_word(ended, |word| cx.model.effect(word.code) == Effect::CompensationOff);
     let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
-    let name = cx.cancel_of(Effect::CompensationOff).unwrap_or_default();
+    let name = cx.name_of_effect(Effect::CompensationOff).unwrap_or_default();
     let mut finding = cx
         .finding(&META, cx.effect_range(is_arc), format!("cutter compensation ends on an arc (`{name}`)"))
         .label("the first move after compensation")
@@ -111,9 +110,9 @@ fn tell(cx: &PathCx<'_>, ended: At, report: &mut Report<'_>) {
     if let Some(range) = code {
         finding = finding.also(range, "compensation is switched off here");
     }
-    // Sure where the control's own list of alarms has it, or its interpreter was seen to refuse it.
+    // Certain if the control's own list of alarms has it, or if its interpreter was seen to refuse it.
     let semantics = cx.model.semantics();
-    let is_sure = cx.scene.control().alarm(META.id).is_some() || semantics.compensation.freezes_modes;
+    let is_sure = cx.control().alarm(META.id).is_some() || semantics.compensation.freezes_modes;
     report.add(if is_sure { finding } else { finding.at_most(Severity::Warning) });
 }
 

@@ -1,20 +1,21 @@
-//! Cutter compensation by nothing.
+//! Cutter compensation with offset number zero.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
-use super::compensation_on_in_arc::begins;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::{begins, is_on};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Cutter compensation is switched on (`G41`, `G42`) with offset number zero (`D0`).
     ///
-    /// A compensation that no `D` was ever given for is reported as `lasting-word-never-given`.
+    /// If the program never gives a `D`, `lasting-word-never-given` reports that.
     ///
     /// ## Why it matters
-    /// Offset zero is no size: the tool's centre goes along the contour, and the part is too small by the tool's diameter.
+    /// Offset zero has no size: the tool's centre follows the contour, and the part is too small by the tool's
+    /// diameter.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -54,7 +55,7 @@ impl PathRule for CompensationOffsetMissing {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(super::compensation_left_on::is_on)
+        program.may(is_on)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -69,14 +70,14 @@ impl PathRule for CompensationOffsetMissing {
         let is_by_number =
             matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationRight);
         let Some(at) = cx.trace().set_by(Fact::Mode(Role::Compensation)) else { return };
-        // Only a zero that stands in the text: a missing `D` has its own rule, a turret's `T0100` takes all offsets away.
+        // Only a zero that is written: a missing `D` has its own rule, and `T0100` of a turret cancels all offsets.
         let is_zero = |word: &gcheck_program::Word| word.letter.ascii() == b'D' && word.number() == Some(0.0);
         let Some(range) = cx.find_word(at, is_zero).filter(|_| is_by_number) else { return };
         let name = cx.name_of(code);
         report.add(
             cx.finding(&META, range, format!("cutter compensation with no offset (`{name} D0`)"))
-                .label("offset zero is no size")
-                .help(format!("name the tool's offset with `{name}`, or take the compensation out")),
+                .label("offset zero has no size")
+                .help(format!("give the tool's offset number with `{name}`, or remove the compensation")),
         );
     }
 }

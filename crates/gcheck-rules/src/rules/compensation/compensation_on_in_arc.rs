@@ -1,18 +1,18 @@
 //! Cutter compensation that begins on an arc.
 
-use gcheck_controls::{CompensationStyle, Effect, Letter};
-use gcheck_engine::{At, Axis, CompensationFault, Event, Fault, Role};
+use gcheck_controls::{CompensationStyle, Effect};
+use gcheck_engine::{At, CompensationFault, Event, Fault, Role};
 
-use super::compensation_left_on::is_on;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::{begins, is_on, stays_in_plane};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The first move under cutter compensation (`G41`, `G42`) is an arc, on a control that begins it on a straight move only.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or moves to a place beside the arc that nobody meant.
+    /// The control stops with an alarm, or moves to an unintended place beside the arc.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -53,7 +53,7 @@ impl PathRule for CompensationOnInArc {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(super::compensation_left_on::is_on)
+        program.may(is_on)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -82,7 +82,7 @@ impl PathRule for CompensationOnInArc {
 
 impl CompensationOnInArc {
     fn moves(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if self.begun.is_none() || stands_in_plane(cx, event) {
+        if self.begun.is_none() || stays_in_plane(cx, event) {
             return;
         }
         let Some(begun) = self.begun.take() else { return };
@@ -91,29 +91,6 @@ impl CompensationOnInArc {
             tell(cx, begun, report);
         }
     }
-}
-
-/// Does the block switch compensation on that was off before it?
-pub(super) fn begins(cx: &PathCx<'_>) -> bool {
-    let was_on = cx.state().effect(Role::Compensation, cx.model).is_none_or(is_on);
-    !was_on && cx.has_effect(is_on)
-}
-
-/// A move that leaves the compensated plane alone.
-pub(super) fn stands_in_plane(cx: &PathCx<'_>, event: &Event) -> bool {
-    if !matches!(event, Event::Travel(_)) {
-        return false;
-    }
-    let Some(plane) = cx.state().plane(cx.model) else { return false };
-    let (first, second, _) = plane.axes();
-    // By its words: under compensation by a tool of unknown size the path itself is not known.
-    let in_plane = [first, second].into_iter().filter_map(|index| Axis::ALL.get(index)).any(|axis| {
-        let names = |letter: Letter| cx.origin().letters.contains(letter);
-        let increment =
-            cx.model.semantics().increments.iter().find(|(_, of)| Letter::parse(of) == Some(axis.letter()));
-        names(axis.letter()) || increment.and_then(|(letter, _)| Letter::parse(letter)).is_some_and(names)
-    });
-    !in_plane
 }
 
 fn tell(cx: &PathCx<'_>, begun: At, report: &mut Report<'_>) {
@@ -127,8 +104,8 @@ fn tell(cx: &PathCx<'_>, begun: At, report: &mut Report<'_>) {
     if let Some(range) = code {
         finding = finding.also(range, "compensation is switched on here");
     }
-    // Sure where the control's own list of alarms has it.
-    let is_listed = cx.scene.control().alarm(META.id).is_some();
+    // Certain if the control's own list of alarms has it.
+    let is_listed = cx.control().alarm(META.id).is_some();
     report.add(if is_listed { finding } else { finding.at_most(Severity::Warning) });
 }
 

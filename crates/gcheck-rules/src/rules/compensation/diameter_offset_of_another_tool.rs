@@ -3,19 +3,19 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
-use super::compensation_left_on::is_on;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::schemes::{Pairs, whole};
+use crate::declare::declare_rule;
+use crate::facts::compensation::is_on;
+use crate::facts::offset_schemes::{Pairs, whole};
 use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool cuts with the cutter compensation offset that, by the scheme of the program's other tools, belongs to another tool:
-    /// the others take `D` equal to `T`, or `T` and a fixed number more, and this one does not. Or all tools have the length
-    /// offset of their own number, and the `D` of this one is the number of another of them.
+    /// A tool cuts with a cutter compensation offset that, by the scheme of the program's other tools, belongs to
+    /// another tool: the others use `D` equal to `T`, or `T` plus a fixed number, and this one does not. Or every tool
+    /// has the length offset of its own number, and the `D` of this one is the number of another tool.
     ///
     /// ## Why it matters
-    /// The contour comes out too large or too small by the difference of the two tools.
+    /// The contour comes out too large or too small by the difference between the two tools.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -51,7 +51,7 @@ declare_rule! {
         summary: "cutter compensation offset of another tool",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::FINISH),
@@ -67,7 +67,7 @@ struct DiameterOffsetOfAnotherTool {
     lengths: Vec<(u32, u32)>,
 }
 
-/// More lengths than this say nothing clear.
+/// More lengths than this show no clear scheme.
 const MOST_LENGTHS: usize = 1000;
 
 remembers!(DiameterOffsetOfAnotherTool: pairs);
@@ -78,7 +78,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(super::compensation_left_on::is_on)
+        program.may(is_on)
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
@@ -114,10 +114,10 @@ impl PathRule for DiameterOffsetOfAnotherTool {
                 finding
                     .label(scheme.label("diameter offset"))
                     .note(scheme.note("diameter offset", 'D'))
-                    .help(format!("use `D{}`, or tell why not in a suppression", scheme.expected)),
+                    .help(format!("use `D{}`, or say why not in a suppression", scheme.expected)),
             );
         }
-        // Where lengths go by the tools' numbers, sizes are taken to do so too.
+        // If lengths follow the tools' numbers, sizes are assumed to do so too.
         if self.lengths.len() < 2 || self.lengths.iter().any(|(tool, length)| tool != length) {
             return;
         }
@@ -125,9 +125,9 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         for (finding, tool, owner) in self.pairs.take_named_after('D', &tools) {
             report.add(
                 finding
-                    .label(format!("the number of tool {owner}"))
+                    .label(format!("that is that is the number of tool {owner}"))
                     .note("the tools of the program have the length offset of their own number (H = T)")
-                    .help(format!("use `D{tool}`, or tell why not in a suppression")),
+                    .help(format!("use `D{tool}`, or say why not in a suppression")),
             );
         }
     }

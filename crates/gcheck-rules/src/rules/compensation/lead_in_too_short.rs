@@ -3,21 +3,19 @@
 use gcheck_engine::{Abstract, At, CompensationFault, Domain, Event, Fault, Role};
 use gcheck_geometry::Plane;
 
-use super::compensation_left_on::is_on;
-use super::compensation_on_in_arc::{begins, stands_in_plane};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::{begins, is_on, stays_in_plane};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The first move under cutter compensation is not longer than the tool's radius.
     ///
-    /// The rule speaks only where the tool's size is known: from a configured tool table, from `G10`, or from the block itself
-    /// (`G41.1 D6`).
+    /// The rule needs the tool's size: from a configured tool table, from `G10`, or from the block itself (`G41.1 D6`).
     ///
     /// ## Why it matters
-    /// The tool has no room to swing to its side of the path: it cuts into the contour where it should only approach it. Some
-    /// controls stop with an alarm.
+    /// The tool has no room to move to its side of the path: it cuts into the contour that it should only approach.
+    /// Some controls stop with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -59,7 +57,7 @@ impl PathRule for LeadInTooShort {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(super::compensation_left_on::is_on)
+        program.may(is_on)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
@@ -86,7 +84,7 @@ impl PathRule for LeadInTooShort {
 
 impl LeadInTooShort {
     fn moves(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if self.begun.is_none() || stands_in_plane(cx, event) {
+        if self.begun.is_none() || stays_in_plane(cx, event) {
             return;
         }
         let begun = self.begun.take();
@@ -104,9 +102,9 @@ impl LeadInTooShort {
     }
 }
 
-/// The radius that the offset number stands for, millimetres.
+/// The radius that the offset number holds, millimetres.
 fn radius(cx: &PathCx<'_>) -> Option<f64> {
-    let number = crate::schemes::whole(Abstract::known(cx.state().d())?)?;
+    let number = crate::facts::offset_schemes::whole(Abstract::known(cx.state().d())?)?;
     let tool = cx.state().tables().tool(number)?;
     Some(tool.diameter.0 / 2.0).filter(|radius| radius.is_finite())
 }
@@ -139,13 +137,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::rules::generated::machine::tool_not_in_table;
     use crate::testing::{World, check_rule, check_rule_in};
 
     #[test]
     fn the_size_may_come_from_the_table() {
         // Tools of 10 mm.
-        let world = World::of_examples(&tool_not_in_table::META);
+        let world = World::of_group("machine");
         check_rule_in(
             &RULE,
             "fanuc-mill",

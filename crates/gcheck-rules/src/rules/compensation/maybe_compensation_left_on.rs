@@ -1,18 +1,19 @@
-//! Cutter compensation that some path leaves on.
+//! Cutter compensation that may be left on.
 
 use gcheck_engine::{Ending, Role};
 
-use super::compensation_left_on::{finding, is_on};
-use crate::boundary::{Boundary, LeftOn};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark};
+use crate::facts::compensation::{is_on, left_on_finding};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// On some path of the program cutter compensation is still on where the tool is changed or the program ends; on others it
-    /// is off.
+    /// On some paths of the program cutter compensation is still on when the tool is changed or the program ends; on
+    /// others it is off.
     ///
     /// ## Why it matters
-    /// The program runs well until the day the other path is taken. Then the next tool begins with the offset of the last one.
+    /// The program runs well until the other path is taken. Then the next tool begins with the offset of the last one.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -46,25 +47,25 @@ struct MaybeCompensationLeftOn;
 
 impl PathRule for MaybeCompensationLeftOn {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(place) = cx.boundary() {
+        if let Some(place) = boundary(cx) {
             judge(cx, place, report);
         }
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             judge(cx, Boundary::ProgramEnd, report);
         }
     }
 }
 
 fn judge(cx: &PathCx<'_>, place: Boundary, report: &mut Report<'_>) {
-    let Some(LeftOn::Maybe(code)) = cx.left_on(Role::Compensation, is_on) else { return };
+    let Some(ActiveMode::Possible(code)) = left_on(cx, Role::Compensation, is_on) else { return };
     if place == Boundary::ProgramEnd && cx.end_resets(Role::Compensation) {
         return;
     }
     let message = format!("cutter compensation may still be on {} (`{}`)", place.words(), cx.name_of(code));
-    let finding = cx.with_path(finding(cx, &META, place, message));
+    let finding = cx.with_path(left_on_finding(cx, &META, place, message));
     report.add(if cx.model.semantics().compensation.freezes_modes {
         finding
     } else {
@@ -77,8 +78,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_program_that_is_not_at_hand_says_nothing() {
@@ -101,7 +101,7 @@ mod tests {
     #[test]
     fn what_it_says() {
         let found = findings(
-            &Selection::only(&RULE),
+            &only(&RULE),
             "fanuc-mill",
             "G41 D1 G1 X10. F100.\nIF [#500 EQ 1] GOTO 5\nG40 X0.\nN5 G0 Z50.\nM30\n",
             &World::default(),

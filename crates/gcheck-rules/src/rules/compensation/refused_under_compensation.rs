@@ -1,12 +1,12 @@
-//! Something that the control does not do while cutter compensation is on.
+//! An operation that the control refuses while cutter compensation is on.
 
 use gcheck_engine::{CompensationFault, Fact, Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
-    /// A block asks for something that the control does not do while cutter compensation is on, switches compensation on
+    /// A block asks for something that the control refuses while cutter compensation is on, or switches compensation on
     /// twice, or in a plane in which it does not work.
     ///
     /// ## Why it matters
@@ -58,7 +58,7 @@ impl PathRule for RefusedUnderCompensation {
                 "switch compensation off (`G40`) with a move away from the part before the plane changes",
             ),
             CompensationFault::NotWhileOn => (
-                "the control does not do this while cutter compensation is on",
+                "the control refuses this while cutter compensation is on",
                 "refused with compensation on",
                 "switch compensation off (`G40`) with a move away from the part before this block",
             ),
@@ -72,7 +72,7 @@ impl PathRule for RefusedUnderCompensation {
                 "switched on in a plane in which it does not work",
                 "select `G17` (`G18` on a lathe) before compensation is switched on",
             ),
-            // Rules of their own speak of these.
+            // Other rules report these.
             CompensationFault::EntryTooShort { .. }
             | CompensationFault::EntryIsArc
             | CompensationFault::ExitIsArc
@@ -104,7 +104,7 @@ mod tests {
             "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n",
             &expect![[r#"
             4 | G28
-              | ^^^ error[refused-under-compensation] the control does not do this while cutter compensation is on
+              | ^^^ error[refused-under-compensation] the control refuses this while cutter compensation is on
         "#]],
         );
     }

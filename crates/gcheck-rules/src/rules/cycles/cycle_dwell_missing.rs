@@ -1,17 +1,17 @@
-//! A drilling cycle with a dwell that has none.
+//! A drilling cycle with dwell that gives no dwell time.
 
 use gcheck_controls::{Effect, Letter, Need};
 
-use super::cycle_words_lost::{Series, cycle_range};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{Series, cycle_range};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A canned cycle that differs from the plain one by its dwell is begun without `P`.
+    /// A canned cycle that differs from the plain one by its dwell begins without `P`.
     ///
     /// ## Why it matters
-    /// The tool does not dwell: `G82` drills as `G81` does, and the floor of the spot face keeps the mark of the feed.
+    /// The tool does not dwell: `G82` drills like `G81`, and the floor of the spot face keeps its feed marks.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -29,7 +29,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "cycle-dwell-missing" in "cycles" {
-        summary: "canned cycle with a dwell that has none",
+        summary: "canned cycle with dwell, without a dwell time",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -51,11 +51,11 @@ impl PathRule for CycleDwellMissing {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some(code) = self.series.block(cx).and_then(|ix| cx.scene.control().code_at(ix)) else { return };
+        let Some(code) = self.series.block(cx).and_then(|ix| cx.control().code_at(ix)) else { return };
         let p = Letter::of('P');
         let dwells = matches!(code.effect(), Effect::CycleDrillDwell | Effect::CycleBoreDwell);
         let entry = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(p));
-        // Where the word is needed another rule asks for it.
+        // If the word is required, another rule asks for it.
         let optional = entry.is_some_and(|word| matches!(word.need, Need::Optional | Need::Conditional));
         if !dwells || !optional || cx.origin().letters.contains(p) || self.told {
             return;

@@ -4,17 +4,17 @@ use std::collections::BTreeSet;
 
 use gcheck_engine::{At, CycleFault, Fact, Fault, FeedMode, Role};
 
-use super::cycle_words_lost::{cycle_range, is_cycle};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{cycle_range, is_cycle};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A canned cycle is called while feeds are inverse times (`G93`).
     ///
     /// ## Why it matters
-    /// `F` is the time of one move there, and a cycle makes many. The control stops with an alarm, or feeds at no speed that
-    /// anybody meant.
+    /// Under inverse time `F` sets the time of one move, and a cycle makes many. The control stops with an alarm, or
+    /// feeds at an unintended rate.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -63,7 +63,7 @@ impl PathRule for CycleInInverseTime {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // Controls that refuse it say so when the cycle is to run.
+        // Controls that refuse it alarm when the cycle runs.
         if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(is_cycle) {
             return;
         }
@@ -83,7 +83,7 @@ impl CycleInInverseTime {
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();
         let finding = cx
             .finding(&META, cycle_range(cx), format!("canned cycle under inverse-time feed (`{name}`)"))
-            .label("`F` is the time of one move, and a cycle makes many")
+            .label("`F` sets the time of one move, and a cycle makes many")
             .help("go back to feed per minute (`G94`) before the cycle")
             .at_most(severity);
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));

@@ -1,22 +1,23 @@
-//! A canned cycle that is still on where it does harm.
+//! A canned cycle that is still active at a tool change or the end.
 
 use std::collections::BTreeSet;
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
-use super::cycle_words_lost::is_cycle;
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::ends_at_tape_mark;
+use crate::facts::cycles::{CycleBoundary, cycle_boundary, cycle_ends_with_program, is_cycle};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A canned cycle is still active at a tool change, at a return to the reference position, or at the end of the program.
     ///
     /// ## Why it matters
-    /// Every block with a position drills a hole there until `G80`. With the next tool that is a crash; some controls stop
-    /// with an alarm at the tool change or the reference return.
+    /// Until `G80`, every block with a position drills a hole there. With the next tool that is a crash; some controls
+    /// stop with an alarm at the tool change or the reference return.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -55,7 +56,7 @@ declare_rule! {
         summary: "canned cycle still on at a tool change or the end",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -66,7 +67,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct CycleLeftOn {
-    /// Blocks whose cycles were told of.
+    /// Blocks whose cycles were reported.
     told: BTreeSet<Option<At>>,
 }
 
@@ -78,23 +79,23 @@ impl PathRule for CycleLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some(end) = place(cx) else { return };
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Cycle, is_cycle) else { return };
+        let Some(end) = cycle_boundary(cx) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Cycle, is_cycle) else { return };
         self.tell(cx, end, &cx.name_of(code), report);
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending)
-            && !end_of_cycle_at_end(cx)
-            && let Some(LeftOn::Surely(code)) = cx.left_on(Role::Cycle, is_cycle)
+        if ends_at_tape_mark(cx, ending)
+            && !cycle_ends_with_program(cx)
+            && let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Cycle, is_cycle)
         {
-            self.tell(cx, Harm::End, &cx.name_of(code), report);
+            self.tell(cx, CycleBoundary::ProgramEnd, &cx.name_of(code), report);
         }
     }
 }
 
 impl CycleLeftOn {
-    fn tell(&mut self, cx: &PathCx<'_>, harm: Harm, name: &str, report: &mut Report<'_>) {
+    fn tell(&mut self, cx: &PathCx<'_>, harm: CycleBoundary, name: &str, report: &mut Report<'_>) {
         let fact = Fact::Mode(Role::Cycle);
         if cx.trace().set_by(fact).is_none() || !self.told.insert(cx.trace().set_by(fact)) {
             return;
@@ -102,61 +103,11 @@ impl CycleLeftOn {
         let finding = cx
             .finding(&META, harm.range(cx), format!("canned cycle is still on {} (`{name}`)", harm.words()))
             .label("the next block with a position drills a hole")
-            .help("end the cycle with `G80` before")
-            .fix_if(cx.block_before(cx.cancel_of(Effect::CycleCancel).as_deref()))
-            .at_most(if harm == Harm::End { Severity::Info } else { Severity::Warning });
+            .help("end the cycle with `G80` before this this")
+            .fix_if(cx.block_before(cx.name_of_effect(Effect::CycleCancel).as_deref()))
+            .at_most(if harm == CycleBoundary::ProgramEnd { Severity::Info } else { Severity::Warning });
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }
-}
-
-/// Where a cycle left on does harm.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Harm {
-    /// The tool is changed.
-    ToolChange,
-    /// The axes return to the reference position.
-    Return,
-    /// The program ends.
-    End,
-}
-
-impl Harm {
-    /// As findings name it.
-    pub(crate) const fn words(self) -> &'static str {
-        match self {
-            Self::ToolChange => Boundary::ToolChange.words(),
-            Self::Return => "at the reference return",
-            Self::End => Boundary::ProgramEnd.words(),
-        }
-    }
-
-    /// The word that does it.
-    pub(crate) fn range(self, cx: &PathCx<'_>) -> std::ops::Range<u32> {
-        match self {
-            Self::ToolChange => cx.boundary_range(Boundary::ToolChange),
-            Self::Return => cx.effect_range(|effect| matches!(effect, Effect::ReturnReference(_))),
-            Self::End => cx.boundary_range(Boundary::ProgramEnd),
-        }
-    }
-}
-
-/// Does this block do harm to a cycle that is left on, and not end it itself?
-pub(crate) fn place(cx: &PathCx<'_>) -> Option<Harm> {
-    let moves =
-        |effect| Role::of(effect) == Some(Role::Motion) && cx.model.semantics().cycles.motion_ends_cycle;
-    if cx.has_effect(moves) {
-        return None;
-    }
-    match cx.boundary() {
-        Some(Boundary::ToolChange) => Some(Harm::ToolChange),
-        Some(Boundary::ProgramEnd) => (!end_of_cycle_at_end(cx)).then_some(Harm::End),
-        None => cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_))).then_some(Harm::Return),
-    }
-}
-
-/// Does the end of the program end cycles, by a code of theirs or of motion?
-fn end_of_cycle_at_end(cx: &PathCx<'_>) -> bool {
-    cx.end_resets(Role::Cycle) || cx.model.semantics().cycles.motion_ends_cycle && cx.end_resets(Role::Motion)
 }
 
 #[cfg(test)]
@@ -164,8 +115,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_word_that_does_harm_is_marked_once() {
@@ -206,12 +156,12 @@ mod tests {
     #[test]
     fn words_say_where_the_cycle_began() {
         let program = "G90 G54 G0 X0 Y0\nG99 G81 Z-10. R2. F100.\nG91 G28 Z0\nM30\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             canned cycle is still on at the reference return (`G81`)
               here: the next block with a position drills a hole
               there: `G81` set here
-              help: end the cycle with `G80` before
+              help: end the cycle with `G80` before this this
               fix (unsafe): put `G80` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

@@ -1,14 +1,14 @@
-//! A cycle whose numbers do not fit together.
+//! A cycle whose numbers contradict each other.
 
 use gcheck_engine::{CycleFault, Fault};
 
-use super::cycle_words_lost::cycle_code;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The numbers of a cycle describe nothing that can be cut: a pocket smaller than its first circle, a thread less
-    /// deep than its first cut.
+    /// The numbers of a cycle describe a shape that cannot be cut: a pocket smaller than its first circle, a thread
+    /// less deep than its first cut.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the cycle.
@@ -29,7 +29,7 @@ declare_rule! {
     /// M2
     /// ```
     rule "cycle-numbers-contradict" in "cycles" {
-        summary: "cycle whose numbers do not fit together",
+        summary: "cycle whose numbers contradict each other",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -42,7 +42,7 @@ struct CycleNumbersContradict;
 impl PathRule for CycleNumbersContradict {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let what = match *fault {
-            Fault::Cycle(CycleFault::Geometry) => "numbers of a cycle do not fit together",
+            Fault::Cycle(CycleFault::Geometry) => "numbers of a cycle contradict each other",
             Fault::Cycle(CycleFault::Plane) => "cycle in a plane that it does not work in",
             _ => return,
         };
@@ -52,7 +52,7 @@ impl PathRule for CycleNumbersContradict {
         report.add(
             cx.finding(&META, range, format!("{what} (`{name}`)"))
                 .label(entry.title.clone())
-                .note(format!("what each word of `{name}` means  [{}]", entry.source))
+                .note(format!("the manual gives the meaning of each word of `{name}`  [{}]", entry.source))
                 .help("check the words of the cycle against each other")
                 .at_most(Severity::Warning),
         );
@@ -74,7 +74,7 @@ mod tests {
             "G18 G21 G90 G0 X20 Z5\nS200 M3\nG76 P1.5 Z-20 I-1 J0.5 K0.3 Q29\nG76 P1.5 Z-20 I-1 J#1 K0.3 Q29\nM2\n",
             &expect![[r#"
                 3 | G76 P1.5 Z-20 I-1 J0.5 K0.3 Q29
-                  | ^^^ warning[cycle-numbers-contradict] numbers of a cycle do not fit together (`G76`)
+                  | ^^^ warning[cycle-numbers-contradict] numbers of a cycle contradict each other (`G76`)
             "#]],
         );
     }

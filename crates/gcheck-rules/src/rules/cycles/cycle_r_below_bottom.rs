@@ -6,17 +6,17 @@ use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Mm;
 
-use super::cycle_words_lost::{cycle_range, is_cycle};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{cycle_range, is_cycle};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The retract plane (`R`) of a canned cycle lies below the bottom of its hole (`Z`).
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or the tool goes at rapid to below the bottom and feeds upward. A sign of `R` or `Z`
-    /// is wrong, or one of them was meant as a distance.
+    /// The control stops with an alarm, or the tool moves at rapid to below the bottom and feeds upward. The sign of
+    /// `R` or `Z` is wrong, or one of them was meant as a distance.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -51,7 +51,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct CycleRBelowBottom {
-    /// Blocks that began the cycles told of.
+    /// Blocks that began the reported cycles.
     told: BTreeSet<Option<At>>,
 }
 
@@ -78,14 +78,14 @@ impl PathRule for CycleRBelowBottom {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         let Some(code) = cx.state().active_cycle(cx.model).filter(|ix: &CodeIx| ix.is_some()) else { return };
-        // A back bore enters the hole and cuts on the way back up; a tool across the spindle may cut from the bore outward.
+        // A back bore enters the hole and cuts on the way up; a tool across the spindle may cut from the bore outward.
         if !travel.expanded || cx.model.effect(code) == Effect::CycleBackBore || cx.model.drills_across(code)
         {
             return;
         }
         let words = cx.state().cycle();
         let upward = words.z - words.r;
-        // Not below for unknown numbers.
+        // False for unknown numbers.
         if upward > 1e-4 && self.told.insert(cx.trace().set_by(Fact::Mode(Role::Cycle))) {
             report.add(finding(cx).at_most(Severity::Warning));
         }

@@ -1,18 +1,18 @@
-//! A canned cycle that is repeated where it stands.
+//! A canned cycle that is repeated at one place.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Fact, Role};
 
-use super::cycle_words_lost::is_cycle;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::is_cycle;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
-    /// A canned cycle is to be repeated (`L`, `K`) while positions are absolute (`G90`).
+    /// A canned cycle repeats (`L`, `K`) while positions are absolute (`G90`).
     ///
     /// ## Why it matters
-    /// The same hole is drilled again and again: a tap cuts its thread away, a drill rubs. A row of holes by a count needs
-    /// increments (`G91`).
+    /// The same hole is drilled again and again: a tap cuts its thread away, a drill rubs. A row of holes by a repeat
+    /// count needs increments (`G91`).
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -56,30 +56,31 @@ impl PathRule for CycleRepeatedInPlace {
             Some(code) => cx.model.effect(code) == Effect::Absolute,
             None => cx.state().is_incremental(cx.model) == Some(false),
         };
-        let reads =
-            cx.scene.control().code_at(cycle).is_some_and(|code| code.reads().contains(Letter::of(letter)));
-        // A cycle that reads the letter as something of its own has no repeats.
+        let reads = cx.control().code_at(cycle).is_some_and(|code| code.reads().contains(Letter::of(letter)));
+        // A cycle that gives the letter another meaning has no repeats.
         let Some(place) = cx.place().filter(|_| is_absolute && reads) else { return };
         let word = place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter));
         let Some(times) = word.and_then(gcheck_program::Word::integer).filter(|times| *times > 1) else {
             return;
         };
-        // Words that are increments whatever the mode move each turn on.
+        // Words that are always increments move each repeat on.
         let own = cx.model.semantics().increments.keys().filter_map(|key| Letter::parse(key));
         if own.into_iter().any(|letter| cx.origin().letters.contains(letter)) {
             return;
         }
         let name = cx.name_of(cycle);
-        let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
-        let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
+        let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
+        let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
                 cx.letter_range(letter),
                 format!("the cycle runs {times} times at one place (`{name}` under `{absolute}`)"),
             )
-            .label("repeats go to the same position")
-            .help(format!("count the distance from hole to hole in increments (`{incremental}`), or take `{letter}` away"))
+            .label("every repeat goes to the same position")
+            .help(format!(
+                "give the distance from hole to hole in increments (`{incremental}`), or remove `{letter}`"
+            ))
             .at_most(Severity::Warning);
         report.add(match cx.code_of_role(Role::Distance) {
             Some(_) => finding,

@@ -1,19 +1,20 @@
-//! A canned cycle whose return level nobody chose.
+//! A canned cycle whose return level is not stated.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Role};
 
-use super::cycle_words_lost::is_cycle;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::is_cycle;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program drills before it says to which level a cycle returns: the starting level (`G98`) or R (`G99`).
+    /// A program drills before it states the level to which a cycle returns: the initial level (`G98`) or the R level
+    /// (`G99`).
     ///
     /// ## Why it matters
-    /// From hole to hole the tool goes at that level. With R left over from what ran before, it goes through the clamps that
-    /// the starting level would clear.
+    /// From hole to hole the tool moves at that level. If `G99` is left over from an earlier program, the tool hits the
+    /// clamps that the initial level would clear.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -63,13 +64,13 @@ impl PathRule for CycleReturnNotStated {
             || !cx.has_effect(is_cycle)
             || cx.code_of_role(Role::ReturnLevel).is_some()
             || cx.trace().set_by(Fact::Mode(Role::ReturnLevel)).is_some()
-            || cx.is_behind_unknown_program()
+            || cx.is_after_unknown_program()
             || cx.is_called_only()
         {
             return;
         }
         let (Some(initial), Some(r)) =
-            (cx.cancel_of(Effect::ReturnToInitial), cx.cancel_of(Effect::ReturnToR))
+            (cx.name_of_effect(Effect::ReturnToInitial), cx.name_of_effect(Effect::ReturnToR))
         else {
             return;
         };
@@ -80,8 +81,8 @@ impl PathRule for CycleReturnNotStated {
                 cx.effect_range(is_cycle),
                 format!("canned cycle before its return level is stated (`{initial}`, `{r}`)"),
             )
-            .label("returns to the level that is in effect at the moment")
-            .help(format!("state `{initial}` or `{r}` with the cycle")),
+            .label("returns to whichever level an earlier program left active")
+            .help(format!("write `{initial}` or `{r}` with the cycle")),
         );
     }
 }

@@ -5,17 +5,17 @@ use std::collections::BTreeSet;
 use gcheck_controls::Effect;
 use gcheck_engine::{At, CycleFault, Fact, Fault, Role};
 
-use super::cycle_words_lost::{cycle_range, is_cycle};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{cycle_range, is_cycle};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A canned cycle is called while cutter compensation (`G41`, `G42`) is on.
     ///
     /// ## Why it matters
-    /// The hole would be drilled beside its place by the radius of the cutter. Controls stop with an alarm, or drill at the
-    /// place and lose the path that was to be offset. A `G40` is missing before the cycle.
+    /// The hole would be off its position by the radius of the cutter. Controls stop with an alarm, or drill at the
+    /// position and lose the offset path. A `G40` is missing before the cycle.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -78,7 +78,7 @@ impl PathRule for CycleUnderCompensation {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // Controls that refuse it say so when the cycle is to run.
+        // Controls that refuse it alarm when the cycle runs.
         if cx.model.semantics().compensation.freezes_modes || !cx.has_effect(is_cycle) {
             return;
         }
@@ -111,7 +111,7 @@ impl CycleUnderCompensation {
                 cycle_range(cx),
                 format!("canned cycle while cutter compensation is on (`{name}`)"),
             )
-            .label("the place of the hole cannot be offset")
+            .label("the position of a hole cannot be offset")
             .help("switch compensation off (`G40`) before the cycle")
             .at_most(severity);
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));

@@ -2,11 +2,11 @@
 
 use gcheck_engine::{Axis, CycleFault, Fault};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A block of a canned cycle has a rotary word (`A`, `B`, `C`), on a control that refuses it.
+    /// A block of a canned cycle has a word of a rotary axis (`A`, `B`, `C`), on a control that refuses it.
     ///
     /// ## Why it matters
     /// The control stops with an alarm between two holes.
@@ -42,7 +42,7 @@ impl PathRule for CycleWithRotaryWord {
         let is_rotary = |word: &gcheck_program::Word| Axis::of(word.letter).is_some_and(Axis::is_rotary);
         report.add(
             cx.finding(&META, cx.word_range(is_rotary), "rotary axis in a block of a canned cycle")
-                .label("a cycle cannot turn an axis")
+                .label("a cycle cannot turn a rotary axis")
                 .help("end the cycle, turn the axis with `G0`, and begin the cycle again"),
         );
     }

@@ -1,16 +1,16 @@
-//! A canned cycle without a word that nothing gave.
+//! A canned cycle without a word that it needs.
 
 use gcheck_controls::{Code, Effect, Letter, LetterSet, Need};
 use gcheck_engine::{CycleFault, Event, Fault};
 
-use super::super::words::lasting_word_never_given;
-use super::cycle_words_lost::{Series, cycle_code, is_cycle, is_operation};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{Series, cycle_code, is_cycle, is_operation};
+use crate::facts::usage::may_be_called;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A canned cycle runs without a word that it needs, and no block of the cycle gave it.
+    /// A canned cycle runs without a word that it needs, and no earlier block of the cycle gives it.
     ///
     /// ## Why it matters
     /// The control stops with an alarm, the tool above the part.
@@ -58,8 +58,8 @@ impl PathRule for CycleWordMissing {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let begins = self.series.block(cx);
-        let Some(code) = begins.and_then(|ix| cx.scene.control().code_at(ix)) else { return };
-        // Pecks that are not given are one stroke to the bottom where they are no fault.
+        let Some(code) = begins.and_then(|ix| cx.control().code_at(ix)) else { return };
+        // If missing pecks are not a fault, the cycle makes one stroke to the bottom.
         let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
         let is_fault = cx.model.semantics().cycles.rise_to_r;
         if pecks && !is_fault && !cx.origin().letters.intersects(LetterSet::of("QIJK")) {
@@ -81,22 +81,23 @@ impl PathRule for CycleWordMissing {
 
 impl CycleWordMissing {
     fn tell(&self, cx: &PathCx<'_>, code: Code<'_>, letter: Letter, report: &mut Report<'_>) {
-        // A word of an earlier cycle, or one that no block of the file has, is told by other rules; some controls do without.
+        // Other rules report a word of an earlier cycle, and one that no block of the file has; some controls do
+        // without it.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
         let begins = cx.has_effect(|effect| effect == code.effect());
         let told_by_text =
-            !lasting_word_never_given::may_be_called(cx.survey)
+            !may_be_called(cx.survey)
                 && cx.survey.never_given.iter().any(|missing| {
                     missing.letter == letter && cx.model.effect(missing.code) == code.effect()
                 });
-        // A letter that an arc or a call gave elsewhere is none of the cycle's, though the text has it.
+        // A letter of an arc or a call elsewhere in the text does not belong to the cycle.
         let needed = word.is_some_and(|word| {
             word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text
         });
         let stands = cx.origin().letters.contains(letter);
-        let was_given =
-            is_cycle(code.effect()) && (self.series.given.contains_key(&letter) || self.series.lost(letter));
-        // Words of a cycle that the caller began are known to the caller.
+        let was_given = is_cycle(code.effect())
+            && (self.series.given.contains_key(&letter) || self.series.lost(letter).is_some());
+        // Only the caller knows the words of a cycle that it began.
         if !needed || stands || was_given || !cx.is_on_every_path() || cx.is_called_only() {
             return;
         }

@@ -3,17 +3,18 @@
 use gcheck_controls::Letter;
 use gcheck_engine::{CycleFault, Fault};
 
-use super::cycle_words_lost::cycle_range;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_range;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
-    /// A computed word of a canned cycle is zero or below where the cycle needs more: a peck, a number of repeats.
+    /// A computed word of a canned cycle is zero or below, and the cycle needs a positive value: a peck, a number of
+    /// repeats.
     ///
-    /// Values written as numbers are judged by `number-out-of-range`.
+    /// `number-out-of-range` reports values that are written as numbers.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or pecks for ever at one depth.
+    /// The control stops with an alarm, or pecks forever at one depth.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -57,7 +58,7 @@ impl PathRule for CycleWordNotPositive {
             entry.is_some_and(|entry| entry.above.is_some() || entry.min.is_some())
         };
         let codes = cx.codes();
-        let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+        let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
         if word.is_some_and(|word| word.number().is_some()) && codes.any(is_judged) {
             return;
         }

@@ -1,21 +1,20 @@
-//! A canned cycle that relies on words which the end of the cycle before took away.
+//! A canned cycle that relies on words of an earlier cycle that has ended.
 
-use std::collections::BTreeMap;
+use gcheck_controls::{Code, Effect, Letter, LetterSet};
+use gcheck_engine::{CycleFault, Event, Fault};
 
-use gcheck_controls::{Code, CodeIx, Effect, Letter, LetterSet};
-use gcheck_engine::{At, CycleFault, Event, Fault, Role};
-
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{Series, cycle_code, cycle_range, is_cycle};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A canned cycle is begun anew without a word that it needs, and an earlier cycle had the word: the end of that cycle
-    /// (`G80`, `G0`, `G1`) took it away.
+    /// A canned cycle begins again without a word that it needs, and only an earlier cycle had the word: the end of
+    /// that cycle (`G80`, `G0`, `G1`) cleared it.
     ///
     /// ## Why it matters
-    /// `R`, `Z` and `Q` stay from hole to hole only while the cycle goes on. The control stops with an alarm, or drills in one
-    /// stroke what was to be pecked.
+    /// `R`, `Z` and `Q` last from hole to hole only while the cycle is active. The control stops with an alarm, or
+    /// drills in one stroke a hole that should be pecked.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -73,8 +72,8 @@ impl PathRule for CycleWordsLost {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let begins = self.series.block(cx);
-        let Some(code) = begins.and_then(|ix| cx.scene.control().code_at(ix)) else { return };
-        // Pecks that are not given are one stroke to the bottom where they are no fault.
+        let Some(code) = begins.and_then(|ix| cx.control().code_at(ix)) else { return };
+        // If missing pecks are not a fault, the cycle makes one stroke to the bottom.
         let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
         let q = Letter::of('Q');
         let given = cx.origin().letters;
@@ -100,7 +99,7 @@ impl CycleWordsLost {
         if !cx.is_on_every_path() || self.series.given.contains_key(&letter) {
             return;
         }
-        let Some(lost) = self.series.lost.get(&letter) else { return };
+        let Some(lost) = self.series.lost(letter) else { return };
         let name = code.number();
         let mut finding = cx
             .finding(
@@ -108,7 +107,7 @@ impl CycleWordsLost {
                 cycle_range(cx),
                 format!("canned cycle without `{letter}`, which ended with an earlier one"),
             )
-            .label(format!("`{name}` begins anew without `{letter}`"))
+            .label(format!("`{name}` begins again without `{letter}`"))
             .help(format!("give `{letter}` again in the first block of the cycle"))
             .at_most(limit(cx.model.semantics().confidence));
         if let Some(range) = cx.range_of(lost.given) {
@@ -121,119 +120,12 @@ impl CycleWordsLost {
     }
 }
 
-/// Bytes of the code that names the cycle; the block when none does.
-pub(crate) fn cycle_range(cx: &PathCx<'_>) -> std::ops::Range<u32> {
-    cx.effect_range(is_cycle)
-}
-
-/// Is it a canned cycle that stays on?
-pub(crate) fn is_cycle(effect: Effect) -> bool {
-    Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel
-}
-
-/// The operation of several moves that the block makes: one of its own, or the canned cycle in effect.
-pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
-    let control = cx.scene.control();
-    let own = cx.codes().iter().copied().find(|ix| is_operation(cx.model.effect(*ix)));
-    let active = || cx.state().active_cycle(cx.model).filter(|ix| ix.is_some());
-    control.code_at(own.or_else(active)?)
-}
-
-/// Does it make several moves from the words of one block?
-pub(super) fn is_operation(effect: Effect) -> bool {
-    use Effect as E;
-    matches!(
-        effect,
-        E::CircularPocketClockwise
-            | E::CircularPocketCounterClockwise
-            | E::GeneralPocket
-            | E::BoltCircle
-            | E::BoltArc
-            | E::BoltLine
-            | E::TurningPass
-            | E::ThreadingPass
-            | E::FacingPass
-            | E::ThreadCycle
-            | E::FinishProfile
-            | E::RoughAlongZ
-            | E::RoughAlongX
-            | E::RepeatPattern
-            | E::GrooveFace
-            | E::GrooveDiameter
-    )
-}
-
-/// Words of canned cycles, series by series.
-#[derive(Default, Clone, PartialEq)]
-pub(crate) struct Series {
-    /// Words given since the cycle began, with the block that gave them last.
-    pub(crate) given: BTreeMap<Letter, At>,
-    /// Words of earlier series.
-    lost: BTreeMap<Letter, Lost>,
-}
-
-remembers!(Series: given, lost);
-
-/// A word that ended with its series.
-#[derive(Clone, Copy, PartialEq)]
-struct Lost {
-    given: At,
-    ended: At,
-}
-
-remembers!(Lost: given, ended);
-
-/// Words that stay while a cycle goes on.
-const STAYING: LetterSet = LetterSet::of("XYZRQPIJKE");
-
-impl Series {
-    /// A block is about to be executed. Answers the cycle that it begins anew.
-    pub(crate) fn block(&mut self, cx: &PathCx<'_>) -> Option<CodeIx> {
-        let named = cx.codes().iter().copied().find(|ix| is_cycle(cx.model.effect(*ix)));
-        let active = cx.state().active_cycle(cx.model);
-        let begins = named.filter(|_| active == Some(CodeIx::NONE));
-        if begins.is_some() {
-            self.end(cx.origin().at);
-        }
-        if named.is_some() || active.is_some_and(CodeIx::is_some) {
-            let at = cx.origin().at;
-            self.given.extend(cx.origin().letters.and(STAYING).iter().map(|letter| (letter, at)));
-        }
-        begins
-    }
-
-    /// Something happened that may end the series.
-    pub(crate) fn changed(&mut self, cx: &PathCx<'_>, event: &Event) {
-        let Event::Modal(code) = event else { return };
-        let ends = match cx.model.role(*code) {
-            Some(Role::Motion) => cx.model.semantics().cycles.motion_ends_cycle,
-            Some(Role::Cycle) => cx.model.effect(*code) == Effect::CycleCancel,
-            _ => false,
-        };
-        if ends {
-            self.end(cx.origin().at);
-        }
-    }
-
-    fn end(&mut self, ended: At) {
-        for (letter, given) in std::mem::take(&mut self.given) {
-            self.lost.insert(letter, Lost { given, ended });
-        }
-    }
-
-    /// Was the word given in a series that is over?
-    pub(crate) fn lost(&self, letter: Letter) -> bool {
-        self.lost.contains_key(&letter)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_code_is_marked() {
@@ -253,10 +145,10 @@ mod tests {
     #[test]
     fn words_show_where_the_word_was_and_where_it_ended() {
         let program = "G21 G90 G0 X0 Y0 Z10.\nG83 Z-20. R2. Q3. F100.\nG80\nG83 Z-20. R2.\nG80\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             canned cycle without `Q`, which ended with an earlier one
-              here: `G83` begins anew without `Q`
+              here: `G83` begins again without `Q`
               there: `Q` was given here
               there: and ended with its cycle here
               help: give `Q` again in the first block of the cycle

@@ -1,22 +1,21 @@
-//! A canned cycle that may still be on where it does harm.
+//! A canned cycle that may still be active at a tool change or a reference return.
 
 use std::collections::BTreeSet;
 
 use gcheck_engine::{At, Fact, Role};
 
-use super::cycle_left_on::{Harm, place};
-use super::cycle_words_lost::is_cycle;
-use crate::boundary::LeftOn;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::{CycleBoundary, cycle_boundary, is_cycle};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// On some path a canned cycle is still active at a tool change or at a return to the reference position.
+    /// On some paths a canned cycle is still active at a tool change or at a return to the reference position.
     ///
     /// ## Why it matters
-    /// Every block with a position drills a hole there until `G80`; the path that skips the `G80` is the one that nobody
-    /// tried.
+    /// Until `G80`, every block with a position drills a hole there; the path that skips the `G80` is usually the one
+    /// that was never tried.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -40,7 +39,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-cycle-left-on" in "cycles" {
-        summary: "canned cycle that some path leaves on",
+        summary: "canned cycle that some paths leave on",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -50,7 +49,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct MaybeCycleLeftOn {
-    /// What was told of: one finding for each cycle.
+    /// Reported: one finding for each cycle.
     told: BTreeSet<Option<At>>,
 }
 
@@ -62,8 +61,8 @@ impl PathRule for MaybeCycleLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some(harm) = place(cx).filter(|harm| *harm != Harm::End) else { return };
-        let Some(LeftOn::Maybe(code)) = cx.left_on(Role::Cycle, is_cycle) else { return };
+        let Some(harm) = cycle_boundary(cx).filter(|harm| *harm != CycleBoundary::ProgramEnd) else { return };
+        let Some(ActiveMode::Possible(code)) = left_on(cx, Role::Cycle, is_cycle) else { return };
         let fact = Fact::Mode(Role::Cycle);
         if !self.told.insert(cx.trace().set_by(fact)) {
             return;
@@ -75,8 +74,8 @@ impl PathRule for MaybeCycleLeftOn {
                 harm.range(cx),
                 format!("canned cycle may still be on {} (`{name}`)", harm.words()),
             )
-            .label("on some path the next block with a position drills a hole")
-            .help("end the cycle with `G80` where the paths have met again");
+            .label("on some paths the next block with a position drills a hole")
+            .help("end the cycle with `G80` after the paths have joined");
         report.add(cx.with_path(finding));
     }
 }

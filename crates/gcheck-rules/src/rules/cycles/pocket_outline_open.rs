@@ -2,12 +2,12 @@
 
 use gcheck_engine::{CycleFault, Fault, Units};
 
-use super::cycle_words_lost::cycle_code;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// The outline of a pocket does not end at the point that its first move leads to, or has no piece behind that move.
+    /// The outline of a pocket does not end at the point that its first move leads to, or has no move after that one.
     ///
     /// ## Why it matters
     /// The control cannot tell inside from outside, and stops with an alarm before it cuts.
@@ -52,7 +52,7 @@ declare_rule! {
     }
 }
 
-/// A control may close what is open by no more than this, millimetres: no page gives its figure.
+/// A control may close a gap up to this size, millimetres: no manual gives the value.
 const MAY_CLOSE: f64 = 0.0254;
 
 struct PocketOutlineOpen;
@@ -77,8 +77,8 @@ impl PathRule for PocketOutlineOpen {
                 .help("end the outline at the point that its first move reaches"),
             None => cx
                 .finding(&META, cx.letter_range('P'), format!("the pocket has no outline (`{name}`)"))
-                .label("nothing stands behind the move that leads to the outline")
-                .help("draw the outline behind the move that leads to it"),
+                .label("there is no move after the one that leads to the outline")
+                .help("write the outline after the move that leads to it"),
         };
         let may_be_closed = gap.is_some_and(|gap| gap <= MAY_CLOSE);
         report.add(
@@ -106,8 +106,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     const HEAD: &str =
         "G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\nG1 Y1.\n";
@@ -158,7 +157,7 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = format!("{HEAD}X1.\nY-1.\nX-1.\nM99\n");
-        let found = findings(&Selection::only(&RULE), "haas-mill", &program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", &program, &World::default());
         expect![[r#"
             the pocket's outline is not closed (`G150`)
               here: it ends 2.2361 inch from where its first move leads

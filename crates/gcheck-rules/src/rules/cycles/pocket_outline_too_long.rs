@@ -3,13 +3,13 @@
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::At;
 
-use super::cycle_words_lost::cycle_code;
-use super::pocket_outline_unfit::outline_of;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
+use crate::facts::pockets::outline_of;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The outline of a pocket has more moves than the control's book allows.
+    /// The outline of a pocket has more moves than the control's manual allows.
     ///
     /// ## Why it matters
     /// Older controls stop with an alarm at the pocket; how many moves a newer one takes depends on its software.
@@ -115,12 +115,12 @@ impl PathRule for PocketOutlineTooLong {
                 cx.letter_range('P'),
                 format!("the pocket's outline has {moves} moves (`{name}`)"),
             )
-            .label(format!("the control's book allows {most}"))
+            .label(format!("the control's manual allows {most}"))
             .note(format!(
                 "how many moves an outline may have differs with the control's software; older ones take {most}  [{}]",
                 code.entry().source
             ))
-            .help("draw the outline with fewer moves: arcs for chords, one line for several"),
+            .help("write the outline with fewer moves: arcs instead of chords, one line instead of several"),
         );
     }
 }

@@ -1,22 +1,23 @@
-//! The outline of a pocket with more than moves in its plane.
+//! A pocket outline with something other than moves in its plane.
 
 use std::ops::Range;
 
-use gcheck_controls::{Code, Effect, Letter, LetterSet};
+use gcheck_controls::{Code, Effect, LetterSet};
 use gcheck_engine::{At, Role};
-use gcheck_program::{BlockFlags, Outline, Word};
+use gcheck_program::{BlockFlags, Word};
 
-use super::cycle_words_lost::cycle_code;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
+use crate::facts::pockets::outline_of;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// The program that a pocket takes its outline from holds something else than straight moves and arcs in X and Y, or does
-    /// not return.
+    /// The program with the outline of a pocket contains something other than straight moves and arcs in X and Y, or
+    /// does not return.
     ///
     /// ## Why it matters
-    /// The control only reads the outline; it does not execute it. A rapid move, a cycle, a tool change or a level in it is
-    /// refused with an alarm, or not done.
+    /// The control only reads the outline; it does not execute it. A rapid move, a cycle, a tool change or a depth in
+    /// it is refused with an alarm, or ignored.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -51,7 +52,7 @@ declare_rule! {
     /// M99
     /// ```
     rule "pocket-outline-unfit" in "cycles" {
-        summary: "outline of a pocket with more than moves in its plane",
+        summary: "pocket outline with something other than moves in its plane",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -74,20 +75,6 @@ impl PathRule for PocketOutlineUnfit {
     }
 }
 
-/// The blocks of the main file that hold the outline, to the end of its program.
-pub(super) fn outline_of(cx: &PathCx<'_>) -> Option<Range<u32>> {
-    let place = cx.place()?;
-    let words = place.table.words(place.block());
-    let number = words.iter().find(|word| word.letter == Letter::of('P'))?.integer()?;
-    let file = cx.program.file(0)?;
-    let outline: &Outline = file.loaded.outline();
-    let first = match outline.label(number, cx.origin().at.block, true) {
-        Some(block) => block,
-        None => outline.program(number)?.blocks.start,
-    };
-    Some(first..outline.part_of(first).end)
-}
-
 fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Report<'_>) {
     let name = code.number().to_string();
     for (count, block) in blocks.enumerate() {
@@ -108,7 +95,7 @@ fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Repor
             let finding = cx
                 .finding(&META, place.range(), "the pocket's outline has a macro statement")
                 .label("the control takes no variables in an outline")
-                .help("work the outline out in numbers")
+                .help("write the outline with numbers")
                 .at_most(Severity::Warning);
             report.add(of_pocket(cx, finding, code));
             return;
@@ -120,7 +107,7 @@ fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Repor
                 .help(what.help)
                 .at_most(if what.is_certain { limit(code.entry().confidence) } else { Severity::Warning });
             report.add(of_pocket(cx, finding, code));
-            // What stands behind the end of a program is none of it.
+            // What follows the end of a program does not belong to it.
             if what.ends {
                 return;
             }
@@ -148,13 +135,13 @@ fn of_pocket(cx: &PathCx<'_>, finding: Finding, code: Code<'_>) -> Finding {
 struct Unfit {
     words: String,
     help: &'static str,
-    /// The control cannot take it for a piece of the outline.
+    /// The control cannot use it as a move of the outline.
     is_certain: bool,
-    /// Nothing behind it belongs to the outline.
+    /// Nothing after it belongs to the outline.
     ends: bool,
 }
 
-/// What a word does in an outline that has no place there.
+/// What a word does that does not belong in an outline.
 fn unfit(cx: &PathCx<'_>, word: &Word) -> Option<Unfit> {
     const OTHER_AXES: LetterSet = LetterSet::of("ZABCUVW");
     let plain = |words: String, help, is_certain| Some(Unfit { words, help, is_certain, ends: false });
@@ -166,13 +153,13 @@ fn unfit(cx: &PathCx<'_>, word: &Word) -> Option<Unfit> {
             false,
         );
     }
-    let code = cx.scene.control().code_at(word.code)?;
+    let code = cx.control().code_at(word.code)?;
     let name = code.number();
-    let away = "take it out of the outline";
+    let away = "remove it from the outline";
     match code.effect() {
         Effect::Rapid => plain(
             format!("a rapid move (`{name}`)"),
-            "draw the outline with straight moves at feed and arcs, the way to it too",
+            "write the outline, and the move that leads to it, with straight moves at feed and arcs",
             false,
         ),
         Effect::ToolChange => plain(format!("a tool change (`{name}`)"), away, true),
@@ -186,7 +173,7 @@ fn unfit(cx: &PathCx<'_>, word: &Word) -> Option<Unfit> {
             ends: true,
         }),
         Effect::CallProgram | Effect::CallLocal | Effect::MacroCall | Effect::MacroModal => {
-            plain(format!("a call (`{name}`)"), "draw the whole outline in one program", false)
+            plain(format!("a call (`{name}`)"), "write the whole outline in one program", false)
         }
         effect if Role::of(effect) == Some(Role::Cycle) && effect != Effect::CycleCancel => {
             plain(format!("a canned cycle (`{name}`)"), away, true)
@@ -207,8 +194,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     const HEAD: &str = "G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nM30\nO100\n";
 
@@ -293,13 +279,13 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = format!("{HEAD}G1 Y1.\nG81 Z-1. R.1\nM99\n");
-        let found = findings(&Selection::only(&RULE), "haas-mill", &program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", &program, &World::default());
         expect![[r#"
             the pocket's outline has a canned cycle (`G81`)
               here: an outline is only read: straight moves and arcs in X and Y
               there: the outline of this pocket
               note: `G150` (general pocket) reads its outline from a program of straight moves and arcs that ends with a return  [Haas 96-8000 rev AC May 2010 p.184; Haas 96-8000 June 1999 (easymanua.ls page 208); HM17 p.314-316]
-              help: take it out of the outline
+              help: remove it from the outline
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

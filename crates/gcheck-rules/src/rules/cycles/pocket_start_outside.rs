@@ -2,15 +2,15 @@
 
 use gcheck_engine::{CycleFault, Fault};
 
-use super::cycle_words_lost::cycle_code;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
     /// The start hole of a pocket lies outside the outline.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm before it cuts. Often the outline was drawn around another zero, or the hole was
+    /// The control stops with an alarm before it cuts. Often the outline was drawn from another zero, or the hole was
     /// drilled elsewhere.
     ///
     /// ## Reported
@@ -71,7 +71,7 @@ impl PathRule for PocketStartOutside {
             )
             .label("the outline that `P` names does not go around this point")
             .note(format!("`{name}` ({}) begins inside its outline  [{}]", entry.title, entry.source))
-            .help("give the hole with `X` and `Y`, and compare the zero of the outline with that of the program")
+            .help("give the start hole with `X` and `Y`, and compare the zero of the outline with that of the program")
             .at_most(limit(entry.confidence)),
         );
     }

@@ -1,18 +1,18 @@
-//! A pocket that is cut without the size of its tool.
+//! A pocket that is cut without cutter compensation.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain as _, Role};
 
-use super::cycle_words_lost::cycle_code;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_code;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A pocket is cut along an outline while cutter compensation is off.
     ///
     /// ## Why it matters
-    /// The tool's centre follows the outline: the pocket comes out larger than drawn by the tool's radius on every side. That is
-    /// right only where the outline was drawn for the centre of one tool.
+    /// The tool's centre follows the outline: on every side, the pocket comes out larger than drawn by the tool's
+    /// radius. That is right only if the outline was drawn for the centre of one tool.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -50,7 +50,7 @@ impl PathRule for PocketWithoutCompensation {
         }
         let Some(code) = cycle_code(cx) else { return };
         let name = code.number();
-        let on = |effect: Effect| cx.cancel_of(effect).unwrap_or_default();
+        let on = |effect: Effect| cx.name_of_effect(effect).unwrap_or_default();
         let (left, right) = (on(Effect::CompensationLeft), on(Effect::CompensationRight));
         let mut finding = cx
             .finding(
@@ -60,10 +60,10 @@ impl PathRule for PocketWithoutCompensation {
             )
             .label("the tool's centre follows the outline")
             .help(format!(
-                "give `{left}` or `{right}` with `D` in this block, unless the outline is that of the centre"
+                "give `{left}` or `{right}` with `D` in this block, unless the outline was drawn for the tool's centre"
             ));
         if cx.letter_range('D') != cx.range() && Abstract::known(cx.state().d()) != Some(0.0) {
-            finding = finding.note(format!("`D` alone does not switch it on: that is `{left}` or `{right}`"));
+            finding = finding.note(format!("`D` alone does not switch it on: `{left}` or `{right}` does"));
         }
         report.add(finding);
     }

@@ -1,24 +1,25 @@
-//! A tap that does not go down by its pitch each turn.
+//! A tap that is not fed by its pitch each turn.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Fact, FeedMode, Role};
 use gcheck_program::BlockFlags;
 
-use crate::boundary::is_before;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::schemes::whole;
+use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tapping cycle goes down by another way each turn than the pitch of the thread that the tool's comment names: the
-    /// comment at the tool change, or the entry of the tool in a list at the head of the program.
+    /// The feed per turn of a tapping cycle is not the pitch of the thread that the tool's comment names: the comment
+    /// at the tool change, or the entry of the tool in a list at the head of the program.
     ///
-    /// A little less than the pitch is left to holders that give way. A little more is left to the rounding of the feed alone.
+    /// A little less than the pitch is accepted, for tension-compression holders. More is accepted only within the
+    /// rounding of the feed.
     ///
     /// ## Why it matters
-    /// A tap leads itself by its pitch. With another feed it tears the thread out, pulls out of its holder or breaks. Feed a
-    /// minute is speed times pitch; feed a turn is the pitch.
+    /// A tap pulls itself in by its pitch. With another feed it tears the thread out, pulls out of its holder or
+    /// breaks. The feed per minute is the speed times the pitch; the feed per turn is the pitch.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -31,7 +32,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// A holder that gives way is fed a little short.
+    /// A tension-compression holder is fed a little short.
     /// ```nc,quiet,haas-mill
     /// T5 M6 (M6X1 TAP)
     /// G21 G90 G54 G0 X0. Y0.
@@ -42,7 +43,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "tapping-feed-off-pitch" in "cycles" {
-        summary: "tap fed by another way a turn than its pitch",
+        summary: "tap fed by another distance per turn than its pitch",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -52,15 +53,15 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct TappingFeedOffPitch {
-    /// The tool change whose tool was told of.
+    /// The tool change whose tool was reported.
     told: Option<At>,
 }
 
 remembers!(TappingFeedOffPitch: told);
 
-/// A holder that gives way is fed short by a few parts in a hundred.
+/// A tension-compression holder is fed short by a few per cent.
 const SHORT: f64 = 0.93;
-/// Of pitches that were rounded before the feed was computed from them.
+/// For pitches that were rounded before the feed was computed from them.
 const LONG: f64 = 1.006;
 
 impl PathRule for TappingFeedOffPitch {
@@ -88,7 +89,7 @@ impl PathRule for TappingFeedOffPitch {
         let feed = given('F', Abstract::known(state.feed_word()));
         let speed = given('S', Abstract::known(state.speed()));
         let (Some(feed), Some(speed), Some(units)) = (feed, speed, state.units(cx.model)) else { return };
-        // A mode of the block itself, and a feed of before a change of modes, mean other things than the state says.
+        // A mode in the block itself, and a feed from before a change of modes, are not what the state holds.
         let is_switched = cx.code_of_role(Role::FeedMode).is_some() || cx.code_of_role(Role::Units).is_some();
         let is_older = |fact| cx.trace().set_by(fact).is_some_and(|at| is_before(at, changed));
         let is_stale = is_older(Fact::Speed) && !cx.origin().letters.contains(Letter::of('S'));
@@ -111,7 +112,7 @@ impl PathRule for TappingFeedOffPitch {
         self.told = Some(changed);
         let right = trimmed(right);
         let message = format!(
-            "the tap goes down {} a turn, the pitch is {}",
+            "the tap is fed {} per turn, and the pitch is {}",
             cx.shown(gcheck_geometry::Mm(a_turn)),
             cx.shown(pitch)
         );
@@ -133,7 +134,7 @@ fn is_tapping(effect: Effect) -> bool {
     matches!(effect, Effect::CycleTap | Effect::CycleLeftTap)
 }
 
-/// By how much a number may be off that was rounded to the digits it has.
+/// The rounding error of a number with these digits.
 fn rounding(number: f64) -> f64 {
     let text = trimmed(number);
     let digits = text.split_once('.').map_or(0, |(_, behind)| behind.len());
@@ -156,7 +157,7 @@ struct Thread {
     at: At,
 }
 
-/// The thread that the comment at a tool change names: in its block, in the one before it or in the one behind it.
+/// The thread that the comment at a tool change names: in its block, in the one before it or in the one after it.
 fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
     let before = changed.block.checked_sub(1).map(|block| At { block, ..changed });
     let places = [Some(changed), before, Some(changed.next())];
@@ -182,7 +183,7 @@ fn thread_of_tool(cx: &PathCx<'_>, changed: At) -> Option<Thread> {
     found
 }
 
-/// Blocks at the head of a program in which a list of its tools is looked for.
+/// Blocks at the head of a program that are searched for a list of its tools.
 const HEAD: u32 = 100;
 
 /// The thread that the entry of the tool in a list at the head of the program names.
@@ -235,7 +236,7 @@ fn thread_in(comment: &str) -> Option<(String, f64)> {
     let upper = comment.to_ascii_uppercase();
     let is_letter = |c: char| c.is_ascii_alphanumeric();
     let mut words = upper.split(|c: char| !is_letter(c));
-    // A drill for a tap, and a thread that is milled, are no taps.
+    // A drill for a tap, and a thread that is milled, are not taps.
     let taps = words.clone().any(|word| matches!(word, "TAP" | "TAPS" | "TAPPING"));
     if !taps || words.any(|word| matches!(word, "DRILL" | "MILL" | "PREDRILL" | "CHAMFER" | "SPOT")) {
         return None;
@@ -287,7 +288,7 @@ fn metric(piece: &str) -> Option<f64> {
     }
 }
 
-/// `1/4-20`, `#10-32`, `10-24`: threads an inch behind the dash, and only where such a thread is made.
+/// `1/4-20`, `#10-32`, `10-24`: threads per inch after the dash, and only if such a thread exists.
 fn inch(piece: &str) -> Option<f64> {
     const NUMBERED: [(u32, u32); 17] = [
         (0, 80),
@@ -377,7 +378,7 @@ mod tests {
             "(1/4-20 TAP)\nT5 M6\nG20 G90 G54 G0 X0. Y0.\nG94 S500 M3\nG84 Z-1. R.1 F.05\nG80\nM30\n",
             &expect![[r#"
                 5 | G84 Z-1. R.1 F.05
-                  |              ^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0001 in a turn, the pitch is 0.05 in
+                  |              ^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.0001 in per turn, and the pitch is 0.05 in
             "#]],
         );
     }
@@ -396,7 +397,7 @@ mod tests {
             &program("307."),
             &expect![[r#"
             7 | G84 Z-9. R3. F307.
-              |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.023 mm a turn, the pitch is 1 mm
+              |              ^^^^^ warning[tapping-feed-off-pitch] the tap is fed 1.023 mm per turn, and the pitch is 1 mm
         "#]],
         );
         let list = "; T1 drill, T2 M6 tap, T3 M8 tap\nT2 M6\nG21 G90 G54 G0 X0 Y0\nS300 M3\nG84 Z-9 R3 F400\nG80\nM2\n";
@@ -406,7 +407,7 @@ mod tests {
             list,
             &expect![[r#"
             5 | G84 Z-9 R3 F400
-              |            ^^^^ warning[tapping-feed-off-pitch] the tap goes down 1.333 mm a turn, the pitch is 1 mm
+              |            ^^^^ warning[tapping-feed-off-pitch] the tap is fed 1.333 mm per turn, and the pitch is 1 mm
         "#]],
         );
     }
@@ -424,9 +425,9 @@ mod tests {
             "haas-mill",
             &program("27.5"),
             &expect![[r#"
-            4 | G84 Z-.9 R.2 F27.5
-              |              ^^^^^ warning[tapping-feed-off-pitch] the tap goes down 0.0573 in a turn, the pitch is 0.0556 in
-        "#]],
+                4 | G84 Z-.9 R.2 F27.5
+                  |              ^^^^^ warning[tapping-feed-off-pitch] the tap is fed 0.0573 in per turn, and the pitch is 0.0556 in
+            "#]],
         );
     }
 

@@ -1,17 +1,17 @@
-//! A turning cycle whose profile does not say how it begins.
+//! A turning cycle whose profile begins without `G0` or `G1`.
 
 use gcheck_controls::Effect;
 
-use crate::meta::declare_rule;
-use crate::turning::is_roughing;
+use crate::declare::declare_rule;
+use crate::facts::turning::{is_roughing, profile_blocks};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// The block that `P` of a roughing cycle names has neither `G0` nor `G1`.
     ///
     /// ## Why it matters
-    /// The first block says how the tool goes down for each pass, in rapid or at feed. Without `G0` or `G1` in it the control
-    /// alarms, or goes down by whatever was in effect.
+    /// The first block says how the tool moves in for each pass, at rapid or at feed. Without `G0` or `G1` in it the
+    /// control stops with an alarm, or uses whichever mode is active.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -58,7 +58,7 @@ impl PathRule for TurningProfileFirstBlock {
         if !cx.has_effect(is_roughing) {
             return;
         }
-        let Some((first, _)) = cx.profile_blocks() else { return };
+        let Some((first, _)) = profile_blocks(cx) else { return };
         let Some(place) = cx.place_of(first) else { return };
         let words = place.table.words(place.block());
         let moves = |effect| matches!(effect, Effect::Rapid | Effect::Linear);
@@ -76,7 +76,7 @@ impl PathRule for TurningProfileFirstBlock {
                 place.range(),
                 format!("the profile begins with a block {name}without `G0` or `G1`"),
             )
-            .label("says not how the tool goes down")
+            .label("does not say how the tool moves in")
             .also(cx.range(), "the cycle that names it")
             .help("write `G0` or `G1` in the first block of the profile"),
         );

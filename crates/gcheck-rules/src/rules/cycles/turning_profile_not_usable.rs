@@ -1,16 +1,16 @@
-//! A turning cycle whose profile is named the wrong way round.
+//! A turning cycle whose profile cannot be used.
 
 use gcheck_controls::Letter;
 use gcheck_engine::{At, Fault};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The profile that a turning cycle names ends before it begins, or the cycle stands in its own profile.
+    /// The profile that a turning cycle names ends before it begins, or the cycle is inside its own profile.
     ///
     /// ## Why it matters
-    /// The control alarms before it cuts.
+    /// The control stops with an alarm before it cuts.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -58,14 +58,11 @@ impl PathRule for TurningProfileNotUsable {
         };
         let Some(first) = label('P', here) else { return };
         let Some(last) = label('Q', first) else { return };
-        // What else the engine cannot follow, machines may.
+        // Other profiles that the engine cannot follow may work on the machine.
         let (message, label) = if last < first {
-            (
-                "profile of the turning cycle ends before it begins",
-                "`Q` names a block in front of that of `P`",
-            )
+            ("profile of the turning cycle ends before it begins", "`Q` names a block before that of `P`")
         } else if (first..=last).contains(&here) {
-            ("turning cycle stands in its own profile", "lies between the blocks that `P` and `Q` name")
+            ("turning cycle is inside its own profile", "lies between the blocks that `P` and `Q` name")
         } else {
             return;
         };

@@ -2,16 +2,18 @@
 
 use gcheck_controls::{Effect, LetterSet};
 
-use crate::meta::declare_rule;
-use crate::turning::{Point, is_roughing};
+use crate::declare::declare_rule;
+use crate::facts::turning::{Point, is_roughing, profile};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
-    /// The profile of a roughing cycle goes back: it must only rise or fall from its first block to its last.
+    /// The profile of a roughing cycle turns back: X and Z must only rise or only fall from its first block to its
+    /// last.
     ///
     /// ## Why it matters
-    /// The control alarms, or leaves the undercut as it is and dives into it in the last pass. Most often a sign or a digit is
-    /// wrong. Profiles with pockets need the cycle's second form, whose first block names both axes, where the control has it.
+    /// The control stops with an alarm, or leaves the undercut uncut and plunges into it in the last pass. Most often a
+    /// sign or a digit is wrong. A profile with pockets needs the second form of the cycle, whose first block names
+    /// both axes, if the control has it.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -57,11 +59,11 @@ impl PathRule for TurningProfileTurnsBack {
         if !cx.has_effect(is_roughing) {
             return;
         }
-        let Some(profile) = cx.profile() else { return };
-        // A first block that names both axes chooses the form of the cycle that takes pockets.
+        let Some(profile) = profile(cx) else { return };
+        // A first block that names both axes chooses the form of the cycle that allows pockets.
         let has_pockets = profile.first_axes.intersects(LetterSet::of("XU"))
             && profile.first_axes.intersects(LetterSet::of("ZW"));
-        // The way out, in rapid, is no part of the profile.
+        // The retract at rapid does not belong to the profile.
         let count = profile.points.iter().rposition(|point| !point.is_rapid).map_or(0, |last| last + 1);
         let points = profile.points.get(..count).unwrap_or_default();
         if has_pockets {
@@ -70,10 +72,10 @@ impl PathRule for TurningProfileTurnsBack {
             if let Some(point) = dropped.and_then(|at| points.get(at)) {
                 report.add(
                     cx.finding(&META, point.range.clone(), "the profile of the turning cycle drops straight in X")
-                        .label("a wall that the tool leaves behind it as it goes along Z")
+                        .label("a vertical wall behind the tool as it moves along Z")
                         .also(cx.range(), "the cycle that follows the profile")
-                        .note("this form of the cycle takes pockets, but few tools cut a wall behind them that stands upright")
-                        .help("check the diameter, or give the wall the angle that the tool has room for")
+                        .note("this form of the cycle allows pockets, but few tools can cut a vertical wall behind them")
+                        .help("check the diameter, or give the wall an angle that the tool can cut")
                         .at_most(Severity::Info),
                 );
             }
@@ -88,17 +90,17 @@ impl PathRule for TurningProfileTurnsBack {
             let message = format!("the profile of the turning cycle turns back in {axis}");
             report.add(
                 cx.finding(&META, point.range.clone(), message)
-                    .label(format!("{axis} goes the other way than before"))
+                    .label(format!("{axis} reverses its direction here"))
                     .also(cx.range(), "the cycle that follows the profile")
                     .note("passes follow a profile whose X and Z only rise or only fall")
-                    .help("check the sign and value of the word, or begin the profile with both axes where the control takes pockets"),
+                    .help("check the sign and value of the word, or begin the profile with both axes if the control allows pockets"),
             );
             return;
         }
     }
 }
 
-/// The first of some positions that lies the other way than those before it.
+/// The first position that reverses the direction of those before it.
 fn turn(way: &[f64]) -> Option<usize> {
     let mut sign = 0.0;
     way.windows(2)
@@ -116,7 +118,7 @@ fn turn(way: &[f64]) -> Option<usize> {
 
 /// The first of some points that a wall of a pocket leads down to, straight in X.
 fn drop(start: &Point, points: &[Point]) -> Option<usize> {
-    // A tool that stands outside turns, one that stands inside bores.
+    // A tool outside the profile turns, one inside bores.
     let up = if points.iter().all(|point| point.x <= start.x) {
         1.0
     } else if points.iter().all(|point| point.x >= start.x) {
@@ -130,7 +132,7 @@ fn drop(start: &Point, points: &[Point]) -> Option<usize> {
         .position(|pair| {
             let [from, to] = pair else { return false };
             let step = (to.x - from.x) * up;
-            // The face, cut to the middle before the profile rises, is no pocket.
+            // The face, cut to the middle before the profile rises, is not a pocket.
             let drops = rose && step < -SLACK && (to.z - from.z).abs() <= SLACK;
             rose |= step > SLACK;
             drops

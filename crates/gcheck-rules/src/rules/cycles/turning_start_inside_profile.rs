@@ -2,15 +2,15 @@
 
 use gcheck_controls::Effect;
 
-use crate::meta::declare_rule;
-use crate::turning::is_roughing;
+use crate::declare::declare_rule;
+use crate::facts::turning::{is_roughing, profile};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// The tool stands inside the profile when a roughing cycle begins.
+    /// The tool is inside the profile when a roughing cycle begins.
     ///
     /// ## Why it matters
-    /// Passes start from where the tool stands, and after each the tool comes back there in rapid: through the part.
+    /// Each pass starts from the tool's position, and after it the tool returns there at rapid: through the part.
     ///
     /// ## Reported
     /// ```nc,reported,haas-lathe
@@ -55,16 +55,16 @@ impl PathRule for TurningStartInsideProfile {
             return;
         }
         let along_x = cx.has_effect(|effect| effect == Effect::RoughAlongX);
-        let Some(profile) = cx.profile() else { return };
-        let level = |point: &crate::turning::Point| if along_x { point.z } else { point.x };
+        let Some(profile) = profile(cx) else { return };
+        let level = |point: &crate::facts::turning::Point| if along_x { point.z } else { point.x };
         let mut cut = profile.points.iter().skip(1).filter(|point| !point.is_rapid);
         let (Some(first), Some(last)) = (profile.points.first(), cut.clone().next_back()) else { return };
-        // Outward from the first block: the tool must stand where the profile ends, or beyond.
+        // Outward from the first block: the tool must be at the end of the profile, or beyond.
         let start = level(&profile.start);
         let outward = if level(first) <= start { 1.0 } else { -1.0 };
-        let beyond = |point: &crate::turning::Point| (level(point) - start) * outward;
+        let beyond = |point: &crate::facts::turning::Point| (level(point) - start) * outward;
         let Some(worst) = cut.find(|point| beyond(point) > SLACK) else { return };
-        // A profile that begins outside the tool, or runs the other way, is of another kind.
+        // A profile that begins outside the tool, or runs the other way, is not judged.
         if beyond(first) > 0.0 || beyond(last) <= 0.0 {
             return;
         }
@@ -72,9 +72,9 @@ impl PathRule for TurningStartInsideProfile {
         let message = format!("the turning cycle starts inside its profile (`{axis}{}`)", trimmed(start));
         report.add(
             cx.finding(&META, cx.range(), message)
-                .label("the tool comes back to where it stands now in rapid")
+                .label("the tool returns to its present position at rapid")
                 .also(worst.range.clone(), format!("the profile reaches `{axis}{}`", trimmed(level(worst))))
-                .help("go to the outside of the stock before the cycle"),
+                .help("move outside the stock before the cycle"),
         );
     }
 }

@@ -1,17 +1,18 @@
-//! A move of 3D cutter compensation that does not say its direction.
+//! A move under 3D cutter compensation without its direction.
 
 use gcheck_engine::{Event, Role};
 
-use crate::five_axis::is_along_vectors;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_vectors;
+use crate::facts::modes::resting_on_mode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A move under 3D cutter compensation (`G141`) leaves out `I`, `J` or `K`, or all of them.
+    /// A move under 3D cutter compensation (`G141`) omits `I`, `J` or `K`, or all of them.
     ///
     /// ## Why it matters
-    /// The direction belongs to each point: without it the control does not know which way the path is to be shifted there. No
-    /// page says that an earlier direction stays in effect, or that a part left out is zero.
+    /// Each point needs a direction: without it the control does not know which way to shift the path there. The manual
+    /// does not say that an earlier direction stays in effect, or that a missing component is zero.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -63,11 +64,11 @@ impl PathRule for CutterVectorIncomplete {
                 let some = some.join(" and ");
                 (
                     format!("direction without {some} under 3D cutter compensation (`{name}`)"),
-                    format!("{some} left out"),
+                    format!("{some} missing"),
                 )
             }
         };
-        let source = cx.scene.control().code_at(code).map_or("", |code| code.entry().source.as_str());
+        let source = cx.control().code_at(code).map_or("", |code| code.entry().source.as_str());
         let finding = cx
             .finding(&META, cx.range(), message)
             .label(label)
@@ -77,7 +78,7 @@ impl PathRule for CutterVectorIncomplete {
             .help(format!(
                 "write all three in every block that moves, zeros too, or end `{name}` with `G40` first"
             ));
-        report.add(cx.resting_on_mode(finding, Role::Compensation));
+        report.add(resting_on_mode(cx, finding, Role::Compensation));
     }
 }
 

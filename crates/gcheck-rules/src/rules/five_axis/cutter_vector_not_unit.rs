@@ -3,27 +3,30 @@
 use gcheck_engine::{Event, Role};
 use gcheck_program::{Value, Word};
 
-use crate::finding::Edit;
-use crate::five_axis::is_along_vectors;
-use crate::meta::declare_rule;
+use crate::Edit;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_vectors;
+use crate::facts::modes::resting_on_mode;
 use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// A block under 3D cutter compensation (`G141`) gives a direction `I J K` that is no unit vector: I² + J² + K² is not 1.
+    /// A block under 3D cutter compensation (`G141`) gives a direction `I J K` that is not a unit vector: I² + J² + K²
+    /// is not 1.
     ///
     /// ## Why it matters
-    /// The control shifts the path by the offset times the vector. A vector that is too long or too short shifts it by another
-    /// amount than the size of the tool, or the control refuses the block.
+    /// The control shifts the path by the offset times the vector. If the vector is too long or too short, the shift is
+    /// not the size of the tool, or the control refuses the block.
     ///
     /// ## How exactly
-    /// Numbers are rounded when they are posted, so the digits that are written decide. With n decimals each part may be off by
-    /// half a unit of the last one, e = 0.5 / 10ⁿ. The vector is accepted if some vector of length 1 rounds to it: if the point of
-    /// the box I ± e, J ± e, K ± e that is nearest to zero is not beyond 1, and the farthest not short of it. The length may thus
-    /// differ from 1 by at most √3 · e, and I² + J² + K² by about twice that: 0.0017 with three decimals, 0.00017 with four.
-    /// n is the most decimals that one of the three numbers has, and at least two. A computed part counts as one with two.
+    /// Posted numbers are rounded, so the written digits decide. With n decimals each component may be off by half a
+    /// unit of the last one, e = 0.5 / 10ⁿ. The vector is accepted if some vector of length 1 rounds to it: if the
+    /// point of the box I ± e, J ± e, K ± e that is nearest to zero is not beyond 1, and the farthest is not short of
+    /// it. So the length may differ from 1 by at most √3 · e, and I² + J² + K² by about twice that: 0.0017 with three
+    /// decimals, 0.00017 with four. n is the largest number of decimals among the three, and at least two. A computed
+    /// component counts as one with two decimals.
     ///
-    /// The three numbers are read as the control reads them: they are no lengths and are not converted between inch and
-    /// millimetre, but a number without decimal point counts least increments (`K1` is 0.0001 in inch).
+    /// The three numbers have the control's meaning: they are not lengths and are not converted between inch and
+    /// millimetre, but a number without a decimal point counts least increments (`K1` is 0.0001 in inch).
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -40,10 +43,10 @@ declare_rule! {
     /// M30
     /// ```
     rule "cutter-vector-not-unit" in "five_axis" {
-        summary: "direction of 3D cutter compensation that is no unit vector",
+        summary: "direction of 3D cutter compensation that is not a unit vector",
         severity: Error,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CHANGES, make: || Box::new(CutterVectorNotUnit) },
     }
@@ -51,10 +54,10 @@ declare_rule! {
 
 struct CutterVectorNotUnit;
 
-/// Letters of the three parts.
+/// Letters of the three components.
 const IJK: [char; 3] = ['I', 'J', 'K'];
 
-/// Fewer decimals than these are taken for these: nobody posts a direction to one digit.
+/// Fewer decimals than these count as these: no post-processor rounds a direction to one digit.
 const LEAST_DECIMALS: usize = 2;
 
 impl PathRule for CutterVectorNotUnit {
@@ -78,7 +81,7 @@ impl PathRule for CutterVectorNotUnit {
         let is_whole = given.len() == IJK.len();
         if least > 1.0 || is_whole && most < 1.0 {
             let finding = finding(cx, *parts, &words, decimals, mode);
-            report.add(cx.resting_on_mode(finding, Role::Compensation));
+            report.add(resting_on_mode(cx, finding, Role::Compensation));
         }
     }
 }
@@ -97,7 +100,7 @@ fn finding(
     let start = written.clone().map(|word| word.range().start).min();
     let end = written.clone().map(|word| word.range().end).max();
     let range = match (start, end) {
-        // Other words may stand between them; then the first part is marked.
+        // Other words may be between them; then the first component is marked.
         (Some(start), Some(end)) if stand_together(cx, start, end) => base + start..base + end,
         _ => cx.word_range(|word| words.iter().flatten().any(|part| part.range() == word.range())),
     };
@@ -106,7 +109,7 @@ fn finding(
         .finding(
             &META,
             range,
-            format!("direction is no unit vector: I² + J² + K² is {shown}, not 1 (`{name}`)"),
+            format!("direction is not a unit vector: I² + J² + K² is {shown}, not 1 (`{name}`)"),
         )
         .label(format!("its length is {}", (sum.sqrt() * 1e4).round() / 1e4))
         .help("post the direction as a unit vector, with four decimals or more");
@@ -117,7 +120,7 @@ fn finding(
             .note("a number without a decimal point counts least increments on this control, in `I J K` too")
             .help("write the decimal point: `K1.`");
     }
-    if let Some(code) = cx.scene.control().code_at(mode) {
+    if let Some(code) = cx.control().code_at(mode) {
         let entry = code.entry();
         finding = finding
             .note(format!("`I J K` of `{name}` must be a unit vector  [{}]", entry.source))
@@ -126,10 +129,10 @@ fn finding(
     if let Some(fix) = normalised(parts, words, base, sum.sqrt(), decimals) {
         finding = finding.fix(fix);
     }
-    if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
 }
 
-/// Nothing but the three parts and blanks between two places of the block.
+/// Only the three components and blanks between two places of the block.
 fn stand_together(cx: &PathCx<'_>, start: u32, end: u32) -> bool {
     let Some(place) = cx.place() else { return false };
     let is_part = |word: &Word| IJK.iter().any(|letter| word.letter.ascii() == *letter as u8);
@@ -140,7 +143,7 @@ fn stand_together(cx: &PathCx<'_>, start: u32, end: u32) -> bool {
         .all(|word| is_part(word) || word.range().end <= start || word.range().start >= end)
 }
 
-/// The same direction with length 1, where all parts are written as numbers.
+/// The same direction with length 1, if all components are written as numbers.
 fn normalised(
     parts: [Option<f64>; 3],
     words: &[Option<Word>; 3],
@@ -167,16 +170,16 @@ fn half_unit(decimals: usize) -> f64 {
     0.5 / 10_f64.powi(i32::try_from(decimals).unwrap_or(i32::MAX))
 }
 
-/// The least and the greatest length of the vectors that round to these parts, each with how far it may be off.
+/// The least and the greatest length of the vectors that round to these components, each with its rounding error.
 fn lengths(parts: &[(f64, f64)]) -> [f64; 2] {
     let norm = |part: fn(f64, f64) -> f64| {
         parts.iter().map(|(value, error)| part(value.abs(), *error).powi(2)).sum::<f64>().sqrt()
     };
-    // A last digit of the arithmetic is no digit of the program.
+    // The last digit of the arithmetic is not a digit of the program.
     [norm(|value, error| (value - error).max(0.0)) - 1e-9, norm(|value, error| value + error) + 1e-9]
 }
 
-/// How many decimals a number is written with; none when it is computed.
+/// How many decimals a number is written with; `None` when it is computed.
 fn decimals(cx: &PathCx<'_>, word: &Word) -> usize {
     let Some(place) = cx.place() else { return 0 };
     let file = cx.program.file(cx.origin().at.file);
@@ -194,8 +197,7 @@ mod tests {
     use expect_test::expect;
 
     use super::{RULE, half_unit, lengths};
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     /// Directions of one block each.
     fn check(directions: &[&str], expected: &expect_test::Expect) {
@@ -221,9 +223,9 @@ mod tests {
             ],
             &expect![[r#"
                 3 | X1. I0.580 J0.580 K0.580
-                  |     ^^^^^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 1.0092, not 1 (`G141`)
+                  |     ^^^^^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 1.0092, not 1 (`G141`)
                 5 | X1. I0.5770 J0.5770 K0.5770
-                  |     ^^^^^^^^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0.9988, not 1 (`G141`)
+                  |     ^^^^^^^^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0.9988, not 1 (`G141`)
             "#]],
         );
     }
@@ -233,17 +235,17 @@ mod tests {
         check(
             &["I1. J1. K0.", "I0. J0. K0.", "I100. J-100. K0.", "I0.6 J0.6 K0.6", "I0. J0. K2."],
             &expect![[r#"
-            2 | X1. I1. J1. K0.
-              |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 2, not 1 (`G141`)
-            3 | X1. I0. J0. K0.
-              |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0, not 1 (`G141`)
-            4 | X1. I100. J-100. K0.
-              |     ^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 20000, not 1 (`G141`)
-            5 | X1. I0.6 J0.6 K0.6
-              |     ^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 1.08, not 1 (`G141`)
-            6 | X1. I0. J0. K2.
-              |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 4, not 1 (`G141`)
-        "#]],
+                2 | X1. I1. J1. K0.
+                  |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 2, not 1 (`G141`)
+                3 | X1. I0. J0. K0.
+                  |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0, not 1 (`G141`)
+                4 | X1. I100. J-100. K0.
+                  |     ^^^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 20000, not 1 (`G141`)
+                5 | X1. I0.6 J0.6 K0.6
+                  |     ^^^^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 1.08, not 1 (`G141`)
+                6 | X1. I0. J0. K2.
+                  |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 4, not 1 (`G141`)
+            "#]],
         );
     }
 
@@ -252,11 +254,11 @@ mod tests {
         check(
             &["I0.6 J0.7", "I1.5", "K1.", "I0.8 K0.7"],
             &expect![[r#"
-            3 | X1. I1.5
-              |     ^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 2.25, not 1 (`G141`)
-            5 | X1. I0.8 K0.7
-              |     ^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 1.13, not 1 (`G141`)
-        "#]],
+                3 | X1. I1.5
+                  |     ^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 2.25, not 1 (`G141`)
+                5 | X1. I0.8 K0.7
+                  |     ^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 1.13, not 1 (`G141`)
+            "#]],
         );
     }
 
@@ -265,18 +267,18 @@ mod tests {
         check(
             &["I0 J0 K1", "I10000 J0 K0"],
             &expect![[r#"
-            2 | X1. I0 J0 K1
-              |     ^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0, not 1 (`G141`)
-        "#]],
+                2 | X1. I0 J0 K1
+                  |     ^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0, not 1 (`G141`)
+            "#]],
         );
         check_rule(
             &RULE,
             "haas-mill",
             "G21 G90 G1 G141 D1 X0. I0 J0 K1 F20.\nX1. I0 J0 K1000\nG40\nM30\n",
             &expect![[r#"
-            1 | G21 G90 G1 G141 D1 X0. I0 J0 K1 F20.
-              |                        ^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 0, not 1 (`G141`)
-        "#]],
+                1 | G21 G90 G1 G141 D1 X0. I0 J0 K1 F20.
+                  |                        ^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0, not 1 (`G141`)
+            "#]],
         );
     }
 
@@ -288,7 +290,7 @@ mod tests {
             "#1=0.6\n#2=[SQRT[1-#1*#1]]\nG90 G1 G141 D1 X0. Y0. I#1 J#2 K0. F20.\nX1. I#1 J#1 K#1\nX2. I#500 J#1 K9.\nX3. I[#1+.4] J0. K[#2-.8]\nG40\nM30\n",
             &expect![[r#"
                 4 | X1. I#1 J#1 K#1
-                  |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is no unit vector: I² + J² + K² is 1.08, not 1 (`G141`)
+                  |     ^^^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 1.08, not 1 (`G141`)
             "#]],
         );
     }
@@ -301,9 +303,9 @@ mod tests {
     #[test]
     fn the_fix_keeps_the_direction() {
         let program = "G90 G1 G141 D1 X1. I0.5 J-0.5 K.5 F20.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
-            direction is no unit vector: I² + J² + K² is 0.75, not 1 (`G141`)
+            direction is not a unit vector: I² + J² + K² is 0.75, not 1 (`G141`)
               here: its length is 0.866
               note: `I J K` of `G141` must be a unit vector  [Haas 96-8000 rev R June 2007 p.153; Haas online manual, g141-3d-cutter-compensation; gcodes.net, G141; HM17 p.310]
               help: post the direction as a unit vector, with four decimals or more

@@ -1,17 +1,18 @@
-//! 3D cutter compensation by nothing.
+//! 3D cutter compensation without a cutter offset.
 
 use gcheck_engine::{Abstract, Domain};
 
-use crate::five_axis::is_along_vectors;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_vectors;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// 3D cutter compensation (`G141`) is switched on without a cutter offset: no `D` in its block and none in effect, or `D0`.
+    /// 3D cutter compensation (`G141`) is switched on without a cutter offset: there is no `D` in its block and no
+    /// earlier `D` is in effect, or it is `D0`.
     ///
     /// ## Why it matters
-    /// `D` names the offset that the path is shifted by. Without one the path is cut as it was posted, whatever the size of the
-    /// tool.
+    /// `D` selects the offset by which the path is shifted. Without one the path is cut as it was posted, whatever the
+    /// size of the tool.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -49,7 +50,7 @@ impl PathRule for CutterVectorWithoutSize {
         let Some(code) = codes.iter().copied().find(|code| is_along_vectors(cx.model.effect(*code))) else {
             return;
         };
-        let Some(code) = cx.scene.control().code_at(code) else { return };
+        let Some(code) = cx.control().code_at(code) else { return };
         let (name, entry) = (code.number(), code.entry());
         let finding = match cx.word('D') {
             Some(word) if word.number() == Some(0.0) => cx
@@ -58,7 +59,7 @@ impl PathRule for CutterVectorWithoutSize {
                     cx.letter_range('D'),
                     format!("3D cutter compensation with no offset (`{name} D0`)"),
                 )
-                .label("offset zero is no size")
+                .label("offset zero has no size")
                 .at_most(Severity::Warning),
             Some(_) => return,
             None if cx.is_malformed() => return,
@@ -69,13 +70,19 @@ impl PathRule for CutterVectorWithoutSize {
                     cx.effect_range(is_along_vectors),
                     format!("3D cutter compensation without an offset (`{name}` without `D`)"),
                 )
-                .label("no `D` here, and none in effect"),
+                .label("no `D` here, and no earlier one in effect"),
         };
         let finding = finding
             .note(format!("`D` selects the offset that `{name}` shifts the path by  [{}]", entry.source))
-            .help(format!("name the offset that holds the tool's size, or its difference: `{name} D1`"))
+            .help(format!(
+                "give the number of the offset with the tool's size, or with its difference: `{name} D1`"
+            ))
             .at_most(limit(entry.confidence));
-        report.add(if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding });
+        report.add(if cx.environment.control_is_guessed {
+            finding.at_most(Severity::Warning)
+        } else {
+            finding
+        });
     }
 }
 

@@ -1,18 +1,20 @@
-//! A block that tilts the tool and leaves a linear axis behind.
+//! A block that tilts the tool and omits a linear axis.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Axis, Event, Role, Travel};
 
-use crate::five_axis::is_along_tool;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_tool;
+use crate::facts::modes::resting_on_mode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// Under 5-axis tool length compensation (`G143`) a block turns `A` or `B` and leaves out `X`, `Y` or `Z`.
+    /// Under 5-axis tool length compensation (`G143`) a block turns `A` or `B` and omits `X`, `Y` or `Z`.
     ///
     /// ## Why it matters
-    /// When the tool tilts, its length points elsewhere, and all three linear axes have to follow. The control moves only the
-    /// axes that the block names: one that is left out stands still, and the tip leaves its path.
+    /// When the tool tilts, its length points in another direction, and all three linear axes have to follow. The
+    /// control moves only the axes that the block names: an axis that is omitted does not move, and the tip leaves its
+    /// path.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -30,7 +32,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "five-axis-axis-left-out" in "five_axis" {
-        summary: "linear axis left out while the tool tilts",
+        summary: "linear axis omitted while the tool tilts",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -64,24 +66,24 @@ impl PathRule for FiveAxisAxisLeftOut {
             return;
         }
         let Some(code) = cx.state().mode(Role::Length).only() else { return };
-        let Some(code) = cx.scene.control().code_at(code) else { return };
-        let (name, stands) = (code.number(), if left_out.len() == 1 { "stands" } else { "stand" });
+        let Some(code) = cx.control().code_at(code) else { return };
+        let (name, does) = (code.number(), if left_out.len() == 1 { "does" } else { "do" });
         let (axes, turning_axes) = (list(&left_out), list(&turning));
         let tilts = if turning.len() == 1 { "tilts" } else { "tilt" };
         let range = cx.letter_range(turning.first().copied().unwrap_or('A'));
         let finding = cx
-            .finding(&META, range, format!("{axes} {stands} still while {turning_axes} {tilts} the tool (`{name}`)"))
-            .label(format!("the block leaves out {axes}"))
+            .finding(&META, range, format!("{axes} {does} not move while {turning_axes} {tilts} the tool (`{name}`)"))
+            .label(format!("the block omits {axes}"))
             .note(format!(
                 "under `{name}` an axis that the block does not name does not move, even if the tilt asks for it  [{}]",
                 code.entry().source
             ))
             .help(format!("write X, Y and Z in every block that turns the head, {axes} with its last value too"));
-        report.add(cx.resting_on_mode(finding, Role::Length));
+        report.add(resting_on_mode(cx, finding, Role::Length));
     }
 }
 
-/// Axes of the head that the block turns, as far as is known: to where they stand already is no turn.
+/// Axes of the head that the block turns, as far as is known: a word for the present position does not turn.
 fn turning(cx: &PathCx<'_>, travel: &Travel) -> Vec<char> {
     if travel.expanded {
         return Vec::new();
@@ -117,9 +119,9 @@ mod tests {
             "G90 G143 H1 X0. Y0. Z1. A0. B0.\nG0 X1. Y1. A5.\nB5.\nA5. B5. X2.\nG49\nA0. B0.\nM30\n",
             &expect![[r#"
                 2 | G0 X1. Y1. A5.
-                  |            ^^^ warning[five-axis-axis-left-out] `Z` stands still while `A` tilts the tool (`G143`)
+                  |            ^^^ warning[five-axis-axis-left-out] `Z` does not move while `A` tilts the tool (`G143`)
                 3 | B5.
-                  | ^^^ warning[five-axis-axis-left-out] `X`, `Y` and `Z` stand still while `B` tilts the tool (`G143`)
+                  | ^^^ warning[five-axis-axis-left-out] `X`, `Y` and `Z` do not move while `B` tilts the tool (`G143`)
             "#]],
         );
     }
@@ -132,7 +134,7 @@ mod tests {
             "G90 G143 H1 X0. Y0. Z1. A0. B0.\n/G0 X1. B5.\nG49\nM30\n",
             &expect![[r#"
                 2 | /G0 X1. B5.
-                  |         ^^^ warning[five-axis-axis-left-out] `Y` and `Z` stand still while `B` tilts the tool (`G143`)
+                  |         ^^^ warning[five-axis-axis-left-out] `Y` and `Z` do not move while `B` tilts the tool (`G143`)
             "#]],
         );
     }

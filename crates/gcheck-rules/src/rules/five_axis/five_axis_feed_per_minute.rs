@@ -1,20 +1,21 @@
-//! A cut along a tilting tool with its feed per minute.
+//! A cut under 5-axis tool length compensation with feed per minute.
 
 use gcheck_engine::{At, Event, Fact, FeedMode, Role, TravelKind};
 
-use crate::five_axis::is_along_tool;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_tool;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A cut under 5-axis tool length compensation (`G143`) has its feed per minute (`G94`) or per turn (`G95`), not in inverse
     /// time (`G93`).
     ///
     /// ## Why it matters
-    /// Under `G94` the control holds `F` along the way of the linear axes. While the head tilts, the tip goes another way and
-    /// at another speed: a block that mostly turns the head cuts far too fast or crawls. Under `G93` each block says how long
-    /// it takes (1/`F` minutes), so the tip keeps the feed that the CAM system meant. The control's page recommends it.
+    /// Under `G94` the control holds `F` along the path of the linear axes. While the head tilts, the tip moves along
+    /// another path and at another speed: a block that mostly turns the head cuts far too fast or crawls. Under `G93`
+    /// each block gives its own time (1/`F` minutes), so the tip keeps the feed that the CAM system meant. The
+    /// control's page recommends it.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -71,7 +72,7 @@ impl PathRule for FiveAxisFeedPerMinute {
         else {
             return;
         };
-        let Some(length) = cx.scene.control().code_at(length) else { return };
+        let Some(length) = cx.control().code_at(length) else { return };
         let (name, feed) = (length.number(), cx.name_of(feed));
         let per = if mode == FeedMode::PerRevolution { "per turn" } else { "per minute" };
         let finding = cx
@@ -82,10 +83,10 @@ impl PathRule for FiveAxisFeedPerMinute {
                  the head turns"
             ))
             .note(format!("inverse time is recommended under `{name}`  [{}]", length.entry().source))
-            .help("post these blocks in inverse time: `G93` once, and in each block `F` = feed / length of its way");
+            .help("post these blocks in inverse time: `G93` once, and in each block `F` = feed / length of its path");
         report.add(match set_by {
             [_, Some(_)] => cx.resting_on(finding, fact, &format!("`{feed}`")),
-            _ => finding.assuming(format!("`{feed}` is as the control has it at the start")),
+            _ => finding.assuming(format!("`{feed}` is what the control has at the start")),
         });
     }
 }
@@ -95,8 +96,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn once_for_a_stretch_of_cuts() {
@@ -127,14 +127,14 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = "G90 G94 G143 H1 X0. Y0. Z1. A0. B0.\nG1 X1. Y0. Z0. A1. B5. F20.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             feed per minute (`G94`) while the tool tilts (`G143`)
               here: the tip's speed is not the `F` that is written
               there: `G94` set here
               note: `G94` holds the feed along the linear axes; under `G93` a block takes 1/`F` minutes, however far the head turns
               note: inverse time is recommended under `G143`  [Haas 96-8000 rev AC May 2010 p.184; Haas online manual, g143-5-axis-tool-length-compensation; gcodes.net, G143; HM17 p.313]
-              help: post these blocks in inverse time: `G93` once, and in each block `F` = feed / length of its way
+              help: post these blocks in inverse time: `G93` once, and in each block `F` = feed / length of its path
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -1,20 +1,19 @@
-//! A length along the tool under incremental words.
+//! 5-axis tool length compensation with incremental words.
 
-use gcheck_controls::{Code, Effect};
 use gcheck_engine::Role;
 
-use crate::boundary::LeftOn;
-use crate::five_axis::is_along_tool;
-use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
+use crate::declare::declare_rule;
+use crate::facts::five_axis::{increments_finding, length_and_increments};
+use crate::facts::modes::{ActiveMode, resting_on_mode};
+use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// 5-axis length compensation (`G143`) is switched on under incremental words (`G91`), or they are switched on while it
-    /// is active.
+    /// 5-axis length compensation (`G143`) is switched on under incremental words (`G91`), or `G91` is switched on
+    /// while it is active.
     ///
     /// ## Why it matters
-    /// The control computes where the axes stand from the absolute point and the tilt of the tool. It cannot do so from
-    /// increments, and does not accept `G91`.
+    /// The control computes the positions of the axes from the absolute point and the tilt of the tool. It cannot do so
+    /// from increments, and does not accept `G91`.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -47,49 +46,19 @@ struct FiveAxisLengthInIncremental;
 
 impl PathRule for FiveAxisLengthInIncremental {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some([LeftOn::Surely(length), LeftOn::Surely(increments)]) = both(cx) else { return };
-        let control = cx.scene.control();
+        let Some([ActiveMode::Certain(length), ActiveMode::Certain(increments)]) = length_and_increments(cx)
+        else {
+            return;
+        };
+        let control = cx.control();
         let (Some(length), Some(increments)) = (control.code_at(length), control.code_at(increments)) else {
             return;
         };
         let message = format!("incremental words under 5-axis length compensation (`{}`)", length.number());
-        let finding = finding(cx, &META, message, length, increments);
-        let finding = cx.resting_on_mode(finding, Role::Length);
-        report.add(cx.resting_on_mode(finding, Role::Distance));
+        let finding = increments_finding(cx, &META, message, length, increments);
+        let finding = resting_on_mode(cx, finding, Role::Length);
+        report.add(resting_on_mode(cx, finding, Role::Distance));
     }
-}
-
-/// The codes of the two modes where a block brings them together: the length's, and that of increments.
-pub(super) fn both(cx: &PathCx<'_>) -> Option<[LeftOn; 2]> {
-    if !cx.has_effect(|effect| is_along_tool(effect) || effect == Effect::Incremental) {
-        return None;
-    }
-    let length = cx.in_effect(Role::Length, is_along_tool)?;
-    let increments = cx.in_effect(Role::Distance, |effect| effect == Effect::Incremental)?;
-    Some([length, increments])
-}
-
-/// What both rules say of it.
-pub(super) fn finding(
-    cx: &PathCx<'_>,
-    rule: &'static RuleMeta,
-    message: String,
-    length: Code<'_>,
-    increments: Code<'_>,
-) -> Finding {
-    let (name, entry) = (length.number(), length.entry());
-    let range = cx.effect_range(|effect| effect == Effect::Incremental);
-    let range = if range == cx.range() { cx.effect_range(is_along_tool) } else { range };
-    let finding = cx
-        .finding(rule, range, message)
-        .label(format!("`{}` cannot be used with `{name}`", increments.number()))
-        .note(format!("`{name}` ({}) needs absolute words (`G90`)  [{}]", entry.title, entry.source))
-        .help(format!(
-            "write absolute words (`G90`), or end `{name}` with `G49` before `{}`",
-            increments.number()
-        ))
-        .at_most(limit(entry.confidence));
-    if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
 }
 
 #[cfg(test)]

@@ -1,21 +1,22 @@
-//! A length along the tool that nobody switched off.
+//! 5-axis tool length compensation that is not switched off.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::five_axis::is_along_tool;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::five_axis::is_along_tool;
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// 5-axis length compensation (`G143`) is still on where the tool is changed, the axes return to their reference
+    /// 5-axis length compensation (`G143`) is still on when the tool is changed, the axes return to their reference
     /// position or the program ends.
     ///
     /// ## Why it matters
-    /// The way home is made with the length along the tilted tool, and only on the axes that are named; the next tool begins
-    /// with the correction of this one.
+    /// The axes return with the length along the tilted tool, and only the named axes move; the next tool begins with
+    /// the correction of this one.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -43,7 +44,7 @@ declare_rule! {
         summary: "5-axis length compensation left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -66,12 +67,12 @@ impl PathRule for FiveAxisLengthLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(place) = cx.boundary() {
+        if let Some(place) = boundary(cx) {
             let resets = place == Boundary::ProgramEnd && cx.end_resets(Role::Length);
-            self.judge(cx, cx.boundary_range(place), place.words(), resets, report);
+            self.judge(cx, boundary_range(cx, place), place.words(), resets, report);
         }
         let returns = |effect| matches!(effect, Effect::ReturnReference(_));
-        // Incremental words have a rule of their own.
+        // Another rule reports incremental words.
         if cx.has_effect(returns) && !cx.has_effect(|effect| effect == Effect::Incremental) {
             let range = cx.effect_range(returns);
             self.judge(cx, range, "at the reference return", false, report);
@@ -79,7 +80,7 @@ impl PathRule for FiveAxisLengthLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             let resets = cx.end_resets(Role::Length);
             self.judge(cx, cx.range(), Boundary::ProgramEnd.words(), resets, report);
         }
@@ -95,7 +96,7 @@ impl FiveAxisLengthLeftOn {
         end_resets: bool,
         report: &mut Report<'_>,
     ) {
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Length, is_along_tool) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Length, is_along_tool) else { return };
         let fact = Fact::Mode(Role::Length);
         let set_by = cx.trace().set_by(fact);
         if set_by.is_none() || set_by == self.told {
@@ -103,7 +104,7 @@ impl FiveAxisLengthLeftOn {
         }
         self.told = set_by;
         let name = cx.name_of(code);
-        let cancel = cx.cancel_of(Effect::LengthOff).unwrap_or_default();
+        let cancel = cx.name_of_effect(Effect::LengthOff).unwrap_or_default();
         let finding = cx
             .finding(&META, range, format!("5-axis length compensation is still on {place} (`{name}`)"))
             .label("the length is along the tilted tool here")

@@ -1,20 +1,20 @@
-//! A length along the tool that nothing names.
+//! 5-axis tool length compensation without a length offset.
 
 use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, Domain};
 
-use crate::five_axis::is_along_tool;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_tool;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// 5-axis length compensation (`G143`) is switched on and no length offset is named: neither in its block nor in
-    /// effect from before, or it is `H0`.
+    /// 5-axis length compensation (`G143`) is switched on without a length offset: there is no `H` in its block and no
+    /// earlier `H` is in effect, or it is `H0`.
     ///
     /// ## Why it matters
-    /// Without a number the control does not know by how much the tool differs from the one that the program was posted for.
-    /// `H0` ends the compensation: the tool goes on as if it had the posted length.
+    /// Without a number the control does not know by how much the tool differs from the one that the program was posted
+    /// for. `H0` ends the compensation: the tool moves as if it had the posted length.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -33,7 +33,7 @@ declare_rule! {
     /// G143 H1 X1. Y1. Z1. A5. B5.
     /// M30
     /// ```
-    /// A length in effect from before:
+    /// A length that is already in effect:
     /// ```nc,quiet,haas-mill
     /// G90 G54 G0 X0. Y0. A0. B0.
     /// G43 H1 Z1.
@@ -51,7 +51,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct FiveAxisLengthWithoutOffset {
-    /// An `H` stood in a block before.
+    /// An earlier block has an `H`.
     is_given: bool,
 }
 
@@ -74,7 +74,7 @@ impl FiveAxisLengthWithoutOffset {
         let Some(code) = codes.iter().copied().find(|code| is_along_tool(cx.model.effect(*code))) else {
             return;
         };
-        let Some(entry) = cx.scene.control().code_at(code) else { return };
+        let Some(entry) = cx.control().code_at(code) else { return };
         let (name, entry) = (entry.number(), entry.entry());
         let what = "5-axis length compensation";
         let finding = match cx.word('H') {
@@ -91,18 +91,22 @@ impl FiveAxisLengthWithoutOffset {
                         cx.effect_range(is_along_tool),
                         format!("{what} without a length offset (`{name}` without `H`)"),
                     )
-                    .label("no `H` here, and none in effect");
-                // What was given and cancelled may still be remembered.
+                    .label("no `H` here, and no earlier one in effect");
+                // The control may still remember an `H` that was cancelled.
                 if self.is_given { finding.at_most(Severity::Warning) } else { finding }
             }
         };
         let finding = finding
             .note(format!("`{name}` takes the length from the offset that `H` names  [{}]", entry.source))
             .help(format!(
-                "name the offset that holds the difference between this tool and the posted one: `{name} H1`"
+                "give the number of the offset with the difference between this tool and the posted one: `{name} H1`"
             ))
             .at_most(limit(entry.confidence));
-        report.add(if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding });
+        report.add(if cx.environment.control_is_guessed {
+            finding.at_most(Severity::Warning)
+        } else {
+            finding
+        });
     }
 }
 

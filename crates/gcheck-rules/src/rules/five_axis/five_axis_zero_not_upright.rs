@@ -1,21 +1,22 @@
-//! A work offset that tilts the head's zero.
+//! A work offset with an angle under 5-axis tool length compensation.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Role};
 
-use crate::five_axis::is_along_tool;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_tool;
+use crate::facts::modes::resting_on_mode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// 5-axis tool length compensation (`G143`) is switched on under a work offset whose `A` or `B` is not zero.
     ///
     /// ## Why it matters
-    /// The control turns the length by the work positions of `A` and `B`: where both read zero the tool must be parallel to Z.
-    /// A work offset with an angle is right only on a head that is upright at that angle; on one that is upright at its
-    /// machine zero, the length points the wrong way.
+    /// The control turns the length by the work positions of `A` and `B`: where both are zero the tool must be parallel
+    /// to Z. A work offset with an angle is right only on a head that is upright at that angle; on a head that is
+    /// upright at its machine zero, the length points the wrong way.
     ///
-    /// Nothing is said about offsets that are not configured.
+    /// Offsets that are not configured are not judged.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -51,7 +52,7 @@ impl PathRule for FiveAxisZeroNotUpright {
             return;
         };
         let state = cx.state();
-        // An offset that this very block chooses is in effect before it moves.
+        // An offset that this block chooses is in effect before the block moves.
         let chosen = codes.iter().find_map(|code| match cx.model.effect(*code) {
             Effect::WorkOffset(number) => Some(number),
             _ => None,
@@ -69,12 +70,12 @@ impl PathRule for FiveAxisZeroNotUpright {
         if tilted.is_empty() {
             return;
         }
-        let Some(code) = cx.scene.control().code_at(code) else { return };
+        let Some(code) = cx.control().code_at(code) else { return };
         let (name, entry) = (code.number(), code.entry());
         let number = chosen.or(state.work());
         let work = number.map_or_else(
             || "the work offset".to_owned(),
-            |number| crate::assumptions::work_offset_name(number, cx.model),
+            |number| gcheck_lint::work_offset_name(number, cx.model),
         );
         let finding = cx
             .finding(
@@ -87,9 +88,9 @@ impl PathRule for FiveAxisZeroNotUpright {
                 "at work position A0 B0 the tool must be parallel to the motion of Z  [{}]",
                 entry.source
             ))
-            .help(format!("take the angles out of `{work}`, or see that the head is upright at them"))
+            .help(format!("remove the angles from `{work}`, or make sure that the head is upright at them"))
             .assuming("the head is upright at machine position A0 B0");
-        report.add(cx.resting_on_mode(finding, Role::WorkOffset));
+        report.add(resting_on_mode(cx, finding, Role::WorkOffset));
     }
 }
 

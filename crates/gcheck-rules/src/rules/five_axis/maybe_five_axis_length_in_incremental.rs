@@ -1,18 +1,18 @@
-//! A length along the tool that some path brings together with incremental words.
+//! 5-axis tool length compensation with incremental words, on some paths.
 
 use gcheck_controls::CodeIx;
 use gcheck_engine::Role;
 
-use super::five_axis_length_in_incremental::{both, finding};
-use crate::boundary::LeftOn;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::{increments_finding, length_and_increments};
+use crate::facts::modes::ActiveMode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// On some path, 5-axis length compensation (`G143`) and incremental words (`G91`) are active together.
+    /// On some paths, 5-axis length compensation (`G143`) and incremental words (`G91`) are active together.
     ///
     /// ## Why it matters
-    /// The control does not accept `G91` under `G143`. The program stops with an alarm when that path is taken.
+    /// The control does not accept `G91` under `G143`. The program stops with an alarm when such a path is taken.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -31,7 +31,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-five-axis-length-in-incremental" in "five_axis" {
-        summary: "5-axis tool length that some path combines with increments",
+        summary: "5-axis tool length that some paths combine with increments",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -43,20 +43,20 @@ struct MaybeFiveAxisLengthInIncremental;
 
 impl PathRule for MaybeFiveAxisLengthInIncremental {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let Some([length, increments]) = both(cx) else { return };
-        let is_certain = matches!([length, increments], [LeftOn::Surely(_), LeftOn::Surely(_)]);
-        // Of what a program does that is not here nothing is said.
-        if is_certain || cx.is_behind_unknown_program() {
+        let Some([length, increments]) = length_and_increments(cx) else { return };
+        let is_certain = matches!([length, increments], [ActiveMode::Certain(_), ActiveMode::Certain(_)]);
+        // Other programs are not judged here.
+        if is_certain || cx.is_after_unknown_program() {
             return;
         }
-        let control = cx.scene.control();
-        let code = |on: LeftOn| match on {
-            LeftOn::Surely(code) | LeftOn::Maybe(code) => control.code_at(code),
+        let control = cx.control();
+        let code = |on: ActiveMode| match on {
+            ActiveMode::Certain(code) | ActiveMode::Possible(code) => control.code_at(code),
         };
         let (Some(length), Some(increments)) = (code(length), code(increments)) else { return };
         let message =
             format!("words may be incremental under 5-axis length compensation (`{}`)", length.number());
-        let mut finding = finding(cx, &META, message, length, increments);
+        let mut finding = increments_finding(cx, &META, message, length, increments);
         let sets = |at, role| {
             cx.find_word(at, |word| word.code != CodeIx::NONE && cx.model.role(word.code) == Some(role))
         };

@@ -1,22 +1,22 @@
-//! What some path does while the axes are shifted along a tilting tool or along vectors.
+//! What a 5-axis mode refuses, on some paths.
 
 use std::collections::BTreeSet;
 
 use gcheck_controls::CodeIx;
 use gcheck_engine::At;
 
-use super::refused_in_five_axis_mode::{Clash, clashes, finding, set_by, uses_modes};
-use crate::boundary::LeftOn;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::{Clash, clash_finding, clashes, switched_on_by, uses_five_axis_modes};
+use crate::facts::modes::ActiveMode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// On some path, a block asks for what 5-axis tool length compensation (`G143`) or 3D cutter compensation (`G141`) exclude: an
-    /// arc, a canned cycle, a pocket, cutter compensation in a plane.
+    /// On some paths, a block asks for what 5-axis tool length compensation (`G143`) or 3D cutter compensation (`G141`)
+    /// exclude: an arc, a canned cycle, a pocket, cutter compensation in a plane.
     ///
     /// ## Why it matters
-    /// Both work with straight moves (`G0`, `G1`) only. The control stops with an alarm when that path is taken.
+    /// Both work with straight moves (`G0`, `G1`) only. The control stops with an alarm when such a path is taken.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -37,7 +37,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-refused-in-five-axis-mode" in "five_axis" {
-        summary: "refused on some path under 5-axis modes",
+        summary: "refused on some paths under 5-axis modes",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -50,7 +50,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct MaybeRefusedInFiveAxisMode {
-    /// What was reported, by the block that switched the mode on.
+    /// Findings that were reported, by the block that switched the mode on.
     told: BTreeSet<(At, CodeIx)>,
 }
 
@@ -62,20 +62,22 @@ impl PathRule for MaybeRefusedInFiveAxisMode {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !uses_modes(cx) {
+        if !uses_five_axis_modes(cx) {
             cx.enough();
             return;
         }
-        if cx.is_behind_unknown_program() {
+        if cx.is_after_unknown_program() {
             return;
         }
         for clash in clashes(cx) {
-            let Clash { mode: LeftOn::Surely(mode) | LeftOn::Maybe(mode), code, is_certain, .. } = clash;
-            let is_sure = is_certain && matches!(clash.mode, LeftOn::Surely(_));
-            if is_sure || !self.told.insert((set_by(cx, mode), code)) {
+            let Clash {
+                mode: ActiveMode::Certain(mode) | ActiveMode::Possible(mode), code, is_certain, ..
+            } = clash;
+            let is_sure = is_certain && matches!(clash.mode, ActiveMode::Certain(_));
+            if is_sure || !self.told.insert((switched_on_by(cx, mode), code)) {
                 continue;
             }
-            if let Some(finding) = finding(cx, &META, &clash, "may be ") {
+            if let Some(finding) = clash_finding(cx, &META, &clash, "may be ") {
                 report.add(cx.with_path(finding));
             }
         }

@@ -1,15 +1,15 @@
-//! What cannot be done while the axes are shifted along a tilting tool or along vectors.
+//! What a 5-axis mode refuses.
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
-use gcheck_engine::{At, Fact, Role};
+use gcheck_controls::CodeIx;
+use gcheck_engine::At;
 
-use crate::boundary::LeftOn;
-use crate::five_axis::{is_along_tool, is_along_vectors};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, PathCx, PathRule, Report, RuleMeta, Run, Severity, Watch, limit};
+use crate::declare::declare_rule;
+use crate::facts::five_axis::{Clash, clash_finding, clashes, switched_on_by, uses_five_axis_modes};
+use crate::facts::modes::{ActiveMode, resting_on_mode};
+use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Under 5-axis tool length compensation (`G143`) or 3D cutter compensation (`G141`) a block asks for what they exclude: an
@@ -54,7 +54,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct RefusedInFiveAxisMode {
-    /// What was reported, by the block that switched the mode on.
+    /// Findings that were reported, by the block that switched the mode on.
     told: BTreeSet<(At, CodeIx)>,
 }
 
@@ -66,175 +66,21 @@ impl PathRule for RefusedInFiveAxisMode {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if !uses_modes(cx) {
+        if !uses_five_axis_modes(cx) {
             cx.enough();
             return;
         }
         for clash in clashes(cx) {
-            let Clash { mode: LeftOn::Surely(mode), code, is_certain: true, .. } = clash else { continue };
-            if !self.told.insert((set_by(cx, mode), code)) {
+            let Clash { mode: ActiveMode::Certain(mode), code, is_certain: true, .. } = clash else {
+                continue;
+            };
+            if !self.told.insert((switched_on_by(cx, mode), code)) {
                 continue;
             }
-            let Some(finding) = finding(cx, &META, &clash, "") else { continue };
-            let finding = if clash.is_assumed { finding } else { cx.resting_on_mode(finding, clash.role) };
+            let Some(finding) = clash_finding(cx, &META, &clash, "") else { continue };
+            let finding = if clash.is_assumed { finding } else { resting_on_mode(cx, finding, clash.role) };
             report.add(finding);
         }
-    }
-}
-
-/// A mode of five axes and a code that it excludes, in one block.
-pub(super) struct Clash {
-    /// The mode's role.
-    pub(super) role: Role,
-    /// The mode's code.
-    pub(super) mode: LeftOn,
-    /// What it excludes.
-    pub(super) code: CodeIx,
-    /// The excluded code holds on every path that comes here.
-    pub(super) is_certain: bool,
-    /// No page says so: general knowledge.
-    is_assumed: bool,
-}
-
-/// Does the program use such a mode at all?
-pub(super) fn uses_modes(cx: &PathCx<'_>) -> bool {
-    cx.file_uses(|effect| is_along_tool(effect) || is_along_vectors(effect))
-}
-
-/// The block that switched a mode on.
-pub(super) fn set_by(cx: &PathCx<'_>, mode: CodeIx) -> At {
-    let here = cx.origin().at;
-    if cx.codes().contains(&mode) {
-        return here;
-    }
-    let role = cx.model.role(mode);
-    role.and_then(|role| cx.trace().set_by(Fact::Mode(role))).unwrap_or(here)
-}
-
-/// What the block brings together that does not go together.
-pub(super) fn clashes(cx: &PathCx<'_>) -> Vec<Clash> {
-    let mut found = Vec::new();
-    for role in [Role::Length, Role::Compensation] {
-        let Some(mode) = cx.in_effect(role, |effect| is_along_tool(effect) || is_along_vectors(effect))
-        else {
-            if role == Role::Compensation {
-                found.extend(changed_over(cx));
-            }
-            continue;
-        };
-        let (LeftOn::Surely(ix) | LeftOn::Maybe(ix)) = mode;
-        let Some(entry) = cx.scene.control().code_at(ix) else { continue };
-        let mut add = |code: CodeIx, is_certain: bool| {
-            let Some(other) = cx.scene.control().code_at(code) else { return };
-            let is_assumed = is_along_tool(entry.effect()) && is_along_vectors(other.effect());
-            if is_assumed || forbids(entry, other) {
-                found.push(Clash { role, mode, code, is_certain, is_assumed });
-            }
-        };
-        for code in cx.codes().iter().copied() {
-            add(code, true);
-        }
-        if cx.codes().contains(&ix) {
-            // Switched on while something else is active that the block does not end.
-            for (code, is_certain) in still_active(cx, role) {
-                add(code, is_certain);
-            }
-        }
-    }
-    found
-}
-
-/// Motion, cycle and compensation that stay active in the block.
-fn still_active(cx: &PathCx<'_>, of: Role) -> Vec<(CodeIx, bool)> {
-    let chosen = |role: Role| cx.code_of_role(role).is_some();
-    let mut active = Vec::new();
-    for role in [Role::Motion, Role::Cycle, Role::Compensation] {
-        // A motion ends a cycle.
-        if role == of || chosen(role) || role == Role::Cycle && chosen(Role::Motion) {
-            continue;
-        }
-        let mode = cx.state().mode(role);
-        match mode.only() {
-            Some(code) => active.push((code, true)),
-            None => active.extend(mode.alternatives().iter().map(|code| (*code, false))),
-        }
-    }
-    active
-}
-
-/// Compensation in a plane takes the place of that along vectors without an end between.
-fn changed_over(cx: &PathCx<'_>) -> Option<Clash> {
-    let is_planar = |effect| matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
-    let code = cx.codes().iter().copied().find(|code| is_planar(cx.model.effect(*code)))?;
-    let mode = cx.state().mode(Role::Compensation).only()?;
-    is_along_vectors(cx.model.effect(mode)).then_some(Clash {
-        role: Role::Compensation,
-        mode: LeftOn::Surely(mode),
-        code,
-        is_certain: true,
-        is_assumed: true,
-    })
-}
-
-/// Does the data of a mode exclude a code? What ends a cycle is none.
-fn forbids(mode: Code<'_>, other: Code<'_>) -> bool {
-    other.effect() != Effect::CycleCancel
-        && mode.entry().forbids.iter().any(|item| match item.strip_prefix('@') {
-            Some(group) => other.group().id == group,
-            None => CodeNumber::parse(item) == Some(other.number()),
-        })
-        // Increments have a rule of their own.
-        && other.effect() != Effect::Incremental
-}
-
-/// What both rules say of it; `may` stands before "under".
-pub(super) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, clash: &Clash, may: &str) -> Option<Finding> {
-    let control = cx.scene.control();
-    let (LeftOn::Surely(mode) | LeftOn::Maybe(mode)) = clash.mode;
-    let (mode, code) = (control.code_at(mode)?, control.code_at(clash.code)?);
-    let (name, other) = (mode.number(), code.number());
-    let range = cx.find_word(cx.origin().at, |word| word.code == clash.code);
-    let is_here = range.is_some();
-    let range = range.unwrap_or_else(|| cx.word_range(|word| cx.model.role(word.code) == Some(clash.role)));
-    let cancel =
-        cx.cancel_of(if clash.role == Role::Length { Effect::LengthOff } else { Effect::CompensationOff })?;
-    let finding = cx.finding(rule, range, format!("{} (`{other}`) {may}under `{name}`", kind(code))).label(
-        if is_here {
-            format!("`{name}` works with straight moves only")
-        } else {
-            format!("`{other}` is still active")
-        },
-    );
-    let finding = if clash.is_assumed {
-        finding
-            .note(format!("no page says what becomes of `{other}` together with `{name}`"))
-            .at_most(Severity::Warning)
-    } else {
-        finding
-            .note(format!(
-                "under `{name}` ({}) only `G0` and `G1` can be used  [{}]",
-                mode.entry().title,
-                mode.entry().source
-            ))
-            .at_most(limit(mode.entry().confidence))
-    };
-    let finding = finding.help(format!("end `{name}` with `{cancel}` before `{other}`"));
-    Some(if cx.scene.control_is_guessed { finding.at_most(Severity::Warning) } else { finding })
-}
-
-/// What a code is, in a machinist's words.
-fn kind(code: Code<'_>) -> &'static str {
-    match (Role::of(code.effect()), code.effect()) {
-        (_, Effect::ArcClockwise | Effect::ArcCounterClockwise) => "arc",
-        (Some(Role::Cycle), _) => "canned cycle",
-        (_, Effect::CompensationVector) => "3D cutter compensation",
-        (Some(Role::Compensation), _) => "cutter compensation",
-        (
-            _,
-            Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise | Effect::GeneralPocket,
-        ) => "pocket",
-        (_, Effect::BoltArc | Effect::BoltCircle | Effect::BoltLine) => "hole pattern",
-        _ => "code",
     }
 }
 
@@ -243,8 +89,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn everything_that_a_length_along_the_tool_excludes() {
@@ -337,7 +182,7 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = "G90 G143 H1 X0. Y0. Z1. A0. B0.\nG2 X1. Y1. R1. F20.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             arc (`G2`) under `G143`
               here: `G143` works with straight moves only

@@ -2,17 +2,17 @@
 
 use gcheck_engine::{Ending, FrameKind};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::{is_called_from_elsewhere, reads_start_state};
+use crate::declare::declare_rule;
+use crate::facts::usage::{is_called_from_elsewhere, reads_start_state};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Every path of the program comes to an assignment that raises an alarm (`#3000`).
     ///
     /// ## Why it matters
-    /// The program never runs to its end. The test in front of the alarm is turned around, or a call does not pass what the
-    /// macro asks for.
+    /// The program never runs to its end. The test before the alarm is inverted, or a call does not pass an argument
+    /// that the macro needs.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -82,17 +82,18 @@ impl PathRule for AlarmReached {
                 Some(text) => format!("raises alarm {number}: {text}"),
                 None => format!("raises alarm {number}"),
             })
-            .note("every path comes here, with what the program itself sets")
-            .help("give the macro what it asks for, or correct the condition of the alarm");
-        if reads_start_state(cx.program, cx.model, cx.scene) {
-            finding =
-                finding.at_most(Severity::Warning).assuming("modes are as the control has them at the start");
+            .note("with the values that the program sets, every path comes here")
+            .help("give the macro the arguments that it needs, or correct the condition of the alarm");
+        if reads_start_state(cx.program, cx.model, cx.environment) {
+            finding = finding
+                .at_most(Severity::Warning)
+                .assuming("modes are those that the control has at the start");
         }
         report.add(finding);
     }
 }
 
-/// The comment of the block: what the control shows with the alarm.
+/// The comment of the block, which the control shows with the alarm.
 fn text_of(cx: &PathCx<'_>) -> Option<String> {
     let file = cx.program.file(cx.origin().at.file)?;
     let block = file.loaded.slice(cx.range());

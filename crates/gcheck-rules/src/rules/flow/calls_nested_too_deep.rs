@@ -2,7 +2,7 @@
 
 use gcheck_engine::{Fault, FrameKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -56,7 +56,7 @@ impl PathRule for CallsNestedTooDeep {
         });
         let message =
             if calls_itself { "program calls itself without end" } else { "calls are nested too deep" };
-        let note = match cx.scene.control().limits().call_depth {
+        let note = match cx.control().limits().call_depth {
             Some(depth) => format!("this control nests calls {depth} deep"),
             None => format!(
                 "{} calls are open here, more than any control of this family allows",
@@ -68,11 +68,9 @@ impl PathRule for CallsNestedTooDeep {
         } else {
             "call from higher up"
         };
-        // The calls that led here are all alike: their places would say nothing.
-        let finding = crate::Finding::new(&META, cx.range(), message)
-            .label("called once too often")
-            .note(note)
-            .help(help);
+        // All calls that led here are alike: their places would not help.
+        let finding =
+            crate::Finding::new(&META, cx.range(), message).label("one call too many").note(note).help(help);
         report.add(finding);
     }
 }

@@ -3,15 +3,16 @@
 use gcheck_controls::Effect;
 use gcheck_engine::At;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// Execution comes back to a block with everything as it was before: positions, modes, variables. It will do the same
-    /// again for ever.
+    /// Execution returns to a block with everything as it was before: positions, modes, variables. It repeats the same
+    /// forever.
     ///
     /// ## Why it matters
-    /// The machine cuts the same pass until somebody presses reset. Often the counter of the loop is never raised.
+    /// The machine cuts the same pass until the operator presses reset. Often the counter of the loop is never
+    /// incremented.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -30,7 +31,8 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// `M99` that starts the program again, a loop in which the program stops for the operator, and a loop whose turns differ.
+    /// `M99` that starts the program again, a loop in which the program stops for the operator, and a loop whose
+    /// iterations differ.
     /// ```nc,quiet,haas-mill
     /// N10 G0 X1.
     /// M0
@@ -63,18 +65,18 @@ impl PathRule for EndlessLoop {
         let Some(range) = cx.range_of(head) else { return };
         let mut finding = cx
             .finding(&META, range, "loop never ends")
-            .label("every turn begins as the one before")
-            .help("change what the loop's condition asks for inside the loop, or give the loop a way out");
+            .label("every iteration begins in the same state")
+            .help("change a variable of the loop's condition inside the loop, or give the loop an exit");
         if turn != head
             && let Some(range) = cx.range_of(turn)
         {
-            finding = finding.also(range, "goes back here");
+            finding = finding.also(range, "jumps back to here");
         }
         report.add(finding);
     }
 }
 
-/// Stops for the operator or asks an input inside the loop, or a return that starts the program again.
+/// A stop for the operator or an input inside the loop, or a return that starts the program again.
 fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
     let has = |block: u32, is: &dyn Fn(Effect) -> bool| {
         let Some(place) = cx.place_of(At { file: head.file, block }) else { return false };
@@ -100,7 +102,7 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
     };
     let mut blocks = head.block..turn.block.saturating_add(1);
     if has(turn.block, &|effect| effect == Effect::Return) {
-        // `M99 P10` in the main program; a return to the block behind a call is a part of some larger loop.
+        // `M99 P10` in the main program; a return to the block after a call belongs to some larger loop.
         if !has(head.block.saturating_sub(1), &calls) {
             return true;
         }

@@ -5,16 +5,16 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Effect, Ends};
 use gcheck_engine::{At, FrameKind};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Execution comes into a subprogram from the block above it, without a call: the program above has no end on this
-    /// path.
+    /// Execution enters a subprogram from the block above it, without a call: on this path the program above has no
+    /// end.
     ///
     /// ## Why it matters
-    /// The subprogram runs once more than meant. Its `M99` then starts the whole program again.
+    /// The subprogram runs once too often. Its `M99` then starts the whole program again.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -74,7 +74,7 @@ impl PathRule for FallIntoSubprogram {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // Where `O` numbers no programs, nothing stands behind its head.
+        // If `O` does not number programs, a program has no head.
         if cx.survey.programs.len() < 2 && cx.survey.jumps.is_empty() {
             cx.enough();
             return;
@@ -108,7 +108,7 @@ impl PathRule for FallIntoSubprogram {
         let finding = cx
             .finding(&META, range, message)
             .label("reached from the block above")
-            .help("end the program above with `M30` (`M99` where it is a subprogram), or jump over");
+            .help("end the program above with `M30` (with `M99` if it is a subprogram), or jump over the subprogram");
         report.add(finding);
     }
 }
@@ -120,7 +120,7 @@ impl FallIntoSubprogram {
         let entries = self.entries.get_or_insert_with(|| entries(cx));
         let entry = entries.range(..=At { file: 0, block }).next_back()?.block;
         let file = cx.program.file(0)?;
-        // Flow may leave behind the straight run, so that what comes later says nothing of how it was entered.
+        // Execution may have left the straight run, so later blocks do not show how the subprogram was entered.
         (block <= file.loaded.outline().straight_from(entry).end.max(entry)).then_some(entry)
     }
 }
@@ -142,10 +142,10 @@ fn entries(cx: &PathCx<'_>) -> BTreeSet<At> {
             entries.insert(At { file: 0, block });
         }
     }
-    if cx.scene.control().syntax().program_number && !cx.scene.control().syntax().o_words {
+    if cx.control().syntax().program_number && !cx.control().syntax().o_words {
         for part in outline.programs().skip(1) {
             let above = part.blocks.start.checked_sub(1).map_or(0..0, |block| outline.part_of(block));
-            // A program without any end is a finding of its own.
+            // Another rule reports a program without any end.
             let bytes = |block: u32| cx.range_of(At { file: 0, block }).map_or(u32::MAX, |range| range.start);
             let (from, to) = (bytes(above.start), bytes(part.blocks.start));
             let has_end = cx.survey.ends.iter().any(|end| {

@@ -5,15 +5,15 @@ use std::ops::Range;
 use gcheck_engine::At;
 use gcheck_program::{BlockFlags, StatementKind};
 
-use crate::meta::declare_rule;
-use crate::usage::blocks_with;
+use crate::declare::declare_rule;
+use crate::facts::usage::blocks_with;
 use crate::{Finding, FinishCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// `GOTO` leads between a `DO` and its `END` from outside.
+    /// A `GOTO` outside a loop leads to a block between its `DO` and its `END`.
     ///
     /// ## Why it matters
-    /// The loop was never begun: the control alarms at its `END`, or goes on with a loop that is left over.
+    /// The loop was never begun: the control stops with an alarm at its `END`, or continues an earlier loop.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -59,7 +59,7 @@ impl PathRule for JumpIntoLoop {
         let mut loops: Vec<Range<u32>> = Vec::new();
         let mut jumps: Vec<(u32, u32, Range<u32>)> = Vec::new();
         let forward = cx.model.semantics().goto_forward_first;
-        for (at, place) in blocks_with(cx.program, cx.scene, BlockFlags::STATEMENT) {
+        for (at, place) in blocks_with(cx.program, cx.environment, BlockFlags::STATEMENT) {
             for statement in place.table.statements(place.ix) {
                 match &statement.kind {
                     StatementKind::Do { .. } => {
@@ -91,7 +91,7 @@ fn finding(cx: &FinishCx<'_>, range: Range<u32>, head: u32, to: u32) -> Finding 
         .label("leads between `DO` and `END`")
         .note("a branch may lead out of a loop, never into one  [general knowledge]")
         .help("jump to the `DO` of the loop, or to a block outside it");
-    for (block, message) in [(head, "the loop begins here"), (to, "the jump comes here")] {
+    for (block, message) in [(head, "the loop begins here"), (to, "the jump leads here")] {
         if let Some(range) = cx.range_of(At { file: 0, block }) {
             finding = finding.also(range, message);
         }

@@ -2,12 +2,12 @@
 
 use gcheck_engine::Fault;
 
-use crate::meta::declare_rule;
-use crate::usage::is_called_from_elsewhere;
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A jump whose target is computed, or a return to a block of the caller (`M99 P…`), comes to a sequence number that
+    /// A jump with a computed target, or a return to a block of the caller (`M99 P…`), leads to a sequence number that
     /// the program does not have.
     ///
     /// ## Why it matters
@@ -51,12 +51,12 @@ impl PathRule for JumpToMissingBlock {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::NoSuchLabel(number) = fault else { return };
         let block = cx.range();
-        // What a number of the block names in this program is told without executing it.
+        // Other rules report a written number without executing the program.
         let literal = cx.survey.jumps.iter().any(|jump| {
             jump.target == Some(*number)
                 && block.contains(&jump.range.start)
                 && !cx
-                    .scene
+                    .environment
                     .control()
                     .code_at(jump.code)
                     .is_some_and(|code| code.entry().words.iter().any(|word| word.elsewhere))
@@ -70,9 +70,9 @@ impl PathRule for JumpToMissingBlock {
         let finding = cx
             .finding(&META, block, message)
             .label(format!("looks for `N{number}` here"))
-            .note("the control looks for the number when the block runs, and alarms if it is not found")
+            .note("the control searches for the number when the block runs, and stops with an alarm if it is not found")
             .help(format!(
-                "add `N{number}` at the block to go to, or correct what the number is computed from"
+                "add `N{number}` to the target block, or correct the expression of the number"
             ));
         report.add(finding);
     }

@@ -7,16 +7,17 @@ use gcheck_controls::Effect;
 use gcheck_engine::At;
 use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, Place, StatementKind, Target};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::blocks_with;
+use crate::declare::declare_rule;
+use crate::facts::usage::blocks_with;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The condition of a loop asks for variables that the loop does not set, and nothing else leads out of it.
+    /// The condition of a loop tests variables that the loop does not set, and nothing else leads out of the loop.
     ///
     /// ## Why it matters
-    /// Once entered, the loop never ends: the counter is not raised, or another variable is raised in its place.
+    /// Once entered, the loop never ends: the counter is not incremented, or another variable is incremented in its
+    /// place.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -60,7 +61,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct LoopConditionUnchanged {
-    /// Loops seen to repeat their state: `endless-loop` speaks of them.
+    /// Loops that repeat their state: `endless-loop` reports them.
     endless: HashSet<At>,
 }
 
@@ -76,8 +77,8 @@ impl PathRule for LoopConditionUnchanged {
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
-        for (at, place) in blocks_with(cx.program, cx.scene, BlockFlags::STATEMENT) {
-            // A loop that is left before its first turn, and one that repeats itself, are other rules' matter.
+        for (at, place) in blocks_with(cx.program, cx.environment, BlockFlags::STATEMENT) {
+            // Other rules judge a loop that is left before its first iteration, and one that repeats its state.
             if self.endless.contains(&at) || cx.is_never_reached(at.next()) {
                 continue;
             }
@@ -94,14 +95,14 @@ impl PathRule for LoopConditionUnchanged {
 fn loop_at(cx: &FinishCx<'_>, at: At, place: &Place) -> Option<(ExprIx, Range<u32>)> {
     let file = cx.program.file(0)?;
     let outline = file.loaded.outline();
-    // A jump in front of the loop's statement would be its way out.
+    // A jump before the loop's statement would be its exit.
     place.table.statements(place.ix).find_map(|statement| match &statement.kind {
         StatementKind::Do { condition: Some(condition), .. } => {
             Some((*condition, at.block + 1..outline.end_of(at.block)?))
         }
         StatementKind::OWord { keyword: OKeyword::While, arguments, .. } => {
             let links = outline.o_word(at.block)?;
-            // The `while` at the end of a `do` has its body in front.
+            // The `while` at the end of a `do` has its body before it.
             if links.head.is_some() {
                 return None;
             }
@@ -118,7 +119,7 @@ struct Asked {
     names: HashSet<String>,
 }
 
-/// Does nothing in the blocks set what the condition asks for, call, jump or end?
+/// Do the blocks neither set a variable of the condition nor call, jump or end?
 fn is_unchanged(cx: &FinishCx<'_>, place: &Place, condition: ExprIx, body: Range<u32>) -> bool {
     let Some(file) = cx.program.file(0) else { return false };
     let mut asked = Asked::default();
@@ -143,13 +144,13 @@ fn is_unchanged(cx: &FinishCx<'_>, place: &Place, condition: ExprIx, body: Range
     if asked.numbers.is_empty() && asked.names.is_empty() {
         return false;
     }
-    // So long a loop is not written by hand.
+    // A loop of this length is not written by hand.
     if body.len() > 5_000 {
         return false;
     }
     body.into_iter().all(|block| {
         file.loaded
-            .place(block, cx.scene.dialect)
+            .place(block, cx.environment.dialect)
             .is_some_and(|place| !may_change(cx, &place, &asked, file.loaded.chunk_text(place.chunk)))
     })
 }
@@ -161,7 +162,7 @@ fn may_change(cx: &FinishCx<'_>, place: &Place, asked: &Asked, text: &str) -> bo
     let statement_may = place.table.statements(place.ix).any(|statement| match &statement.kind {
         StatementKind::Assign { target, .. } => match target {
             Target::Variable(number) => {
-                // Writing an alarm or a stop is a way out; so is what the control does with its own variables.
+                // An alarm or a stop is an exit; so is what the control does with its own variables.
                 asked.numbers.contains(number) || is_the_machines(cx, *number)
             }
             Target::Named(range) => asked.names.contains(&key(text, range)),
@@ -174,7 +175,7 @@ fn may_change(cx: &FinishCx<'_>, place: &Place, asked: &Asked, text: &str) -> bo
         _ => false,
     });
     let word_may = |word: &gcheck_program::Word| {
-        let code = cx.scene.control().code_at(word.code);
+        let code = cx.control().code_at(word.code);
         let is_user = code.is_some_and(gcheck_controls::Code::is_user);
         let is_computed = !word.code.is_some() && matches!(word.letter.ascii(), b'G' | b'M');
         is_user
@@ -206,7 +207,7 @@ fn is_the_machines(cx: &FinishCx<'_>, number: u32) -> bool {
 fn is_system_name(cx: &FinishCx<'_>, name: &str) -> bool {
     name.starts_with("_ini[")
         || name.starts_with("_hal[")
-        || cx.scene.control().named_parameter(name).is_some()
+        || cx.control().named_parameter(name).is_some()
         || cx
             .model
             .semantics()
@@ -223,9 +224,9 @@ fn key(text: &str, range: &Range<u32>) -> String {
 }
 
 fn finding(range: Range<u32>) -> Finding {
-    Finding::new(&META, range, "loop does not change what its condition asks for")
+    Finding::new(&META, range, "loop does not change the variables of its condition")
         .label("nothing inside the loop sets these variables")
-        .help("raise the counter inside the loop, or ask for the variable that the loop sets")
+        .help("increment the counter inside the loop, or test the variable that the loop sets")
 }
 
 #[cfg(test)]
@@ -243,7 +244,7 @@ mod tests {
             "O1\nWHILE [#100 LT 5] DO1\nG0 X1.\nEND1\nM30\n",
             &expect![[r#"
                 2 | WHILE [#100 LT 5] DO1
-                  | ^^^^^^^^^^^^^^^^^^^^^ warning[loop-condition-unchanged] loop does not change what its condition asks for
+                  | ^^^^^^^^^^^^^^^^^^^^^ warning[loop-condition-unchanged] loop does not change the variables of its condition
             "#]],
         );
     }

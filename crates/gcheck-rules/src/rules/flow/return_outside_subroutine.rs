@@ -1,15 +1,15 @@
-//! A return where no subroutine is.
+//! A return outside a subroutine.
 
 use gcheck_engine::Fault;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// `RETURN` or `ENDSUB` is executed outside a subroutine.
     ///
     /// ## Why it matters
-    /// The control refuses the program at this block. The `SUB` in front was lost, or has another label.
+    /// The control refuses the program at this block. The `SUB` before it is missing, or has another label.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -46,7 +46,7 @@ impl PathRule for ReturnOutsideSubroutine {
         let finding = cx
             .finding(&META, cx.range(), "return outside a subroutine")
             .label("no subroutine is open here")
-            .help("put the `SUB` of this label in front, or end the program with `M2`");
+            .help("put a `SUB` with this label before the body, or end the program with `M2`");
         report.add(finding);
     }
 }

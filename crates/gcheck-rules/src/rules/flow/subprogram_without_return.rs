@@ -1,17 +1,17 @@
-//! A called program that does not come back.
+//! A called program that does not return.
 
 use gcheck_controls::Ends;
 use gcheck_engine::{At, Ending, Fault, FrameKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text.
     ///
     /// ## Why it matters
-    /// The calling program is never finished: `M30` in the subprogram ends the whole job, and a text without an end makes
-    /// the control alarm.
+    /// The calling program never finishes: `M30` in the subprogram ends the whole job, and at the end of the text the
+    /// control stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -77,7 +77,7 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     let Some(file) = cx.program.file(0) else { return };
     let part = file.loaded.outline().part_of(frame.entry.block);
     let end = cx.range_of(At { file: 0, block: part.end }).map_or(u32::MAX, |next| next.start);
-    // A return anywhere in the called program says that this end is one of several.
+    // If the called program has a return anywhere, this end is one of several.
     let returns = |range: std::ops::Range<u32>| {
         cx.survey.ends.iter().any(|mark| mark.ends == Ends::Subprogram && range.contains(&mark.range.start))
     };
@@ -93,7 +93,7 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     } else {
         (
             "called program ends the whole job: no return (`M99`)",
-            "ends here, and does not go back to its caller",
+            "ends here, and does not return to its caller",
         )
     };
     let finding = cx

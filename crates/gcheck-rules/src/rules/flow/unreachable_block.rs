@@ -6,17 +6,17 @@ use gcheck_controls::Effect;
 use gcheck_engine::{Assumption, At, Fault, Reach};
 use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
+use crate::declare::declare_rule;
+use crate::facts::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// No path of the program comes to these blocks: they stand behind an end, a return or a jump, and no jump, call or
-    /// loop leads to them; or the condition in front of them never holds.
+    /// No path of the program reaches these blocks: they follow an end, a return or a jump, and no jump, call or loop
+    /// leads to them; or the condition before them never holds.
     ///
     /// ## Why it matters
-    /// What was meant to run does not: a forgotten `GOTO` from a restart in the middle, a hole pattern behind `M30`.
+    /// Blocks that should run do not: after a forgotten `GOTO` for a restart in the middle, or after `M30`.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -35,18 +35,18 @@ declare_rule! {
     /// M99
     /// ```
     /// ## Not reported
-    /// What a jump or call reaches, and other programs of the file.
+    /// Blocks that a jump or call reaches, and other programs of the file.
     /// ```nc,quiet,haas-mill
     /// M97 P100
     /// M30
     /// N100 G1 X2. F10.
     /// M99
     /// ```
-    /// A section behind an end of the program that begins with a sequence number and has an end of its own is information at
-    /// most: the operator may start there.
+    /// A section after the end of the program that begins with a sequence number and has its own end is *info* at most:
+    /// the operator may start there.
     ///
-    /// What a condition leaves out with the values that the program itself sets is a hint at most: such a program has its
-    /// settings at its top. Where a variable decides that the program does not set, both ways are taken.
+    /// Blocks that a condition skips because of values that the program itself sets are a *hint* at most: such a
+    /// program has its settings at its top. If the program does not set the variable that decides, both ways are taken.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// IF [#500 EQ 1] GOTO 20
@@ -64,7 +64,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct UnreachableBlock {
-    /// A fault ended a path: what stands behind it was not looked at.
+    /// A fault ended a path: what follows it was not analysed.
     cut_short: bool,
 }
 
@@ -92,7 +92,7 @@ impl PathRule for UnreachableBlock {
         if self.cut_short || cx.result.out_of_fuel || cx.others.iter().any(|other| other.out_of_fuel) {
             return;
         }
-        // With one position of the switch only, the other ways are not known.
+        // With only one position of the switch, the other paths are not known.
         let one_position = cx.others.is_empty()
             && cx.result.assumptions.iter().any(|a| matches!(a, Assumption::BlockSkip(_)));
         if one_position || goes_anywhere(cx) {
@@ -102,9 +102,10 @@ impl PathRule for UnreachableBlock {
         if groups.is_empty() {
             return;
         }
-        // What a condition decides may rest on arguments and modes that a caller or the operator gives.
-        let decided_elsewhere = has_conditions(cx.program, cx.scene)
-            && (is_called_from_elsewhere(cx.survey) || reads_start_state(cx.program, cx.model, cx.scene));
+        // A condition may depend on arguments and modes that a caller or the operator gives.
+        let decided_elsewhere = has_conditions(cx.program, cx.environment)
+            && (is_called_from_elsewhere(cx.survey)
+                || reads_start_state(cx.program, cx.model, cx.environment));
         if decided_elsewhere {
             return;
         }
@@ -126,13 +127,13 @@ struct Group {
     cause: Cause,
 }
 
-/// Why nothing comes here.
+/// Why no path comes here.
 enum Cause {
-    /// The block in front always leads elsewhere.
+    /// The block before always leads elsewhere.
     LedAway(Range<u32>),
-    /// The block in front ends the program, and what follows looks like a program of its own that begins with this number.
+    /// The block before ends the program, and what follows looks like a separate program that begins with this number.
     Section(Range<u32>, u32),
-    /// The block in front decides, and the values that the program sets decide one way.
+    /// The block before has a condition, and with the values that the program sets it goes one way.
     Decided(Range<u32>),
 }
 
@@ -146,7 +147,7 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
             cx.result.reach(At { file: 0, block }) != Reach::Never
                 || !cx.is_never_reached(At { file: 0, block })
         };
-        // A program of its own that nothing here calls is not for this rule to judge.
+        // This rule does not judge a separate program that nothing here calls.
         if !part.blocks.clone().any(is_reached) {
             continue;
         }
@@ -167,10 +168,10 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                 last_reached = Some(block);
                 continue;
             }
-            let Some(place) = file.loaded.place(block, cx.scene.dialect) else { continue };
+            let Some(place) = file.loaded.place(block, cx.environment.dialect) else { continue };
             // The body of a subroutine runs when it is called; an uncalled one is whole.
             let uncalled = outline.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
-            // The `while` at the end of a `do`, behind a `break`.
+            // The `while` at the end of a `do`, after a `break`.
             let ends_loop = outline.o_word(block).is_some_and(|links| links.head.is_some());
             if uncalled || !does_something(&place, ends_loop) {
                 continue;
@@ -181,9 +182,10 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                     group.blocks += 1;
                 }
                 None => {
-                    let above = last_reached.and_then(|block| file.loaded.place(block, cx.scene.dialect));
+                    let above =
+                        last_reached.and_then(|block| file.loaded.place(block, cx.environment.dialect));
                     let range = place.range();
-                    // Behind a call, the program that is called may not come back: that is not told by its caller.
+                    // After a call: the called program may not return, and its caller does not show that.
                     open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block)
                         .map(|cause| Group { range, blocks: 1, cause });
                     if open.is_none() {
@@ -199,14 +201,14 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
 
 fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Option<Cause> {
     let above = above?;
-    // A branch or a target in between says that a condition decides elsewhere.
+    // With a branch or a target in between, the condition is elsewhere.
     if leads_away(above, cx.model) && !(last + 1..=block).any(|between| is_led_to(cx, between)) {
         return Some(match section(cx, above, last, block) {
             Some(number) => Cause::Section(above.range(), number),
             None => Cause::LedAway(above.range()),
         });
     }
-    // What a subprogram does with other arguments is its own matter.
+    // A subprogram may run with other arguments elsewhere.
     let outline = cx.program.file(0)?;
     let outline = outline.loaded.outline();
     let is_called = outline.sub_around(block).is_some() || !outline.main().contains(&block);
@@ -218,7 +220,8 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
     (decides && !is_called).then(|| Cause::Decided(above.range()))
 }
 
-/// The sequence number at which an operator may start what stands behind an end of the program and has an end of its own.
+/// The sequence number at which an operator may start a section that follows the end of the program and has its own
+/// end.
 fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u32> {
     let file = cx.program.file(0)?;
     let is_end = |place: &Place| {
@@ -232,8 +235,8 @@ fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u3
         label.integer()
     };
     let part_end = file.loaded.outline().part_of(block).end;
-    let place = |block: u32| file.loaded.place(block, cx.scene.dialect);
-    // Where every block has a number, none of them marks a section.
+    let place = |block: u32| file.loaded.place(block, cx.environment.dialect);
+    // If every block has a number, no number marks a section.
     let all_have_numbers = place(block + 1).is_some_and(|place| number(&place).is_some());
     if !is_end(above) || all_have_numbers || !(block..part_end).filter_map(place).any(|place| is_end(&place))
     {
@@ -248,7 +251,7 @@ fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
     if !file.loaded.outline().may_be_target(block) {
         return false;
     }
-    let Some(place) = file.loaded.place(block, cx.scene.dialect) else { return false };
+    let Some(place) = file.loaded.place(block, cx.environment.dialect) else { return false };
     let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N');
     match label.and_then(gcheck_program::Word::integer) {
         Some(number) => cx.survey.jumps.iter().any(|jump| jump.target == Some(number)),
@@ -256,7 +259,7 @@ fn is_led_to(cx: &FinishCx<'_>, block: u32) -> bool {
     }
 }
 
-/// Blocks that a code reads as a profile or calls by their sequence numbers (`G70 P10 Q20`), wherever they stand.
+/// Blocks that a code reads as a profile or calls by their sequence numbers (`G70 P10 Q20`), wherever they are.
 fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
     let Some(file) = cx.program.file(0) else { return Vec::new() };
     let outline = file.loaded.outline();
@@ -280,7 +283,9 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
             let next = named.get(ix + 1).filter(|next| next.code == jump.code);
             let to = blocks(next.and_then(|next| next.target)).find(|to| (from..end).contains(to));
             let returns = |block: u32| {
-                file.loaded.place(block, cx.scene.dialect).is_some_and(|place| leads_away(&place, cx.model))
+                file.loaded
+                    .place(block, cx.environment.dialect)
+                    .is_some_and(|place| leads_away(&place, cx.model))
             };
             let to = to.or_else(|| (from..end).find(|block| returns(*block)));
             profiles.push(from..to.map_or(end, |to| to + 1));
@@ -292,7 +297,7 @@ fn profiles(cx: &FinishCx<'_>) -> Vec<Range<u32>> {
 /// More than a comment, a label, an end, or the frame of a loop or branch.
 fn does_something(place: &Place, ends_loop: bool) -> bool {
     let block = place.block();
-    // Notes for people behind the end of a program.
+    // Notes for people after the end of a program.
     if block.flags.intersects(BlockFlags::ERROR | BlockFlags::TAPE_MARK) {
         return false;
     }
@@ -317,7 +322,7 @@ fn does_something(place: &Place, ends_loop: bool) -> bool {
     }
     place.table.words(block).iter().any(|word| match word.letter.ascii() {
         b'N' | b'O' => false,
-        // `M30`, `M99` and `M1` are put behind anything for safety.
+        // Programmers add `M30`, `M99` and `M1` anywhere for safety.
         b'M' => !matches!(word.integer(), Some(0 | 1 | 2 | 30 | 99)),
         b'P' => !block.letters.intersects(gcheck_controls::LetterSet::of("M")),
         _ => true,
@@ -340,9 +345,9 @@ fn finding(group: Group) -> Finding {
             .also(range, "the program ends here")
             .note(format!("an operator may start the program at `N{number}`"))
             .at_most(Severity::Info),
-        // A program with settings at its top leaves out what they do not ask for.
+        // A program with settings at its top skips what they do not select.
         Cause::Decided(range) => finding
-            .also(range, "the values that the program sets always decide this one way")
+            .also(range, "with the values that the program sets, this always goes one way")
             .at_most(Severity::Hint),
     }
 }

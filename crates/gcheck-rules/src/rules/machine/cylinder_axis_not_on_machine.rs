@@ -3,15 +3,15 @@
 use gcheck_controls::{Code, Effect, Letter, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
     /// Cylindrical mapping names an axis that the machine file does not list.
     ///
     /// ## Why it matters
-    /// Without the axis there is nothing to wrap a path around: the control stops with an alarm. The program may be for
-    /// another machine, or for one whose rotary axis has another letter.
+    /// Without the axis the control cannot wrap a path, and stops with an alarm. The program may be for another
+    /// machine, or for one whose rotary axis has another letter.
     ///
     /// ## Reported
     /// With `axes = ["X", "Y", "Z", "A"]` in the machine file:
@@ -34,11 +34,11 @@ declare_rule! {
 const AXES: LetterSet = LetterSet::of("XYZABC");
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let Some(axes) = cx.scene.machine.axes else { return };
+    let Some(axes) = cx.environment.machine.axes else { return };
     let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
         return;
     };
-    // A word that holds a variable may be left out.
+    // A word with a variable may count as missing.
     let missing =
         |word: &&Word| AXES.contains(word.letter) && !axes.contains(word.letter) && word.number().is_some();
     if cx.words_are_plain() {
@@ -70,8 +70,7 @@ mod tests {
     use gcheck_controls::LetterSet;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     fn world() -> World<'static> {
         let mut world = World::default();
@@ -101,7 +100,7 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y0. B0. Q2.5\n", &world());
+        let found = findings(&only(&RULE), "haas-mill", "G107 Y0. B0. Q2.5\n", &world());
         expect![[r#"
             the machine has no axis `B` for the cylinder (`G107`)
               here: not among the axes of the machine file

@@ -1,16 +1,17 @@
-//! A cylinder that has no diameter.
+//! A cylinder without a diameter.
 
 use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// Cylindrical mapping begins with a diameter of zero: the program gives none, and the control's setting is zero.
+    /// Cylindrical mapping begins with a diameter of zero: the program does not give one, and the control's setting is
+    /// zero.
     ///
     /// ## Why it matters
-    /// Around nothing a length has no angle. The control stops, or the rotary axis does what no drawing shows.
+    /// With a diameter of zero a length has no angle. The control stops, or the rotary axis moves unpredictably.
     ///
     /// ## Reported
     /// With `34 = 0` under `[settings]`:
@@ -44,9 +45,9 @@ impl PathRule for CylinderWithoutDiameter {
         }
         let Some(rules) = &cx.model.semantics().cylinder else { return };
         let axis = cylinder.rotary.name();
-        let setting = cx.scene.machine.engine.cylinder_setting(cylinder.rotary, rules);
+        let setting = cx.environment.machine.engine.cylinder_setting(cylinder.rotary, rules);
         let setting = setting.unwrap_or_default();
-        let name = cx.cancel_of(Effect::CylinderMapping).unwrap_or_default();
+        let name = cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
@@ -54,7 +55,7 @@ impl PathRule for CylinderWithoutDiameter {
                 format!("the cylinder has no diameter (`{name}`)"),
             )
             .label(format!("neither the program nor setting {setting} gives {axis} one"))
-            .note(format!("setting {setting} is 0, and a size of zero goes back to it"))
+            .note(format!("setting {setting} is 0, and the control uses it when the size is zero"))
             .help("give the diameter with `Q` or the radius with `R`");
         report.add(match cx.state().diameters().of(cylinder.rotary) {
             Some(_) => finding,
@@ -70,8 +71,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     fn world() -> World<'static> {
         let mut world = World::default();
@@ -105,11 +105,11 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y0. A0.\nM30\n", &world());
+        let found = findings(&only(&RULE), "haas-mill", "G107 Y0. A0.\nM30\n", &world());
         expect![[r#"
             the cylinder has no diameter (`G107`)
               here: neither the program nor setting 34 gives A one
-              note: setting 34 is 0, and a size of zero goes back to it
+              note: setting 34 is 0, and the control uses it when the size is zero
               assuming: no program before this one gave cylinders on A a diameter
               help: give the diameter with `Q` or the radius with `R`
         "#]]

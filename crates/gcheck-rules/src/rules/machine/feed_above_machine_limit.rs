@@ -1,12 +1,12 @@
-//! A feed faster than the configured machine.
+//! A feed above the configured limit of the machine.
 
 use gcheck_engine::{Abstract, Domain, Event, FeedMode};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A feed per minute (`F`) above the configured highest feed of the machine.
+    /// A feed per minute (`F`) is above the configured highest feed of the machine.
     ///
     /// ## Why it matters
     /// The control runs slower than the program says, or stops with an alarm. A feed ten times too high often is a missing
@@ -38,17 +38,17 @@ struct FeedAboveMachineLimit;
 
 impl PathRule for FeedAboveMachineLimit {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.scene.machine.engine.max_feed.is_some()
+        program.environment.machine.engine.max_feed.is_some()
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Event::FeedRate(rate), Some(highest)) = (event, cx.scene.machine.engine.max_feed) else {
+        let (Event::FeedRate(rate), Some(highest)) = (event, cx.environment.machine.engine.max_feed) else {
             return;
         };
         if cx.state().feed_mode(cx.model) != Some(FeedMode::PerMinute) {
             return;
         }
-        // A feed that is one of several is at least the lowest.
+        // Of several possible feeds the lowest counts.
         let lowest = if rate.is_nan() {
             Abstract::bounds(cx.state().feed()).map(|(lowest, _)| lowest)
         } else {
@@ -64,7 +64,7 @@ impl PathRule for FeedAboveMachineLimit {
                 cx.letter_range('F'),
                 format!("feed of {lowest:.0} mm/min is above the machine's {:.0} mm/min (`F`)", highest.0),
             )
-            .label("faster than the machine is configured to go")
+            .label("above the configured highest feed")
             .help("lower the feed, or correct the limit in the configuration"),
         );
     }

@@ -1,10 +1,10 @@
-//! A length along the tool on a machine that does not tilt the tool in two axes.
+//! 5-axis tool length compensation on a machine without a tilting head.
 
 use gcheck_controls::Letter;
 use gcheck_geometry::Arrangement;
 
-use crate::five_axis::is_along_tool;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::five_axis::is_along_tool;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
@@ -15,8 +15,8 @@ declare_rule! {
     /// The compensation turns the length with the tool: it works only where two rotary axes, `A` and `B`, tilt the tool. On
     /// other machines the control does not have the option, or moves the axes wrongly.
     ///
-    /// Nothing is said while `[machine] axes` and `rotary` are not configured. The examples hold for a machine with the axes X,
-    /// Y, Z and A.
+    /// The rule needs `[machine] axes` and `rotary` in the configuration. The examples hold for a machine with the axes
+    /// X, Y, Z and A.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -48,9 +48,9 @@ impl PathRule for FiveAxisLengthOnAnotherMachine {
         let Some(code) = codes.iter().copied().find(|code| is_along_tool(cx.model.effect(*code))) else {
             return;
         };
-        let Some(code) = cx.scene.control().code_at(code) else { return };
+        let Some(code) = cx.control().code_at(code) else { return };
         let (name, entry) = (code.number(), code.entry());
-        let machine = cx.scene.machine;
+        let machine = cx.environment.machine;
         let lacks: Vec<&str> = ["A", "B"]
             .into_iter()
             .filter(|axis| {
@@ -70,12 +70,12 @@ impl PathRule for FiveAxisLengthOnAnotherMachine {
         };
         report.add(
             cx.finding(&META, cx.effect_range(is_along_tool), message)
-                .label(format!("as `[machine] {key}` says"))
+                .label(format!("from `[machine] {key}`"))
                 .note(format!(
                     "`{name}` ({}) is for machines on which two rotary axes, A and B, move the tool  [{}]",
                     entry.title, entry.source
                 ))
-                .help(format!("compensate with `G43` on this machine, or mend `[machine] {key}`"))
+                .help(format!("compensate with `G43` on this machine, or correct `[machine] {key}`"))
                 .at_most(limit(entry.confidence)),
         );
     }

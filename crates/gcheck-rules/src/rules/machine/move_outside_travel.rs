@@ -3,21 +3,21 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A move ends outside the configured travel of an axis.
     ///
-    /// The rule speaks only where travel is configured and the position in machine coordinates is known: from the configured
-    /// work offsets and tool lengths, or because the block is in machine coordinates (`G53`).
+    /// The rule needs the configured travel and a known position in machine coordinates: from the configured work
+    /// offsets and tool lengths, or because the block is in machine coordinates (`G53`).
     ///
     /// ## Why it matters
-    /// The control stops with a soft limit alarm in the middle of the part, or runs into the switch.
+    /// The control stops with a soft limit alarm in the middle of the part, or the axis runs into the limit switch.
     ///
     /// ## Reported
-    /// With 500 mm of travel each way and `G54` at the machine's zero:
+    /// With 500 mm of travel each way and `G54` at machine zero:
     /// ```nc,reported,fanuc-mill
     /// G21 G90 G54 G0 X10. Y0.
     /// X600.
@@ -29,7 +29,7 @@ declare_rule! {
     /// X400.
     /// M30
     /// ```
-    /// Where `G55` lies nobody said.
+    /// The position of `G55` is not configured.
     /// ```nc,quiet,fanuc-mill
     /// G21 G90 G55 G0 X600. Y0.
     /// M30
@@ -45,7 +45,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct MoveOutsideTravel {
-    /// By axis: the last move ended outside, so that the way on is not told again.
+    /// By axis: the last move ended outside, so further moves are not reported again.
     is_outside: [bool; 9],
 }
 
@@ -57,11 +57,11 @@ impl PathRule for MoveOutsideTravel {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        !program.scene.machine.engine.travel.is_empty()
+        !program.environment.machine.engine.travel.is_empty()
     }
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let travel = &cx.scene.machine.engine.travel;
+        let travel = &cx.environment.machine.engine.travel;
         let Some(to) = end_of(event) else { return };
         let machine = machine_words(cx).unwrap_or_else(|| cx.state().to_machine(&to, cx.model));
         for (axis, (lowest, highest)) in travel {
@@ -70,7 +70,7 @@ impl PathRule for MoveOutsideTravel {
                 *told = false;
                 continue;
             };
-            // What a control calls outside it measures in its own increments.
+            // A control decides what is outside in its own increments.
             let beyond = (lowest - value).max(value - highest);
             let is_outside = beyond > 1e-3;
             if std::mem::replace(told, is_outside) || !is_outside {

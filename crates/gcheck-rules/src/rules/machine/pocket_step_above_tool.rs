@@ -1,17 +1,17 @@
-//! A pocket whose strokes lie further apart than its tool is wide.
+//! A pocket whose strokes are further apart than its tool is wide.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, Domain as _, Units};
 use gcheck_program::Word;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The strokes that clear a pocket lie further apart than the diameter of the tool.
+    /// The strokes that clear a pocket are further apart than the diameter of the tool.
     ///
     /// ## Why it matters
-    /// A ridge stays between the strokes, as high as the layer is deep.
+    /// A ridge remains between the strokes, as high as the layer is deep.
     ///
     /// ## Reported
     /// Tool 1 has a diameter of 10 mm:
@@ -49,7 +49,7 @@ impl PathRule for PocketStepAboveTool {
         let word = |letter: char| words.iter().find(|word| word.letter == Letter::of(letter));
         let number = match word('D') {
             Some(word) => word.integer(),
-            None => Abstract::known(cx.state().d()).and_then(crate::schemes::whole),
+            None => Abstract::known(cx.state().d()).and_then(crate::facts::offset_schemes::whole),
         };
         let Some(unit) = cx.state().units(cx.model).map(Units::in_mm) else { return };
         let tool = number.filter(|number| *number > 0).and_then(|number| cx.state().tables().tool(number));
@@ -57,7 +57,7 @@ impl PathRule for PocketStepAboveTool {
             return;
         };
         for letter in ['I', 'J'] {
-            // Without a point the number counts what a setting says.
+            // Without a point, a setting decides the number's unit.
             let Some(step) = word(letter).filter(|word| word.shape.point).and_then(Word::number) else {
                 continue;
             };
@@ -70,7 +70,7 @@ impl PathRule for PocketStepAboveTool {
                 cx.finding(
                     &META,
                     cx.letter_range(letter),
-                    "the pocket's strokes lie further apart than the tool is wide",
+                    "the pocket's strokes are further apart than the tool is wide",
                 )
                 .label(format!("strokes {} apart", shown(step * unit)))
                 .note(format!("tool {} has a diameter of {}", number.unwrap_or_default(), shown(diameter)))
@@ -97,7 +97,7 @@ mod tests {
             &World::of_examples(&META),
             &expect![[r#"
             3 | G150 P100 X0. Y0. Z-.5 Q.2 R.1 J.4 F20.
-              |                                ^^^ warning[pocket-step-above-tool] the pocket's strokes lie further apart than the tool is wide
+              |                                ^^^ warning[pocket-step-above-tool] the pocket's strokes are further apart than the tool is wide
         "#]],
         );
         check_rule(&RULE, "haas-mill", program, &expect![[""]]);

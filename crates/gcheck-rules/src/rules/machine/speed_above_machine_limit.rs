@@ -1,13 +1,13 @@
-//! A spindle speed faster than the configured machine.
+//! A spindle speed above the configured limit of the machine.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
-    /// A spindle speed (`S`) above the configured highest speed of the machine.
+    /// A spindle speed (`S`) is above the configured highest speed of the machine.
     ///
     /// ## Why it matters
     /// The control runs slower than the program says, so that the feed no longer fits, or stops with an alarm.
@@ -23,7 +23,7 @@ declare_rule! {
     /// S8000 M3
     /// M30
     /// ```
-    /// Under constant surface speed `S` is no speed of the spindle.
+    /// Under constant surface speed `S` is not a spindle speed.
     /// ```nc,quiet,fanuc-lathe
     /// G50 S3000
     /// G96 S9000 M3
@@ -42,16 +42,16 @@ struct SpeedAboveMachineLimit;
 
 impl PathRule for SpeedAboveMachineLimit {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.scene.machine.engine.max_rpm.is_some()
+        program.environment.machine.engine.max_rpm.is_some()
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.scene.machine.engine.max_rpm) else {
+        let (Event::SpindleSpeed(_), Some(highest)) = (event, cx.environment.machine.engine.max_rpm) else {
             return;
         };
         let state = cx.state();
         let mode = state.mode(Role::SpindleMode);
-        // `S` and the mode may stand in one block, in either order.
+        // `S` and the mode may be in one block, in either order.
         let is_surface = |effect| effect == Effect::SurfaceSpeed;
         let is_constant = mode.only().is_some_and(|code| !is_surface(cx.model.effect(code)));
         if !is_constant || cx.has_effect(is_surface) {
@@ -67,7 +67,7 @@ impl PathRule for SpeedAboveMachineLimit {
                 cx.letter_range('S'),
                 format!("speed of {lowest:.0} rpm is above the machine's {:.0} rpm (`S`)", highest.0),
             )
-            .label("faster than the machine is configured to turn")
+            .label("above the configured highest speed")
             .help("lower the speed, or correct the limit in the configuration"),
         );
     }

@@ -2,17 +2,17 @@
 
 use gcheck_engine::{At, Fault};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A block names a tool or offset that the configured tool table does not have.
     ///
-    /// The rule speaks only where a whole tool table was given: without one any tool may exist.
+    /// The rule needs a whole tool table: without one any tool may exist.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm at the tool change, or the wrong length is taken.
+    /// The control stops with an alarm at the tool change, or uses the wrong length.
     ///
     /// ## Reported
     /// With tools 1 to 3 in the table:
@@ -61,7 +61,7 @@ impl PathRule for ToolNotInTable {
                 && (value == Some(*number)
                     || by_t && value.is_some_and(|v| v / 100 == *number || v % 100 == *number))
         };
-        let mut known: Vec<u32> = cx.scene.machine.engine.tools.keys().copied().collect();
+        let mut known: Vec<u32> = cx.environment.machine.engine.tools.keys().copied().collect();
         known.truncate(12);
         let listed = known.iter().map(u32::to_string).collect::<Vec<_>>().join(", ");
         report.add(
@@ -71,7 +71,7 @@ impl PathRule for ToolNotInTable {
                     "the table has {}",
                     if listed.is_empty() { "no tools".to_owned() } else { listed }
                 ))
-                .help("add the tool to the table, or name another one"),
+                .help("add the tool to the table, or choose another one"),
         );
     }
 }

@@ -2,19 +2,21 @@
 
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Event, Fact, Role};
+use gcheck_lint::work_offset_name;
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch, work_offset_name};
+use crate::declare::declare_rule;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program cuts in a work offset that `[offsets]` of the configuration lists, and in another one that it does not.
+    /// A program cuts in a work offset that `[offsets]` of the configuration lists, and in another one that it does not
+    /// list.
     ///
-    /// The rule speaks only where work offsets were told.
+    /// The rule needs work offsets in the configuration.
     ///
     /// ## Why it matters
-    /// A mistyped work offset sends the tool to a place where no part is. Where it is meant, travel and positions in it stay
-    /// unchecked until it is listed.
+    /// A mistyped work offset sends the tool to a place without a part. If the offset is right, its travel and
+    /// positions remain unchecked until it is listed.
     ///
     /// ## Reported
     /// With `G54` in `[offsets]`:
@@ -45,13 +47,13 @@ declare_rule! {
 struct WorkOffsetNotListed {
     /// A cut in an offset that is listed was seen.
     has_listed: bool,
-    /// By offset that is not: what is to be said of its first cut.
+    /// By offset that is not listed: the finding of its first cut.
     found: Vec<(u16, Finding)>,
 }
 
 remembers!(WorkOffsetNotListed: found);
 
-/// More are no slip.
+/// More of them are not a slip.
 const MOST: usize = 20;
 
 impl PathRule for WorkOffsetNotListed {
@@ -60,26 +62,26 @@ impl PathRule for WorkOffsetNotListed {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        !program.scene.machine.engine.offsets.is_empty()
+        !program.environment.machine.engine.offsets.is_empty()
             && program.may(|effect| matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_)))
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, _: &mut Report<'_>) {
         let Some(number) = cx.state().work() else { return };
-        if cx.scene.machine.engine.offsets.contains_key(&number) {
+        if cx.environment.machine.engine.offsets.contains_key(&number) {
             self.has_listed = true;
             return;
         }
         if self.found.len() >= MOST || self.found.iter().any(|(known, _)| *known == number) {
             return;
         }
-        // As it is at the start nobody chose it.
+        // The program did not choose the offset of the start.
         let Some(chosen) = cx.trace().set_by(Fact::Mode(Role::WorkOffset)) else { return };
         let is_offset = |word: &gcheck_program::Word| {
             matches!(cx.model.effect(word.code), Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
         };
         let place = cx.find_word(chosen, is_offset).unwrap_or_else(|| cx.range());
-        // As the program writes it: some offsets have two names.
+        // The name in the program: some offsets have two names.
         let code = cx.state().mode(Role::WorkOffset).only().unwrap_or(CodeIx::NONE);
         let name = match cx.model.effect(code) {
             Effect::WorkOffsetByP(first) if first <= number => {
@@ -98,7 +100,7 @@ impl PathRule for WorkOffsetNotListed {
         if !self.has_listed {
             return;
         }
-        let offsets = cx.scene.machine.engine.offsets.keys();
+        let offsets = cx.environment.machine.engine.offsets.keys();
         let names: Vec<String> =
             offsets.take(6).map(|n| format!("`{}`", work_offset_name(*n, cx.model))).collect();
         for (_, finding) in self.found.drain(..) {

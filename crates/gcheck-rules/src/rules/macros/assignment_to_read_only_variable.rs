@@ -5,14 +5,14 @@ use std::ops::Range;
 use gcheck_controls::{Access, Variable, VariableEntry};
 use gcheck_program::{BlockFlags, StatementKind, Target};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
     /// A program assigns to a variable that it may only read: the null variable, a position, a modal state.
     ///
     /// ## Why it matters
-    /// The control alarms at the block, or drops the value without a word.
+    /// The control stops with an alarm at the block, or silently ignores the assignment.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -68,8 +68,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn facts_that_are_assumed_give_a_warning() {
@@ -101,7 +100,7 @@ mod tests {
 
     #[test]
     fn names_are_compared_without_case() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "#<_Metric> = 1\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "#<_Metric> = 1\n", &World::default());
         expect![[r#"
             variable `#<_Metric>` can only be read
               here: assigned to here

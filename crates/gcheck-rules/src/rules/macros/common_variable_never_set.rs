@@ -6,17 +6,17 @@ use std::ops::Range;
 use gcheck_controls::{Unset, Variable, VariableEntry, VariableKind};
 use gcheck_program::{BinaryOp, BlockFlags, Op, Place, StatementKind, Target, Value};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::is_called_from_elsewhere;
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A common variable is computed with, or moves an axis, and no block on the way here sets it.
+    /// A common variable is used in a calculation or moves an axis, and no earlier block on this path sets it.
     ///
     /// ## Why it matters
-    /// It holds what the last program left there, or nothing. If the line that set it is lost, the program goes where another
-    /// job sent it. A value that somebody enters by hand before the start is worth a remark in the program.
+    /// It holds what the last program left there, or nothing. If the line that set it is lost, the program uses the
+    /// value of another job. If the operator enters the value before the start, say so in a comment in the program.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -26,7 +26,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// A switch that the operator sets, a counter that goes on from job to job, and a test for nothing:
+    /// A switch that the operator sets, a counter that continues from job to job, and a test for null:
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// IF [#101 EQ 1] GOTO 10
@@ -46,7 +46,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct CommonVariableNeverSet {
-    /// Told, or asked for by a condition before they are used: what the program looks at, somebody else sets.
+    /// Configured, or tested by a condition before use: a variable that the program tests is set elsewhere.
     known: HashSet<u32>,
 }
 
@@ -58,7 +58,7 @@ impl PathRule for CommonVariableNeverSet {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.scene.control().semantics().unset == Unset::Vacant
+        program.environment.control().semantics().unset == Unset::Vacant
             && !is_called_from_elsewhere(program.survey)
     }
 
@@ -72,7 +72,7 @@ impl PathRule for CommonVariableNeverSet {
             if is_known || !SCRATCH.contains(&variable) {
                 continue;
             }
-            let Variable::Known(entry) = cx.scene.control().variable(variable) else { continue };
+            let Variable::Known(entry) = cx.control().variable(variable) else { continue };
             if !belongs_to_the_program(cx, entry) {
                 continue;
             }
@@ -80,20 +80,20 @@ impl PathRule for CommonVariableNeverSet {
             if let Use::Value(range) = how {
                 let keeps = match entry.kind {
                     VariableKind::Common => {
-                        "it holds nothing after power-on, else what the last program left"
+                        "it is null after power-on, else it holds what the last program left"
                     }
-                    _ => "it holds what was left there, also over power off",
+                    _ => "it keeps its value, also when the power is off",
                 };
                 report.add(
                     cx.finding(
                         &META,
                         range,
-                        format!("`#{variable}` is used here and nothing before sets it"),
+                        format!("`#{variable}` is used here, and no earlier block sets it"),
                     )
-                    .label("holds what was left there, or nothing")
+                    .label("holds what an earlier program left there, or nothing")
                     .note(format!("{}: {keeps}  [{}]", entry.title, entry.source))
                     .help(format!(
-                        "set `#{variable}` at the head of the program, or say in a remark who does"
+                        "set `#{variable}` at the head of the program, or say in a comment what sets it"
                     )),
                 );
             }
@@ -101,11 +101,11 @@ impl PathRule for CommonVariableNeverSet {
     }
 }
 
-/// What programs compute with, by the custom of all macro controls; variables behind are set up once.
+/// Programs compute with these, by the custom of all macro controls; the variables after them are set up once.
 const SCRATCH: std::ops::RangeInclusive<u32> = 100..=199;
 
-/// Is the variable for the program to set? One that survives power off may be set up once; but not where the program
-/// sets its neighbours itself.
+/// Should the program set the variable? One that survives power off may be set up once, unless the program sets its
+/// neighbours itself.
 fn belongs_to_the_program(cx: &PathCx<'_>, entry: &VariableEntry) -> bool {
     let Some([first, last]) = entry.range else { return false };
     match entry.kind {
@@ -119,7 +119,7 @@ fn belongs_to_the_program(cx: &PathCx<'_>, entry: &VariableEntry) -> bool {
 enum Use {
     /// For its value: bytes of the word or statement.
     Value(Range<u32>),
-    /// In a condition, or to count on from what was there: on purpose.
+    /// In a condition, or to count on from its old value: deliberate.
     Looked,
 }
 
@@ -168,8 +168,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_first_use_of_each_variable_is_marked() {
@@ -179,11 +178,11 @@ mod tests {
             "O1\n#100=1\nG0 X#101\nY[#101+#102]\nWHILE [#103 LT 5] DO1\n#103=#103+1\nEND1\nM30\n",
             &expect![[r#"
                 3 | G0 X#101
-                  |    ^^^^^ info[common-variable-never-set] `#101` is used here and nothing before sets it
+                  |    ^^^^^ info[common-variable-never-set] `#101` is used here, and no earlier block sets it
                 4 | Y[#101+#102]
-                  | ^^^^^^^^^^^^ info[common-variable-never-set] `#102` is used here and nothing before sets it
+                  | ^^^^^^^^^^^^ info[common-variable-never-set] `#102` is used here, and no earlier block sets it
                 5 | WHILE [#103 LT 5] DO1
-                  | ^^^^^^^^^^^^^^^^^^^^^ info[common-variable-never-set] `#103` is used here and nothing before sets it
+                  | ^^^^^^^^^^^^^^^^^^^^^ info[common-variable-never-set] `#103` is used here, and no earlier block sets it
             "#]],
         );
     }
@@ -209,20 +208,20 @@ mod tests {
             "haas-mill",
             "O1\n#102= 3.\nG0 X#101 Y#102\nM30\n",
             &expect![[r#"
-            3 | G0 X#101 Y#102
-              |    ^^^^^ info[common-variable-never-set] `#101` is used here and nothing before sets it
-        "#]],
+                3 | G0 X#101 Y#102
+                  |    ^^^^^ info[common-variable-never-set] `#101` is used here, and no earlier block sets it
+            "#]],
         );
     }
 
     #[test]
     fn words_say_how_long_the_variable_lives() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "O1\nG0 X#101\nM30\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "O1\nG0 X#101\nM30\n", &World::default());
         expect![[r#"
-            `#101` is used here and nothing before sets it
-              here: holds what was left there, or nothing
-              note: common variables, emptied at power-off: it holds nothing after power-on, else what the last program left  [MACRO-B]
-              help: set `#101` at the head of the program, or say in a remark who does
+            `#101` is used here, and no earlier block sets it
+              here: holds what an earlier program left there, or nothing
+              note: common variables, emptied at power-off: it is null after power-on, else it holds what the last program left  [MACRO-B]
+              help: set `#101` at the head of the program, or say in a comment what sets it
         "#]].assert_eq(&words(&found[0]));
     }
 }

@@ -4,14 +4,16 @@ use gcheck_controls::Variable;
 use gcheck_engine::Fault;
 use gcheck_program::{StatementKind, Target};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
-    /// The number of the variable that is assigned to is computed, and comes to one that a program may only read.
+    /// The number of the assigned variable is computed, and its value is that of a variable that a program may only
+    /// read.
     ///
     /// ## Why it matters
-    /// The control alarms at the block, or drops the value without a word. Often a loop over variables goes one too far.
+    /// The control stops with an alarm at the block, or silently ignores the assignment. Often a loop over variables
+    /// goes one too far.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -44,14 +46,14 @@ impl PathRule for ComputedVariableReadOnly {
         let mut statements = place.table.statements(place.ix);
         let computed =
             statements.find(|s| matches!(&s.kind, StatementKind::Assign { target: Target::Computed(_), .. }));
-        // A number as it stands is told without executing the block.
+        // Another rule reports a written number without executing the block.
         let Some(statement) = computed else { return };
         let range = place.base + statement.range.start..place.base + statement.range.end;
         let mut finding = cx
             .finding(&META, range, format!("computed assignment to `#{number}`, which can only be read"))
-            .label(format!("the number comes to {number} here"))
-            .help("check what the number is computed from");
-        if let Variable::Known(entry) = cx.scene.control().variable(*number) {
+            .label(format!("the number is {number} here"))
+            .help("check the expression of the number");
+        if let Variable::Known(entry) = cx.control().variable(*number) {
             finding = finding
                 .note(format!("`#{number}`: {}  [{}]", entry.title, entry.source))
                 .at_most(limit(entry.confidence));

@@ -2,14 +2,14 @@
 
 use gcheck_program::{BlockFlags, ExprIx, OKeyword, Op, StatementKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A condition asks for nothing that could change: no variable stands in it.
+    /// A condition has no variable, so its value never changes.
     ///
     /// ## Why it matters
-    /// One of the two ways is never taken. It is a switch left from testing, or a variable that lost its `#`.
+    /// One of the two branches is never taken. Either the condition is left from testing, or a variable lost its `#`.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -23,7 +23,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ## Not reported
-    /// A loop that something inside it ends.
+    /// A loop that a block inside it ends.
     /// ```nc,quiet,linuxcnc
     /// o1 while [1]
     /// o2 if [#100 GT 5]
@@ -54,8 +54,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         if is_fixed(cx, condition) {
             report.add(
                 Finding::new(&META, cx.in_file(statement.range.clone()), "condition is the same every time")
-                    .label("no variable stands in it")
-                    .help("compare with a variable, or take the condition out"),
+                    .label("it has no variable")
+                    .help("compare with a variable, or remove the condition"),
             );
         }
     }

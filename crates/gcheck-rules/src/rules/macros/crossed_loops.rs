@@ -2,15 +2,15 @@
 
 use gcheck_program::Loop;
 
-use crate::loops::LoopFault;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::do_loops::{LoopFault, loop_faults};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// A loop is closed while a loop inside it is still open.
     ///
     /// ## Why it matters
-    /// Loops must lie inside each other. The control alarms, or repeats blocks that were not meant to be repeated.
+    /// Loops must be nested in each other. The control stops with an alarm, or repeats the wrong blocks.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -40,7 +40,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for fault in cx.loop_faults() {
+    for fault in loop_faults(cx) {
         if let LoopFault::Crossed { end, begin, inner } = fault {
             report.add(finding(end, begin, inner));
         }
@@ -61,8 +61,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_early_end_is_marked() {
@@ -79,8 +78,7 @@ mod tests {
 
     #[test]
     fn both_beginnings_are_shown() {
-        let found =
-            findings(&Selection::only(&RULE), "fanuc-mill", "DO1\nDO2\nEND1\nEND2\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "DO1\nDO2\nEND1\nEND2\n", &World::default());
         expect![[r#"
             loops `DO1` and `DO2` overlap
               here: closes loop 1 while loop 2 is open

@@ -2,15 +2,15 @@
 
 use gcheck_program::Loop;
 
-use crate::loops::LoopFault;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::do_loops::{LoopFault, loop_faults};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// `DO` takes a number that a loop around it has.
+    /// `DO` uses the number of a loop around it.
     ///
     /// ## Why it matters
-    /// An `END` can then belong to either loop: the control alarms, or leaves the wrong one.
+    /// An `END` can then belong to either loop: the control stops with an alarm, or leaves the wrong loop.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -41,7 +41,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for fault in cx.loop_faults() {
+    for fault in loop_faults(cx) {
         if let LoopFault::NumberInUse { begin, outer } = fault {
             report.add(finding(begin, outer));
         }
@@ -53,7 +53,7 @@ fn finding(begin: &Loop, outer: &Loop) -> Finding {
     Finding::new(
         &META,
         begin.range.clone(),
-        format!("loop number {number} is in use by the loop around (`DO{number}`)"),
+        format!("loop number {number} is in use by the loop around it (`DO{number}`)"),
     )
     .label("begins inside a loop of the same number")
     .also(outer.range.clone(), "the outer loop begins here")
@@ -65,8 +65,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_inner_loop_is_marked() {
@@ -75,18 +74,17 @@ mod tests {
             "fanuc-mill",
             "DO2\nDO2\nEND2\nEND2\n",
             &expect![[r#"
-            2 | DO2
-              | ^^^ error[do-number-in-use] loop number 2 is in use by the loop around (`DO2`)
-        "#]],
+                2 | DO2
+                  | ^^^ error[do-number-in-use] loop number 2 is in use by the loop around it (`DO2`)
+            "#]],
         );
     }
 
     #[test]
     fn the_outer_loop_is_shown() {
-        let found =
-            findings(&Selection::only(&RULE), "fanuc-lathe", "DO1\nDO1\nEND1\nEND1\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", "DO1\nDO1\nEND1\nEND1\n", &World::default());
         expect![[r#"
-            loop number 1 is in use by the loop around (`DO1`)
+            loop number 1 is in use by the loop around it (`DO1`)
               here: begins inside a loop of the same number
               there: the outer loop begins here
               help: give the inner loop, and its `END`, another number

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use gcheck_program::{BlockFlags, ExprIx, StatementKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
     /// `DO` or `END` has a number outside the control's range.
     ///
     /// ## Why it matters
-    /// The control alarms at the block.
+    /// The control stops with an alarm at the block.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -37,7 +37,7 @@ declare_rule! {
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some([lowest, highest]) = cx.control().limits().do_numbers else { return };
     for statement in cx.statements() {
-        // The END of such a loop repeats the mistake; only the DO is told.
+        // The END of such a loop has the same number; only the DO is reported.
         let StatementKind::Do { number: Some(number), .. } = statement.kind else { continue };
         let Some(value) = cx.table().constant(number) else { continue };
         if value.fract() != 0.0 || !(f64::from(lowest)..=f64::from(highest)).contains(&value) {
@@ -46,7 +46,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The number itself, or the statement where its place is not kept.
+/// The number itself, or the statement if the place of the number is not kept.
 fn place(cx: &BlockCx<'_>, number: ExprIx, statement: &Range<u32>) -> Range<u32> {
     let text = cx.slice(statement.clone());
     let digits = text.len() - text.trim_end_matches(|c: char| c.is_ascii_digit() || c == '.').len();
@@ -69,8 +69,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_number_is_marked_once() {
@@ -94,11 +93,11 @@ mod tests {
 
     #[test]
     fn the_range_is_said() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "DO0\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "DO0\n", &World::default());
         expect![[r#"
             loop number `DO0` is outside 1 to 3
               here: no such loop
-              note: this control numbers its loops 1 to 3  [HM17 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
+              note: this control numbers its loops 1 to 3  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
               help: number the loop, and its `END`, from 1 to 3
         "#]].assert_eq(&words(&found[0]));
     }

@@ -3,14 +3,15 @@
 use gcheck_controls::{Letter, WordKind};
 use gcheck_program::{BlockFlags, Value, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
     /// `N` or `O` has a variable or an expression instead of a number.
     ///
     /// ## Why it matters
-    /// The control finds blocks and programs by their written numbers. No control computes them, most alarm at the block.
+    /// The control finds blocks and programs by their written numbers. No control computes them; most stop with an
+    /// alarm at the block.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -20,7 +21,7 @@ declare_rule! {
     /// N[#1+10] G0 X1
     /// ```
     /// ## Not reported
-    /// A jump may compute where it goes, and where `O` labels subroutines a call may compute which one it calls.
+    /// A jump may compute its target, and if `O` labels subroutines, a call may compute which one it calls.
     /// ```nc,quiet,fanuc-mill
     /// N10 GOTO #1
     /// ```
@@ -59,7 +60,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     let what = if word.letter == Letter::of('N') { "sequence number" } else { "program number" };
     Finding::new(&META, cx.range(word), format!("{what} `{}` is computed", cx.text(word)))
         .label("must be a written number")
-        .note("variables are not read in `N`, in `O` and behind `/`; all RS-274 controls share this")
+        .note("controls do not read variables in `N`, in `O` and after `/`; all RS-274 controls share this")
         .help("write the number")
 }
 
@@ -68,8 +69,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn other_words_may_be_computed() {
@@ -88,11 +88,11 @@ mod tests {
 
     #[test]
     fn what_is_said() {
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", "O#100\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", "O#100\n", &World::default());
         expect![[r#"
             program number `O#100` is computed
               here: must be a written number
-              note: variables are not read in `N`, in `O` and behind `/`; all RS-274 controls share this
+              note: controls do not read variables in `N`, in `O` and after `/`; all RS-274 controls share this
               help: write the number
         "#]]
         .assert_eq(&words(&found[0]));

@@ -5,8 +5,8 @@ use std::ops::Range;
 use gcheck_engine::{Fault, FrameKind, ValueFault};
 use gcheck_program::{BinaryOp, Function, Op};
 
-use crate::meta::declare_rule;
-use crate::usage::{expressions, is_called_from_elsewhere};
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -53,34 +53,34 @@ impl PathRule for ExpressionWithoutValue {
             ValueFault::DivisionByZero => (
                 "division by zero",
                 "the divisor is zero here",
-                "see that the divisor is set, and not zero, before this block",
+                "make sure that the divisor is set, and not zero, before this block",
             ),
             ValueFault::NegativeRoot => (
                 "root of a negative number (`SQRT`)",
                 "the number is below zero here",
-                "check the numbers that go into the root",
+                "check the values in the root",
             ),
             ValueFault::LogarithmOfNonPositive => (
                 "logarithm of a number that is not above zero (`LN`)",
                 "the number is zero or below here",
-                "check the numbers that go into the logarithm",
+                "check the values in the logarithm",
             ),
             ValueFault::ArcFunctionRange => (
-                "arc function of a number beyond one (`ASIN`, `ACOS`)",
+                "arc function of a number outside -1 to 1 (`ASIN`, `ACOS`)",
                 "the number is not between -1 and 1 here",
-                "check the numbers that go into the function",
+                "check the values in the function",
             ),
             ValueFault::NegativePower => (
                 "negative number to a power that is not whole",
                 "the base is below zero here",
-                "check the numbers that go into the power",
+                "check the values in the power",
             ),
             ValueFault::NotFinite => (
                 "number too large to compute with",
-                "the result has no end",
-                "check the numbers that go into the expression",
+                "the result is infinite",
+                "check the values in the expression",
             ),
-            // Rules of the token and block tier speak of these.
+            // Rules of the token and block tier report these.
             ValueFault::Malformed | ValueFault::NoSuchFunction => return,
         };
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind != FrameKind::Main);
@@ -97,7 +97,7 @@ impl PathRule for ExpressionWithoutValue {
     }
 }
 
-/// The expression, if only one of the block can be it.
+/// The expression, if the block has only one candidate.
 fn place(cx: &PathCx<'_>, fault: ValueFault) -> Range<u32> {
     let Some(place) = cx.place() else { return cx.range() };
     let may_be_it = |op: &Op| match fault {
@@ -108,8 +108,8 @@ fn place(cx: &PathCx<'_>, fault: ValueFault) -> Range<u32> {
         ValueFault::NegativePower => matches!(op, Op::Binary(BinaryOp::Power) | Op::Call(Function::Pow, _)),
         _ => true,
     };
-    let mut found = expressions(&place)
-        .into_iter()
+    let mut found = place
+        .expressions()
         .map(|ix| place.table.expr(ix))
         .filter(|expr| place.table.ops(expr).iter().any(may_be_it));
     match (found.next(), found.next()) {
@@ -137,7 +137,7 @@ mod tests {
                 3 | #3=LN[#1]
                   |    ^^^^^^ error[expression-without-value] logarithm of a number that is not above zero (`LN`)
                 4 | G0 X[ACOS[2]] Y[1+1]
-                  |     ^^^^^^^^^ error[expression-without-value] arc function of a number beyond one (`ASIN`, `ACOS`)
+                  |     ^^^^^^^^^ error[expression-without-value] arc function of a number outside -1 to 1 (`ASIN`, `ACOS`)
                 5 | #4=[[0-8]**.5]
                   |    ^^^^^^^^^^^ error[expression-without-value] negative number to a power that is not whole
                 6 | G0 Z[SQRT[0-1]]

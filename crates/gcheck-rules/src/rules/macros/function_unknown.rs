@@ -4,15 +4,15 @@ use std::ops::Range;
 
 use gcheck_program::{BlockFlags, Function, Op};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
     /// An expression calls a function that is not among those of the control.
     ///
     /// ## Why it matters
-    /// The control alarms at the block. Functions differ: `POW` and `BIN` are macro functions of some controls only, `EXISTS`
-    /// of others.
+    /// The control stops with an alarm at the block. Functions differ: only some controls have `POW` and `BIN`, only
+    /// others have `EXISTS`.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -35,7 +35,7 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    // A control whose functions nobody listed is not judged.
+    // A control without a list of functions is not judged.
     if cx.control().functions().is_empty() {
         return;
     }
@@ -68,8 +68,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn functions_are_found_in_words_conditions_and_assignments() {
@@ -88,7 +87,7 @@ mod tests {
 
     #[test]
     fn the_functions_of_the_control_are_listed() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "#1= EXISTS[#2]\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "#1= EXISTS[#2]\n", &World::default());
         expect![[r#"
             function `EXISTS` is not known on this control
               here: no such function

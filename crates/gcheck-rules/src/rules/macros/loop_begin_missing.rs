@@ -2,15 +2,15 @@
 
 use gcheck_program::Loop;
 
-use crate::loops::LoopFault;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::do_loops::{LoopFault, loop_faults};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// `END` closes a loop that no `DO` with its number began.
     ///
     /// ## Why it matters
-    /// The control alarms at the `END`, or goes back to a loop that was meant to be over.
+    /// The control stops with an alarm at the `END`, or returns to a loop that should have ended.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -21,7 +21,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// The same number may serve one loop after another.
+    /// Loops that follow each other may use the same number.
     /// ```nc,quiet,haas-mill
     /// WHILE [#1 LT 10] DO1
     /// #1= #1 + 1
@@ -41,7 +41,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for fault in cx.loop_faults() {
+    for fault in loop_faults(cx) {
         if let LoopFault::BeginMissing(end) = fault {
             report.add(finding(end));
         }
@@ -52,7 +52,7 @@ fn finding(end: &Loop) -> Finding {
     let number = end.number.unwrap_or_default();
     Finding::new(&META, end.range.clone(), format!("loop end `END{number}` has no `DO{number}`"))
         .label("closes no loop that is open here")
-        .note("the loop must have begun in front, in the same program")
+        .note("the loop must begin before this block, in the same program")
         .help(format!("begin the loop with `DO{number}`, or remove this `END{number}`"))
 }
 

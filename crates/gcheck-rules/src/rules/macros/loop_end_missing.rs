@@ -2,15 +2,16 @@
 
 use gcheck_program::Loop;
 
-use crate::loops::LoopFault;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::do_loops::{LoopFault, loop_faults};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// `DO` begins a loop that no `END` with its number closes.
     ///
     /// ## Why it matters
-    /// The control looks for the `END` and alarms when it does not find it, with the machine wherever the loop was reached.
+    /// The control searches for the `END` and stops with an alarm when it does not find it, with the tool wherever it
+    /// was when the loop began.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -36,7 +37,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    for fault in cx.loop_faults() {
+    for fault in loop_faults(cx) {
         if let LoopFault::EndMissing(begin) = fault {
             report.add(finding(begin));
         }

@@ -1,16 +1,16 @@
-//! More loops inside each other than the control takes.
+//! More nested loops than the control allows.
 
 use gcheck_program::Loop;
 
-use crate::loops::LoopFault;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::do_loops::{LoopFault, loop_faults};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A loop begins inside as many loops as the control can nest.
+    /// A loop begins inside the highest number of loops that the control can nest.
     ///
     /// ## Why it matters
-    /// The control has a loop number for each level and alarms when they are used up.
+    /// The control has a loop number for each level and stops with an alarm when all are in use.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -45,8 +45,8 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some([lowest, highest]) = cx.control().limits().do_numbers else { return };
-    for fault in cx.loop_faults() {
-        // A number out of range is the mistake then.
+    for fault in loop_faults(cx) {
+        // In that case the number out of range is the mistake.
         if let LoopFault::TooDeep { begin, outermost } = fault
             && begin.number.is_some_and(|n| (f64::from(lowest)..=f64::from(highest)).contains(&n))
         {
@@ -69,8 +69,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     const FOUR: &str = "DO1\nDO2\nDO3\nDO1\nEND1\nEND3\nEND2\nEND1\n";
 
@@ -89,12 +88,12 @@ mod tests {
 
     #[test]
     fn the_limit_and_its_source_are_said() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", FOUR, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", FOUR, &World::default());
         expect![[r#"
             more than 3 loops are nested in each other
               here: this loop is one level deeper than 3
               there: the outermost loop begins here
-              note: this control nests 3 loops  [HM17 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
+              note: this control nests 3 loops  [HM17 p.125, p.133 (one M code), 6.14.10 (DO numbers), 6.14.12 (nine nested G65 calls); the rest general knowledge]
               help: move the inner loop into a subprogram, or use `IF` and `GOTO`
         "#]].assert_eq(&words(&found[0]));
     }

@@ -1,4 +1,4 @@
-//! A local variable that may be read before anything set it.
+//! A local variable that may be read before it is set.
 
 use std::collections::HashSet;
 
@@ -6,16 +6,16 @@ use gcheck_controls::Unset;
 use gcheck_engine::{Abstract, AbstractValue, Domain, FrameKind, Truth};
 use gcheck_program::{BlockFlags, Op};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::{blocks_with, expressions, is_called_from_elsewhere};
+use crate::declare::declare_rule;
+use crate::facts::usage::{blocks_with, is_called_from_elsewhere};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A local variable is read that some paths to this block set and some do not.
+    /// A local variable is read, and only some paths to this block set it.
     ///
     /// ## Why it matters
-    /// On those that do not, it holds nothing: zero in arithmetic, and a word with it is passed over.
+    /// On the other paths it is null: it counts as zero in arithmetic, and the control ignores a word with it.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -46,7 +46,7 @@ declare_rule! {
 #[derive(Default, Clone, PartialEq)]
 struct MaybeVariableUnset {
     told: HashSet<u32>,
-    /// Variables that the program asks whether they hold nothing; made when first asked for.
+    /// Variables that the program tests for null; filled when first needed.
     tested: Option<HashSet<u32>>,
 }
 
@@ -58,14 +58,14 @@ impl PathRule for MaybeVariableUnset {
     }
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.scene.control().semantics().unset == Unset::Vacant
+        program.environment.control().semantics().unset == Unset::Vacant
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if !cx.origin().flags.intersects(BlockFlags::EXPRESSION | BlockFlags::STATEMENT) {
             return;
         }
-        // A macro is given its variables, or not, on purpose.
+        // Arguments of a macro may be missing on purpose.
         if cx
             .state()
             .frames()
@@ -79,7 +79,7 @@ impl PathRule for MaybeVariableUnset {
         for expr in expressions.iter() {
             let expr = table.expr(*expr);
             let ops = table.ops(expr);
-            // Compared with nothing.
+            // Compared with null.
             if ops.contains(&Op::Variable(0)) {
                 continue;
             }
@@ -98,20 +98,20 @@ impl PathRule for MaybeVariableUnset {
                 let range = base + expr.range.start..base + expr.range.end;
                 let finding = cx
                     .finding(&META, range, format!("variable `#{variable}` may be read before it is set"))
-                    .label("holds nothing on some path to this block")
-                    .help(format!("set `#{variable}` before the paths part"));
+                    .label("holds nothing on some paths to this block")
+                    .help(format!("set `#{variable}` before the paths separate"));
                 report.add(cx.with_path(finding));
             }
         }
     }
 }
 
-/// Variables that stand beside `#0` in an expression.
+/// Variables that an expression compares with `#0`.
 fn tested(cx: &PathCx<'_>) -> HashSet<u32> {
     let flags = BlockFlags::EXPRESSION | BlockFlags::STATEMENT;
     let mut tested = HashSet::new();
-    for (_, place) in blocks_with(cx.program, cx.scene, flags) {
-        for expr in expressions(&place) {
+    for (_, place) in blocks_with(cx.program, cx.environment, flags) {
+        for expr in place.expressions() {
             let ops = place.table.ops(place.table.expr(expr));
             if ops.contains(&Op::Variable(0)) {
                 tested.extend(ops.iter().filter_map(|op| match op {

@@ -1,18 +1,19 @@
-//! A modal macro call that nobody ended.
+//! A modal macro call that is not ended.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A modal macro call (`G66`) is still on where the tool is changed or the program ends.
+    /// A modal macro call (`G66`) is still on when the tool is changed or the program ends.
     ///
     /// ## Why it matters
-    /// The macro runs after every block that moves: at the tool change position, and in what runs next.
+    /// The macro runs after every block that moves: at the tool change position, and in the next program.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -45,7 +46,7 @@ declare_rule! {
         summary: "modal macro call left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -72,13 +73,13 @@ impl PathRule for ModalCallLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(place) = cx.boundary().filter(|_| cx.depth() == 1) {
+        if let Some(place) = boundary(cx).filter(|_| cx.depth() == 1) {
             self.judge(cx, place, report);
         }
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.judge(cx, Boundary::ProgramEnd, report);
         }
     }
@@ -90,7 +91,7 @@ impl ModalCallLeftOn {
             return;
         }
         let is_on = |effect| effect == Effect::MacroModal;
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::MacroModal, is_on) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::MacroModal, is_on) else { return };
         let fact = Fact::Mode(Role::MacroModal);
         let set_by = cx.trace().set_by(fact);
         if set_by.is_none() || set_by == self.told {
@@ -98,15 +99,15 @@ impl ModalCallLeftOn {
         }
         self.told = set_by;
         let name = cx.name_of(code);
-        let off = cx.cancel_of(Effect::MacroModalOff).unwrap_or_default();
+        let off = cx.name_of_effect(Effect::MacroModalOff).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
-                cx.boundary_range(place),
+                boundary_range(cx, place),
                 format!("the modal macro call is still on {} (`{name}`)", place.words()),
             )
             .label("the next block that moves calls the macro")
-            .help(format!("end it with `{off}` before"))
+            .help(format!("end it with `{off}` before this this"))
             .fix_if(cx.block_before(Some(&off)));
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }
@@ -117,8 +118,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     const MACRO: &str = "O9010\nG1 Z-#1 F100.\nM99\n";
 
@@ -138,7 +138,7 @@ mod tests {
     #[test]
     fn the_fix_ends_it_before() {
         let program = format!("O1\nG66 P9010 A1.\nX10.\nT2 M6\nM30\n{MACRO}");
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", &program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", &program, &World::default());
         assert_eq!(fixed(&program, &found[0]), format!("O1\nG66 P9010 A1.\nX10.\nG67\nT2 M6\nM30\n{MACRO}"));
     }
 }

@@ -1,19 +1,20 @@
-//! A named parameter that is read before anything set it.
+//! A named parameter that is read before it is set.
 
 use std::ops::Range;
 
 use gcheck_engine::Fault;
 use gcheck_program::{BlockFlags, Op, Place, StatementKind, Target};
 
-use crate::meta::declare_rule;
-use crate::usage::{blocks_with, expressions};
+use crate::declare::declare_rule;
+use crate::facts::usage::blocks_with;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// A named parameter (`#<name>`) is read on a path on which nothing set it.
+    /// A named parameter (`#<name>`) is read on a path that does not set it.
     ///
     /// ## Why it matters
-    /// The control stops: the name is not defined. Often it is a slip of the pen, or a local name of another subroutine.
+    /// The control stops: the name is not defined. Often the name is mistyped, or it is a local name of another
+    /// subroutine.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -59,7 +60,7 @@ impl PathRule for NamedParameterUnset {
         let Some(file) = cx.program.file(0) else { return };
         let text = file.loaded.chunk_text(place.chunk);
         let names = names(&place, text);
-        // Of several names those that the file sets somewhere are not likely to be it.
+        // Of several names, those that the file sets somewhere are unlikely to be the cause.
         let set = names_set(cx);
         let suspects: Vec<_> = match names.as_slice() {
             [only] => vec![only],
@@ -67,12 +68,12 @@ impl PathRule for NamedParameterUnset {
         };
         let finding = match suspects.as_slice() {
             // The control has a value for its own names.
-            [(name, _)] if cx.scene.control().named_parameter(name).is_some() => return,
+            [(name, _)] if cx.control().named_parameter(name).is_some() => return,
             [(name, range)] => {
                 let range = place.base + range.start..place.base + range.end;
                 let finding = cx
                     .finding(&META, range, format!("named parameter `#<{name}>` is read before it is set"))
-                    .label("nothing set it on the way here")
+                    .label("no block on this path sets it")
                     .help(format!("set `#<{name}>` before this block, or correct the name"));
                 if name.contains('[') && !name.contains(']') {
                     report.add(finding.help("close the bracket `[` of the name"));
@@ -80,7 +81,7 @@ impl PathRule for NamedParameterUnset {
                 }
                 let is_local_elsewhere = !name.starts_with('_') && set.contains(name);
                 if is_local_elsewhere {
-                    finding.note("a name without `_` in front belongs to one subroutine, or to the main part")
+                    finding.note("a name that does not begin with `_` belongs to one subroutine, or to the main program")
                 } else if name.starts_with('_') {
                     finding
                         .at_most(Severity::Warning)
@@ -91,7 +92,7 @@ impl PathRule for NamedParameterUnset {
             }
             _ => cx
                 .finding(&META, cx.range(), "named parameter is read before it is set")
-                .label("a name of this block has no value on the way here")
+                .label("a name in this block has no value on this path")
                 .help("set the parameter before this block, or correct its name")
                 .at_most(Severity::Warning),
         };
@@ -102,7 +103,7 @@ impl PathRule for NamedParameterUnset {
 /// Names that a block reads, with their bytes in the chunk.
 fn names(place: &Place, text: &str) -> Vec<(String, Range<u32>)> {
     let mut names: Vec<(String, Range<u32>)> = Vec::new();
-    for expr in expressions(place) {
+    for expr in place.expressions() {
         for op in place.table.ops(place.table.expr(expr)) {
             if let Op::Named { start, end } = op {
                 let name = key(text, &(*start..*end));
@@ -119,7 +120,7 @@ fn names(place: &Place, text: &str) -> Vec<(String, Range<u32>)> {
 fn names_set(cx: &PathCx<'_>) -> Vec<String> {
     let Some(file) = cx.program.file(0) else { return Vec::new() };
     let mut set = Vec::new();
-    for (_, place) in blocks_with(cx.program, cx.scene, BlockFlags::STATEMENT) {
+    for (_, place) in blocks_with(cx.program, cx.environment, BlockFlags::STATEMENT) {
         let text = file.loaded.chunk_text(place.chunk);
         for statement in place.table.statements(place.ix) {
             if let StatementKind::Assign { target: Target::Named(range), .. } = &statement.kind {

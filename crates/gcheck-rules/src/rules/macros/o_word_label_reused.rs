@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 
 use gcheck_program::{OKeyword, OLabel, OWord};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
@@ -23,7 +23,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ## Not reported
-    /// Labels of a subroutine are its own.
+    /// Each subroutine has its own labels.
     /// ```nc,quiet,linuxcnc
     /// o1 sub
     /// o100 if [#1 GT 0]
@@ -46,7 +46,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if !cx.control().syntax().o_words {
         return;
     }
-    // Definitions of the whole file's subroutines, of the main part, and of the subroutine at hand.
+    // Definitions of the subroutines of the file, of the main program, and of the present subroutine.
     let mut subs: Known<'_> = Known::new();
     let mut main: Known<'_> = Known::new();
     let mut local: Known<'_> = Known::new();
@@ -105,8 +105,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_do_loop_uses_its_label_twice_by_form() {
@@ -136,12 +135,8 @@ mod tests {
 
     #[test]
     fn the_first_definition_is_shown() {
-        let found = findings(
-            &Selection::only(&RULE),
-            "linuxcnc",
-            "o<A> sub\no<A> endsub\no<a> sub\n",
-            &World::default(),
-        );
+        let found =
+            findings(&only(&RULE), "linuxcnc", "o<A> sub\no<A> endsub\no<a> sub\n", &World::default());
         expect![[r#"
             label `o<a>` is defined twice
               here: defined again

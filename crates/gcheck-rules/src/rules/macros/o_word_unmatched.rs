@@ -1,16 +1,16 @@
-//! Flow control by O-words that does not pair up.
+//! An O-word without its partner.
 
 use gcheck_program::{OKeyword, OLabel, OWord};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// An O-word that opens, continues or closes a structure has no partner with its label.
     ///
     /// ## Why it matters
-    /// The control looks through the file for the partner. It stops with an error, or runs blocks that were meant to be
-    /// skipped: an `if` without `endif` may pass unnoticed as long as its condition holds.
+    /// The control searches the file for the partner. It stops with an error, or runs blocks that should be skipped: an
+    /// `if` without `endif` may go unnoticed as long as its condition holds.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -26,7 +26,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ## Not reported
-    /// Labels are their subroutine's own; a `break` names its loop from inside other structures.
+    /// Each subroutine has its own labels; a `break` names its loop from inside other structures.
     /// ```nc,quiet,linuxcnc
     /// o1 sub
     /// o2 while [#1 GT 0]
@@ -50,7 +50,7 @@ declare_rule! {
     }
 }
 
-/// Structures inside each other beyond which a file is no program that anybody wrote.
+/// No real program nests more structures than this.
 const DEEPEST: usize = 256;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
@@ -144,7 +144,7 @@ fn no_opener(cx: &FileCx<'_>, word: &OWord, openers: &[OKeyword]) -> Finding {
 fn no_closer(cx: &FileCx<'_>, word: &OWord) -> Finding {
     let closer = closer(word.keyword).name().to_ascii_lowercase();
     Finding::new(&META, word.range.clone(), format!("O-word `{}` has no `{closer}`", written(cx, word)))
-        .label("opened here and not closed in its place")
+        .label("opened here and not closed where it should be")
         .note("the control looks for the end of the structure to the end of the file when it has to skip it")
         .help(format!("close it with `{closer}` and the same label"))
 }
@@ -154,8 +154,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn every_opener_wants_its_own_closer() {
@@ -218,7 +217,7 @@ mod tests {
 
     #[test]
     fn what_is_said() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "o<A B> endsub\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "o<A B> endsub\n", &World::default());
         expect![[r#"
             O-word `o<A B> endsub` has no `sub`
               here: no `sub` with this label is open here

@@ -1,17 +1,17 @@
-//! Two assignments in a block where the control takes one.
+//! Several assignments in a block.
 
 use std::ops::Range;
 
 use gcheck_program::{BlockFlags, Statement, StatementKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A block assigns to more than one variable, and the control takes one assignment a block.
+    /// A block assigns to more than one variable, and the control accepts one assignment per block.
     ///
     /// ## Why it matters
-    /// The control alarms at the block, or carries out only the first assignment.
+    /// The control stops with an alarm at the block, or carries out only the first assignment.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -46,10 +46,10 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, first: &Statement, second: &Statement, count: usize) -> Finding {
     let range = |s: &Statement| -> Range<u32> { cx.in_file(s.range.clone()) };
-    Finding::new(&META, range(second), format!("{count} assignments stand in one block"))
+    Finding::new(&META, range(second), format!("{count} assignments in one block"))
         .label("the second assignment of the block")
         .also(range(first), "the first")
-        .note("this control takes one assignment a block  [general knowledge]")
+        .note("this control accepts one assignment per block  [general knowledge]")
         .help("put each assignment in a block of its own")
 }
 
@@ -58,8 +58,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_second_assignment_is_marked() {
@@ -68,20 +67,20 @@ mod tests {
             "haas-lathe",
             "N10 #1= 1. #2= 2. #3= 3.\nIF [#1 EQ 1] THEN #2= 5.\n",
             &expect![[r#"
-            1 | N10 #1= 1. #2= 2. #3= 3.
-              |            ^^^^^^ warning[several-assignments] 3 assignments stand in one block
-        "#]],
+                1 | N10 #1= 1. #2= 2. #3= 3.
+                  |            ^^^^^^ warning[several-assignments] 3 assignments in one block
+            "#]],
         );
     }
 
     #[test]
     fn the_first_is_shown() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "#1= 1 #2= 2\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "#1= 1 #2= 2\n", &World::default());
         expect![[r#"
-            2 assignments stand in one block
+            2 assignments in one block
               here: the second assignment of the block
               there: the first
-              note: this control takes one assignment a block  [general knowledge]
+              note: this control accepts one assignment per block  [general knowledge]
               help: put each assignment in a block of its own
         "#]]
         .assert_eq(&words(&found[0]));

@@ -6,14 +6,14 @@ use std::ops::Range;
 use gcheck_controls::Ends;
 use gcheck_program::{Op, StatementKind, Target};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// A local variable gets a value, and nothing in the program reads it.
     ///
     /// ## Why it matters
-    /// Either the value is not needed, or the block that should read it reads another one: `#12` for `#21`.
+    /// Either the value is not needed, or the block that should read it reads another variable: `#12` for `#21`.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -31,7 +31,7 @@ declare_rule! {
     /// G0 X#1
     /// M30
     /// ```
-    /// What a call or a computed number may read is not known.
+    /// A call or a computed number may read any variable.
     /// ```nc,quiet,fanuc-mill
     /// O1
     /// #2=20.
@@ -49,7 +49,7 @@ declare_rule! {
     }
 }
 
-/// More variables than this nobody keeps in mind, and a file may be all assignments.
+/// A limit, because a file may consist of assignments only.
 const MOST: usize = 1000;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
@@ -92,7 +92,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         report.add(
             Finding::new(&META, range, format!("`#{number}` is set and never read"))
                 .label("nothing in the program reads it")
-                .help("take the assignment away, or read the variable where it was meant"),
+                .help("remove the assignment, or read the variable where its value is needed"),
         );
     }
 }

@@ -1,16 +1,16 @@
-//! A computed variable number that names no variable.
+//! A computed variable number that is not a whole number.
 
 use gcheck_engine::{Fault, FrameKind};
 
-use crate::meta::declare_rule;
-use crate::usage::is_called_from_elsewhere;
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// The number of a variable is computed (`#[…]`) and comes to no whole number from zero up.
+    /// The number of a variable is computed (`#[…]`), and its value is not a whole number from zero up.
     ///
     /// ## Why it matters
-    /// There is no such variable: the control stops, or reads another one than meant.
+    /// There is no such variable: the control stops, or reads the wrong one.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -52,8 +52,8 @@ impl PathRule for VariableNumberNotWhole {
         }
         let finding = cx
             .finding(&META, cx.range(), "computed number names no variable (`#[…]`)")
-            .label("comes to a fraction, or below zero, here")
-            .help("check what the number is computed from, or make it whole with `FIX` or `ROUND`");
+            .label("is a fraction, or below zero, here")
+            .help("check the expression of the number, or round it with `FIX` or `ROUND`");
         report.add(finding);
     }
 }

@@ -1,4 +1,4 @@
-//! A local variable that is read before anything set it.
+//! A local variable that is read before it is set.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -7,16 +7,16 @@ use gcheck_controls::Effect;
 use gcheck_engine::FrameKind;
 use gcheck_program::{BinaryOp, ExprIx, Op, Place, StatementKind, Value};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::usage::is_called_from_elsewhere;
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A local variable is used that no block on the way here has set: neither the program nor, in a macro, the call.
+    /// A local variable is used, and no block on this path has set it: neither the program nor, in a macro, the call.
     ///
     /// ## Why it matters
-    /// It holds nothing. In arithmetic nothing counts as zero, and a word with it is passed over: `G1 Z#3` does not move Z.
+    /// It is null. In arithmetic null counts as zero, and the control ignores a word with it: `G1 Z#3` does not move Z.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -35,7 +35,7 @@ declare_rule! {
     /// M99
     /// ```
     /// ## Not reported
-    /// A test for nothing, arguments handed on, and a program that is called from elsewhere.
+    /// A test for null, arguments that are passed on, and a program that is called from elsewhere.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// IF [#2 EQ #0] THEN #2=5.
@@ -71,13 +71,13 @@ remembers!(VariableReadBeforeSet);
 enum Use {
     /// In arithmetic, a comparison or a target.
     Computed,
-    /// `#5=#5+1`: counts from nothing, as from zero.
+    /// `#5=#5+1`: counts from null, as from zero.
     Counted,
-    /// The value of a word as it stands.
+    /// The value of a word.
     Word,
-    /// An argument of a call, or a copy: handed on.
+    /// An argument of a call, or a copy: passed on.
     HandedOn,
-    /// Compared with nothing.
+    /// Compared with null.
     Tested,
 }
 
@@ -111,7 +111,7 @@ impl PathRule for VariableReadBeforeSet {
             .flatten();
         let severity = match usage {
             Use::Tested | Use::HandedOn => return,
-            // A macro that moves the axes it is given drops the others on purpose.
+            // A macro that moves the axes of its arguments ignores the others on purpose.
             Use::Word if in_macro => return,
             Use::Counted => Severity::Info,
             Use::Computed | Use::Word => Severity::Warning,
@@ -119,12 +119,14 @@ impl PathRule for VariableReadBeforeSet {
         self.told.insert(variable);
         let message = match argument {
             Some((letter, _)) => {
-                format!("the call gives no `{letter}`, but the macro computes with it (`#{variable}`)")
+                format!(
+                    "the call does not give `{letter}`, but the macro uses it in arithmetic (`#{variable}`)"
+                )
             }
             None => format!("variable `#{variable}` is read before it is set"),
         };
         let label = match usage {
-            Use::Word => "holds nothing here: the control passes over the word",
+            Use::Word => "holds nothing here: the control ignores the word",
             _ => "holds nothing here, and counts as zero",
         };
         let help = match argument {
@@ -137,8 +139,8 @@ impl PathRule for VariableReadBeforeSet {
     }
 }
 
-/// The gravest use of a variable in a block, with its bytes. `None` when the block reads it in some way that its text does
-/// not show (`#[#1]`).
+/// The most serious use of a variable in a block, with its bytes. `None` when the block reads it in a way that its text
+/// does not show (`#[#1]`).
 fn usage(cx: &PathCx<'_>, place: &Place, variable: u32) -> Option<(Use, Range<u32>)> {
     let mut found: Option<(Use, Range<u32>)> = None;
     let mut see = |usage: Use, range: Range<u32>| {
@@ -233,7 +235,7 @@ mod tests {
             "O1\nG65 P2 A1.\nM30\nO2\nIF [#3 EQ #0] THEN #3=1.\n#30=#1/2+#2\nG0 X#30 Y#25\nM99\n",
             &expect![[r#"
                 6 | #30=#1/2+#2
-                  | ^^^^^^^^^^^ warning[variable-read-before-set] the call gives no `B`, but the macro computes with it (`#2`)
+                  | ^^^^^^^^^^^ warning[variable-read-before-set] the call does not give `B`, but the macro uses it in arithmetic (`#2`)
             "#]],
         );
     }

@@ -5,14 +5,14 @@ use std::ops::Range;
 use gcheck_controls::{Confidence, Control, Variable, VariableEntry};
 use gcheck_program::{BlockFlags, Function, Op, StatementKind, Target};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A variable lies between or behind the ranges that the control is known to have.
+    /// A variable is between or above the ranges that the control is known to have.
     ///
     /// ## Why it matters
-    /// The control alarms where the variable is used. A number out of range is often a slip of the finger.
+    /// The control stops with an alarm where the variable is used. Often the number is mistyped.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -22,7 +22,8 @@ declare_rule! {
     /// #1=#5700
     /// ```
     /// ## Not reported
-    /// Where the list of a control is not certain nothing is said; nor is the number of a computed variable known.
+    /// If the list of a control is uncertain, the rule does not report; the number of a computed variable is not known
+    /// either.
     /// ```nc,quiet,haas-mill
     /// #100= #[#1+49]
     /// #9000= 1.
@@ -46,12 +47,12 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
     for expr in cx.expressions() {
         let ops = cx.table().ops(expr);
-        // Asking whether a variable exists is no use of it.
+        // A test whether a variable exists is not a use of it.
         if ops.iter().any(|op| matches!(op, Op::Call(Function::Exists, _))) {
             continue;
         }
         for (ix, op) in ops.iter().enumerate() {
-            // `##50` reads the variable too; a number spoken of already is not repeated.
+            // `##50` reads the variable too; a number is reported once.
             if let Op::Variable(number) = op
                 && !ops.iter().take(ix).any(|o| o == op)
                 && let Some(gap) = gap(cx.control(), *number)
@@ -62,7 +63,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The listed ranges below and above a number that is in none of them, if what lies between is certain to be nothing.
+/// The listed ranges below and above a number outside all ranges, if the gap between them is certain.
 fn gap(control: &Control, number: u32) -> Option<(Option<&VariableEntry>, Option<&VariableEntry>)> {
     if matches!(control.variable(number), Variable::Known(_)) {
         return None;
@@ -74,8 +75,7 @@ fn gap(control: &Control, number: u32) -> Option<(Option<&VariableEntry>, Option
         .filter(|([first, _], _)| *first > number)
         .min_by_key(|([first, _], _)| *first)
         .map(|(_, v)| v);
-    // Listing every variable of a program is one thing, the control's own state another: only next to the former is a gap
-    // known to be one.
+    // Only next to a range of program variables is a gap certain; lists of the control's own state may be incomplete.
     let sure = |v: &VariableEntry| v.confidence == Confidence::Manual;
     let is_program = |v: &VariableEntry| v.kind != gcheck_controls::VariableKind::System;
     match (below, above) {
@@ -116,8 +116,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn reading_and_writing_are_shown_at_the_variable() {
@@ -152,7 +151,7 @@ mod tests {
 
     #[test]
     fn the_ranges_around_are_named() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "#40=1\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "#40=1\n", &World::default());
         expect![[r#"
             variable `#40` does not exist on this control
               here: no such variable

@@ -1,17 +1,17 @@
-//! A cylinder whose diameter is not in the program.
+//! A cylinder whose diameter the program does not give.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Cylinder, Event};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// Cylindrical mapping begins without a size, and no block before gave the rotary axis one.
+    /// Cylindrical mapping begins without a size, and no earlier block gave the rotary axis a size.
     ///
     /// ## Why it matters
-    /// The diameter is the one that whatever program ran last gave this axis since power-on, else that of the control's
-    /// setting. A drawing wrapped around the wrong diameter is stretched, and ends in the wrong place.
+    /// The diameter is the last one that any program gave this axis since power-on, else that of the control's setting.
+    /// A contour that is wrapped around the wrong diameter is stretched, and ends in the wrong place.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -25,7 +25,7 @@ declare_rule! {
     /// G1 Y1. F10.
     /// M30
     /// ```
-    /// The size of an earlier block stays.
+    /// The size from an earlier block remains in effect.
     /// ```nc,quiet,haas-mill
     /// G107 A0. R1.25
     /// G107 Y0. A0.
@@ -47,7 +47,7 @@ impl PathRule for CylinderDiameterFromSetting {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Cylinder(Some(cylinder)) = event else { return };
         let given = cx.state().diameters().of(cylinder.rotary);
-        // A called program may count on what its caller gave.
+        // A called program may rely on the size that its caller gave.
         if given.is_some_and(|size| size != 0.0) || given.is_none() && cx.is_called_only() {
             return;
         }
@@ -58,13 +58,13 @@ impl PathRule for CylinderDiameterFromSetting {
 fn judge(cx: &PathCx<'_>, cylinder: &Cylinder, gone_back: bool, report: &mut Report<'_>) {
     let Some(rules) = &cx.model.semantics().cylinder else { return };
     let axis = cylinder.rotary.name();
-    let setting = cx.scene.machine.engine.cylinder_setting(cylinder.rotary, rules);
-    // Somebody said what the setting is.
-    if setting.is_some_and(|number| cx.scene.machine.settings.contains_key(number)) {
+    let setting = cx.environment.machine.engine.cylinder_setting(cylinder.rotary, rules);
+    // The setting is configured.
+    if setting.is_some_and(|number| cx.environment.machine.settings.contains_key(number)) {
         return;
     }
-    let name = cx.cancel_of(Effect::CylinderMapping).unwrap_or_default();
-    let of_setting = setting.and_then(|number| cx.scene.control().setting(number)).map_or_else(
+    let name = cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default();
+    let of_setting = setting.and_then(|number| cx.control().setting(number)).map_or_else(
         || "the control's setting".to_owned(),
         |entry| format!("setting {} ({})", entry.number, entry.title),
     );
@@ -75,18 +75,18 @@ fn judge(cx: &PathCx<'_>, cylinder: &Cylinder, gone_back: bool, report: &mut Rep
             format!("the cylinder's diameter is not in the program (`{name}`)"),
         )
         .note(if gone_back {
-            format!("the last size that {axis} was given is zero: {of_setting} counts")
+            format!("the last size of {axis} is zero, so {of_setting} counts")
         } else {
             format!(
                 "without a size the last one that {axis} was given since power-on counts, by whatever program, else \
                  {of_setting}"
             )
         })
-        .help(format!("give the diameter with `Q` or the radius with `R`, or tell gcheck {of_setting}"));
+        .help(format!("give the diameter with `Q` or the radius with `R`, or configure {of_setting}"));
     finding = if gone_back {
-        finding.label(format!("{axis} goes back to {of_setting}"))
+        finding.label(format!("{axis} uses {of_setting} again"))
     } else {
-        finding.label(format!("nothing before gives {axis} a size"))
+        finding.label(format!("no earlier block gives {axis} a size"))
     };
     report.add(finding);
 }
@@ -96,8 +96,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
     fn zero_goes_back_to_the_setting() {
@@ -151,20 +150,20 @@ mod tests {
     #[test]
     fn what_it_says() {
         let say = |program: &str| {
-            let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+            let found = findings(&only(&RULE), "haas-mill", program, &World::default());
             found.iter().map(words).collect::<String>()
         };
         expect![[r#"
             the cylinder's diameter is not in the program (`G107`)
-              here: nothing before gives A a size
+              here: no earlier block gives A a size
               note: without a size the last one that A was given since power-on counts, by whatever program, else setting 34 (4th axis diameter)
-              help: give the diameter with `Q` or the radius with `R`, or tell gcheck setting 34 (4th axis diameter)
+              help: give the diameter with `Q` or the radius with `R`, or configure setting 34 (4th axis diameter)
         "#]].assert_eq(&say("G107 Y0. A0.\nM30\n"));
         expect![[r#"
             the cylinder's diameter is not in the program (`G107`)
-              here: A goes back to setting 34 (4th axis diameter)
-              note: the last size that A was given is zero: setting 34 (4th axis diameter) counts
-              help: give the diameter with `Q` or the radius with `R`, or tell gcheck setting 34 (4th axis diameter)
+              here: A uses setting 34 (4th axis diameter) again
+              note: the last size of A is zero, so setting 34 (4th axis diameter) counts
+              help: give the diameter with `Q` or the radius with `R`, or configure setting 34 (4th axis diameter)
         "#]].assert_eq(&say("G107 Y0. A0. Q0.\nM30\n"));
     }
 }

@@ -1,18 +1,18 @@
-//! A cut around a cylinder whose feed is no feed a minute.
+//! A cut around a cylinder without feed per minute.
 
 use gcheck_controls::{CodeNumber, Effect};
 use gcheck_engine::{At, Event, Fact, FeedMode, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cut around a cylinder under a feed mode that the control's book does not recommend for it.
+    /// A cut around a cylinder under a feed mode that the control's manual does not recommend for it.
     ///
     /// ## Why it matters
-    /// Under a feed a minute the control makes of `F` the speed along the surface. In inverse time `F` only says how long a move
-    /// takes: the tool runs faster along long moves than along short ones, and each block needs an `F` of its own.
+    /// Under feed per minute the control uses `F` as the speed along the surface. In inverse time `F` only gives the
+    /// time of a move: the tool is faster along long moves than along short ones, and each block needs its own `F`.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -30,7 +30,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "cylinder-feed-mode" in "mapping" {
-        summary: "cut around a cylinder without a feed a minute",
+        summary: "cut around a cylinder without feed per minute",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -63,7 +63,7 @@ impl PathRule for CylinderFeedMode {
             Some(FeedMode::PerRevolution) => "`F` counts turns of the spindle, not time",
             Some(FeedMode::PerMinute) | None => return,
         };
-        let control = cx.scene.control();
+        let control = cx.control();
         let Some(mapping) = state.mode(Role::Cylinder).only().and_then(|code| control.code_at(code)) else {
             return;
         };
@@ -79,7 +79,7 @@ impl PathRule for CylinderFeedMode {
             .finding(&META, cx.range(), format!("a cut around the cylinder under `{mode}`"))
             .label(what)
             .note(format!("`{}` ({}) goes with `{recommended}`  [{}]", entry.code, entry.title, entry.source))
-            .help(format!("go back to a feed a minute (`{recommended}`) before the first wrapped cut"));
+            .help(format!("go back to feed per minute (`{recommended}`) before the first wrapped cut"));
         let finding = cx.resting_on(finding, fact, &format!("`{mode}`"));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Cylinder), &format!("`{}`", entry.code)));
     }
@@ -90,8 +90,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_mode_is_told_once_and_rapids_are_not() {
@@ -116,14 +115,14 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = "G93\nG107 Y0. A0. Q2.5\nG1 Y1. F10.\nG94\nG107\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             a cut around the cylinder under `G93`
               here: `F` says how long each move takes, not how fast the surface runs
               there: `G93` set here
               there: `G107` set here
               note: `G107` (cylindrical mapping) goes with `G94`  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
-              help: go back to a feed a minute (`G94`) before the first wrapped cut
+              help: go back to feed per minute (`G94`) before the first wrapped cut
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

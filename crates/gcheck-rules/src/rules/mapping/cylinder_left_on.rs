@@ -1,22 +1,23 @@
-//! Cylindrical mapping that nobody switched off.
+//! Cylindrical mapping that is not switched off.
 
 use std::ops::Range;
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Cylinder, Ending, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A linear axis is still wrapped around a cylinder where the tool is changed, an axis of the cylinder returns to its
-    /// reference position, or the program ends.
+    /// A linear axis is still wrapped around a cylinder when the tool is changed, an axis of the cylinder returns to
+    /// its reference position, or the program ends.
     ///
     /// ## Why it matters
-    /// Every move of the linear axis turns the part instead. The next tool, or the next program, cuts around the part what was
-    /// meant for its face; a program that is started at the tool change cuts flat what was meant to be wrapped.
+    /// Every move of the linear axis turns the part instead. The next tool, or the next program, cuts around the part
+    /// instead of its face; a program that is started at the tool change cuts flat instead of wrapped.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -41,7 +42,7 @@ declare_rule! {
     /// T2 M6
     /// M30
     /// ```
-    /// An axis that has nothing to do with the cylinder may return; so may the wrapped one from where it stands.
+    /// An axis that does not belong to the cylinder may return; so may the wrapped axis from its present position.
     /// ```nc,quiet,haas-mill
     /// G107 Y0. A0. Q2.5
     /// G1 Y1. F10.
@@ -54,7 +55,7 @@ declare_rule! {
         summary: "cylindrical mapping left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::ENDS),
@@ -77,7 +78,7 @@ impl PathRule for CylinderLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(boundary) = cx.boundary() {
+        if let Some(boundary) = boundary(cx) {
             self.judge(cx, Place::Boundary(boundary), report);
         } else if cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_))) {
             self.judge(cx, Place::Reference, report);
@@ -85,7 +86,7 @@ impl PathRule for CylinderLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.judge(cx, Place::Boundary(Boundary::ProgramEnd), report);
         }
     }
@@ -109,7 +110,7 @@ impl Place {
 impl CylinderLeftOn {
     fn judge(&mut self, cx: &PathCx<'_>, place: Place, report: &mut Report<'_>) {
         let is_on = |effect| effect == Effect::CylinderMapping;
-        let Some(LeftOn::Surely(code)) = cx.left_on(Role::Cylinder, is_on) else { return };
+        let Some(ActiveMode::Certain(code)) = left_on(cx, Role::Cylinder, is_on) else { return };
         let Some(cylinder) = cx.state().wrapped().cylinder() else { return };
         if place == Place::Reference && !takes_away(cx, cylinder) {
             return;
@@ -128,9 +129,9 @@ impl CylinderLeftOn {
             )
             .label(match place {
                 Place::Boundary(_) => format!("a word for {linear} still turns {rotary}"),
-                Place::Reference => format!("{rotary} turns away from the drawing"),
+                Place::Reference => format!("{rotary} leaves the wrapped contour"),
             })
-            .help(format!("end mapping before, with `{name}` alone in its block"))
+            .help(format!("end mapping before this, with `{name}` alone in its block"))
             .fix_if(cx.block_before(Some(&name)));
         let finding = cx.resting_on(finding, Fact::Mode(Role::Cylinder), &format!("`{name}`"));
         let Some(finding) = limited(cx, place, &name, finding) else { return };
@@ -139,14 +140,14 @@ impl CylinderLeftOn {
     }
 }
 
-/// The end of the program may end mapping itself: `None` where somebody said that it does.
+/// The end of the program may end mapping itself: `None` if the configuration says that it does.
 fn limited(cx: &PathCx<'_>, place: Place, name: &str, finding: Finding) -> Option<Finding> {
     if place != Place::Boundary(Boundary::ProgramEnd) {
         return Some(finding);
     }
     let rules = cx.model.semantics().cylinder.as_ref()?;
     let number = rules.ended_by_setting.as_deref()?;
-    match cx.scene.setting(number)? {
+    match cx.environment.setting(number)? {
         ("on", None) => None,
         ("on", Some(assumed)) => Some(
             finding
@@ -160,7 +161,7 @@ fn limited(cx: &PathCx<'_>, place: Place, name: &str, finding: Finding) -> Optio
     }
 }
 
-/// Does the return take an axis away from the drawing? From where the wrapped axis stands it returns by itself.
+/// Does the return move an axis away from the contour? The wrapped axis returns by itself from its present position.
 fn takes_away(cx: &PathCx<'_>, cylinder: &Cylinder) -> bool {
     let letters = cx.origin().letters;
     let names = |axis: Axis| letters.contains(axis.letter());
@@ -172,7 +173,7 @@ fn takes_away(cx: &PathCx<'_>, cylinder: &Cylinder) -> bool {
 
 fn range(cx: &PathCx<'_>, place: Place) -> Range<u32> {
     match place {
-        Place::Boundary(boundary) => cx.boundary_range(boundary),
+        Place::Boundary(boundary) => boundary_range(cx, boundary),
         Place::Reference => cx.effect_range(|effect| matches!(effect, Effect::ReturnReference(_))),
     }
 }
@@ -182,8 +183,7 @@ mod tests {
     use expect_test::{Expect, expect};
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
     fn one_cause_is_told_once() {
@@ -280,22 +280,22 @@ mod tests {
     #[test]
     fn what_it_says() {
         let say = |program: &str| {
-            let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+            let found = findings(&only(&RULE), "haas-mill", program, &World::default());
             found.iter().map(words).collect::<String>()
         };
         expect![[r#"
             Y is still wrapped at the tool change (`G107`)
               here: a word for Y still turns A
               there: `G107` set here
-              help: end mapping before, with `G107` alone in its block
+              help: end mapping before this, with `G107` alone in its block
               fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nT2 M6\nG107\nM30\n"));
         expect![[r#"
             Y is still wrapped at the return to the reference position (`G107`)
-              here: A turns away from the drawing
+              here: A leaves the wrapped contour
               there: `G107` set here
-              help: end mapping before, with `G107` alone in its block
+              help: end mapping before this, with `G107` alone in its block
               fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nG91 G28 A0.\nG107\nM30\n"));
@@ -305,7 +305,7 @@ mod tests {
               there: `G107` set here
               note: setting 56 decides whether the end of the program ends `G107`
               assuming: setting 56 (M30 restores default G codes) is on
-              help: end mapping before, with `G107` alone in its block
+              help: end mapping before this, with `G107` alone in its block
               fix (unsafe): put `G107` in a block before this one
         "#]]
         .assert_eq(&say("G107 Y0. A0. Q2.5\nM30\n"));

@@ -1,17 +1,17 @@
-//! A cylinder that no rotary axis carries.
+//! A cylinder without a rotary axis.
 
 use gcheck_controls::{Code, Effect, Letter, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::contract::choice;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::choice;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// Cylindrical mapping is given a linear axis or a size, but no rotary axis to wrap it around.
+    /// Cylindrical mapping names a linear axis or a size, but not the rotary axis.
     ///
     /// ## Why it matters
-    /// The control does not know which axis carries the part, and stops with an alarm.
+    /// The control does not know which axis turns the part, and stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -25,7 +25,7 @@ declare_rule! {
     /// G107 Y0. A0. Q2.5
     /// G107 B0. Q4.
     /// ```
-    /// Alone the code ends mapping.
+    /// The code alone ends mapping.
     /// ```nc,quiet,haas-mill
     /// G107
     /// ```
@@ -38,7 +38,7 @@ declare_rule! {
     }
 }
 
-/// What may stand beside a rotary axis, and not without one.
+/// Words that need a rotary axis beside them.
 const OF_CYLINDER: LetterSet = LetterSet::of("XYZQR");
 const ROTARY: LetterSet = LetterSet::of("ABC");
 
@@ -49,7 +49,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
         return;
     };
-    // A word that holds a variable may be left out.
+    // A word with a variable may count as missing.
     let is_given = |word: &&Word| OF_CYLINDER.contains(word.letter) && word.number().is_some();
     if let Some(word) = cx.words().iter().find(is_given)
         && cx.words_are_plain()
@@ -65,14 +65,14 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let what = if matches!(word.letter.ascii(), b'Q' | b'R') { "a size" } else { "an axis to wrap" };
     let alarm = entry.alarms.iter().find(|alarm| alarm.number.is_some());
     Finding::new(&META, cx.range(word), format!("the cylinder has no rotary axis (`{name}`)"))
-        .label(format!("{what} needs {} beside it", choice(reads)))
+        .label(format!("{what} needs {} in the block", choice(reads)))
         .note(format!(
-            "`{}` ({}) stops with an alarm when a linear axis or a size stands without a rotary axis  [{}]",
+            "`{}` ({}) stops with an alarm when a linear axis or a size comes without a rotary axis  [{}]",
             entry.code, entry.title, entry.source
         ))
         .alarm(alarm.map(|alarm| alarm.text.clone()))
         .help(format!(
-            "name the axis that carries the part: `{}0.`",
+            "name the axis that turns the part: `{}0.`",
             reads.iter().next().unwrap_or(Letter::of('A'))
         ))
         .at_most(limit(entry.confidence))
@@ -83,8 +83,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn every_word_that_needs_one_is_found() {
@@ -125,12 +124,12 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y0. Q2.5\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G107 Y0. Q2.5\n", &World::default());
         expect![[r#"
             the cylinder has no rotary axis (`G107`)
-              here: an axis to wrap needs `A`, `B` or `C` beside it
-              note: `G107` (cylindrical mapping) stops with an alarm when a linear axis or a size stands without a rotary axis  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
-              help: name the axis that carries the part: `A0.`
+              here: an axis to wrap needs `A`, `B` or `C` in the block
+              note: `G107` (cylindrical mapping) stops with an alarm when a linear axis or a size comes without a rotary axis  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
+              help: name the axis that turns the part: `A0.`
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

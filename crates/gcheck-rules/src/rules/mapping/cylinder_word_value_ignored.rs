@@ -1,17 +1,17 @@
-//! A value that cylindrical mapping does not look at.
+//! A value that cylindrical mapping ignores.
 
 use gcheck_controls::{Code, Effect, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
     /// An axis word of cylindrical mapping has a value other than zero.
     ///
     /// ## Why it matters
-    /// The word only says which axis is meant. Nothing moves: a part that was to be turned to 90 degrees stays where it is,
-    /// and the drawing comes out in another place.
+    /// The word only selects the axis. Nothing moves: a part that should be turned to 90 degrees does not turn, and the
+    /// contour is cut in another place.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -52,9 +52,9 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let (entry, letter, text) = (code.entry(), word.letter, cx.text(word));
     let is_rotary = matches!(letter.ascii(), b'A' | b'B' | b'C');
     let label = if is_rotary {
-        format!("names the axis that carries the part; {letter} does not turn here")
+        format!("selects the axis that turns the part; {letter} does not turn here")
     } else {
-        format!("names the axis to wrap; {letter} does not move here")
+        format!("selects the axis to wrap; {letter} does not move here")
     };
     Finding::new(
         &META,
@@ -66,7 +66,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
         "`{}` ({}) ignores the values of its axis words  [{}]",
         entry.code, entry.title, entry.source
     ))
-    .help(format!("write `{letter}0.`, and move the axis in a block before if it is to stand elsewhere"))
+    .help(format!("write `{letter}0.`, and move the axis in an earlier block if it must be elsewhere"))
     .at_most(limit(entry.confidence))
 }
 
@@ -75,8 +75,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_value_is_marked_and_sizes_are_not() {
@@ -100,16 +99,16 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G107 Y2. A90. Q2.5\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G107 Y2. A90. Q2.5\n", &World::default());
         expect![[r#"
             the value of `Y2.` does not count (`G107`)
-              here: names the axis to wrap; Y does not move here
+              here: selects the axis to wrap; Y does not move here
               note: `G107` (cylindrical mapping) ignores the values of its axis words  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
-              help: write `Y0.`, and move the axis in a block before if it is to stand elsewhere
+              help: write `Y0.`, and move the axis in an earlier block if it must be elsewhere
             the value of `A90.` does not count (`G107`)
-              here: names the axis that carries the part; A does not turn here
+              here: selects the axis that turns the part; A does not turn here
               note: `G107` (cylindrical mapping) ignores the values of its axis words  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
-              help: write `A0.`, and move the axis in a block before if it is to stand elsewhere
+              help: write `A0.`, and move the axis in an earlier block if it must be elsewhere
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -1,15 +1,16 @@
-//! Cylindrical mapping that may not be switched off.
+//! Cylindrical mapping that may be left on.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// On some path a linear axis is still wrapped around a cylinder where the tool is changed.
+    /// On some paths a linear axis is still wrapped around a cylinder when the tool is changed.
     ///
     /// ## Why it matters
     /// As for `cylinder-left-on`, on the paths that come here with the mapping on.
@@ -33,7 +34,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-cylinder-left-on" in "mapping" {
-        summary: "cylindrical mapping left on, on some path",
+        summary: "cylindrical mapping left on, on some pathss",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -55,14 +56,14 @@ impl PathRule for MaybeCylinderLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.boundary() != Some(Boundary::ToolChange) || cx.model.semantics().cylinder.is_none() {
+        if boundary(cx) != Some(Boundary::ToolChange) || cx.model.semantics().cylinder.is_none() {
             return;
         }
         let is_on = |effect| effect == Effect::CylinderMapping;
-        let Some(LeftOn::Maybe(code)) = cx.left_on(Role::Cylinder, is_on) else { return };
+        let Some(ActiveMode::Possible(code)) = left_on(cx, Role::Cylinder, is_on) else { return };
         let fact = Fact::Mode(Role::Cylinder);
         let set_by = cx.trace().set_by(fact);
-        if set_by.is_none() || set_by == self.told || cx.is_behind_unknown_program() {
+        if set_by.is_none() || set_by == self.told || cx.is_after_unknown_program() {
             return;
         }
         self.told = set_by;
@@ -70,8 +71,8 @@ impl PathRule for MaybeCylinderLeftOn {
         let place = Boundary::ToolChange;
         let message = format!("an axis may still be wrapped {} (`{name}`)", place.words());
         let finding = cx
-            .finding(&META, cx.boundary_range(place), message)
-            .label("on some path the cylinder is still mapped here")
+            .finding(&META, boundary_range(cx, place), message)
+            .label("on some paths the cylinder is still mapped here")
             .help(format!("end mapping on every path, with `{name}` alone in its block"));
         report.add(cx.with_path(cx.resting_on(finding, fact, &format!("`{name}`"))));
     }
@@ -82,8 +83,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_word_that_may_be_nothing_may_begin_it() {
@@ -106,10 +106,10 @@ mod tests {
     #[test]
     fn what_it_says() {
         let program = "G107 Y0. A0. Q2.5\nIF [#100 EQ 1] GOTO 5\nG107\nN5 T2 M6\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             an axis may still be wrapped at the tool change (`G107`)
-              here: on some path the cylinder is still mapped here
+              here: on some paths the cylinder is still mapped here
               there: `G107` set here
               there: when this is taken
               help: end mapping on every path, with `G107` alone in its block

@@ -3,15 +3,15 @@
 use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// The same code stands twice in one block.
+    /// The same code is written twice in one block.
     ///
     /// ## Why it matters
-    /// Some controls refuse it like two codes of one modal group. Elsewhere it does nothing, but it hides what the block was
-    /// meant to say: often one of the two should be another code.
+    /// Some controls refuse it like two codes of one modal group. On others it has no effect, but it hides a mistake:
+    /// often one of the two should be another code.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -26,7 +26,7 @@ declare_rule! {
         summary: "code written twice in a block",
         severity: Error,
         tier: Block,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
     }
@@ -37,7 +37,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let Some((first, _)) = cx.codes().take(ix).find(|(_, other)| other.number() == code.number()) else {
             continue;
         };
-        // Words that stand twice as well tell of two blocks in one line; that has a rule of its own.
+        // If words are written twice as well, two blocks are in one line; another rule reports that.
         let quiet = BlockFlags::ERROR.union(BlockFlags::REPEATED);
         if !cx.block().flags.intersects(quiet) && !code.is_user() && !cx.words_may_be_arguments() {
             report.add(finding(cx, code, first, second));
@@ -50,8 +50,8 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
     let text = cx.text(second);
     let finding = Finding::new(&META, cx.range(second), format!("`{text}` twice in one block"))
         .label(format!("{}, again", code.entry().title))
-        .also(cx.range(first), "stands here already")
-        .help(format!("take one `{text}` away, or write the code that was meant"));
+        .also(cx.range(first), "is already here")
+        .help(format!("remove one `{text}`, or write the code that was meant"));
     let finding = if rules.code_twice == Handling::Refused && code.group().exclusive {
         finding
             .note(format!("this control refuses a block with one code twice  [{}]", rules.source))
@@ -59,9 +59,9 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
     } else {
         finding.at_most(Severity::Hint)
     };
-    // A mode that is set already stays as it is.
+    // A mode that is already set does not change.
     if code.group().modal && code.group().exclusive {
-        finding.fix(Fix::safe(format!("take the second `{text}` away"), cx.with_blanks(second), ""))
+        finding.fix(Fix::safe(format!("remove the second `{text}`"), cx.with_blanks(second), ""))
     } else {
         finding
     }
@@ -72,8 +72,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn where_it_is_refused_it_is_an_error() {
@@ -106,11 +105,11 @@ mod tests {
     #[test]
     fn the_fix_takes_the_second_away() {
         let program = "G90 G0 G90 X1.\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             G90 G0 X1.
         "#]]
         .assert_eq(&fixed(program, &found[0]));
-        assert!(words(&found[0]).contains("help: take one `G90` away"));
+        assert!(words(&found[0]).contains("help: remove one `G90`"));
     }
 }

@@ -1,16 +1,16 @@
-//! A code that wants a block of its own.
+//! A code that needs a block of its own.
 
 use gcheck_controls::Code;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A code that must stand alone shares its block with another code.
+    /// A code that must be alone in its block shares it with another code.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or reads the other code's words as its own.
+    /// The control stops with an alarm, or takes the words of the other code as its own.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -21,7 +21,7 @@ declare_rule! {
     /// N20 G101 X0.
     /// ```
     rule "code-must-stand-alone" in "modal" {
-        summary: "code that wants a block of its own shares one",
+        summary: "code that needs a block of its own shares one",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -48,7 +48,7 @@ fn finding(cx: &BlockCx<'_>, alone: (&Word, Code<'_>), other: &Word) -> Finding 
         cx.range(alone.0),
         format!("`{}` shares its block with `{}`", cx.text(alone.0), cx.text(other)),
     )
-    .label(format!("{}: wants a block of its own", entry.title))
+    .label(format!("{}: needs a block of its own", entry.title))
     .also(cx.range(other), "another code")
     .note(format!("`{}` must be the only code of its block  [{}]", entry.code, entry.source))
     .help("put the other code in a block of its own")
@@ -60,8 +60,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_lone_code_is_marked() {
@@ -83,7 +82,7 @@ mod tests {
 
     #[test]
     fn words_name_the_code() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G90 G101 X0.\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G90 G101 X0.\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("there: another code"), "{text}");
     }

@@ -3,14 +3,14 @@
 use gcheck_controls::{Code, CodeNumber};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// Two codes stand in one block that the control does not take together, though their modal groups differ.
+    /// The control does not accept these two codes in one block, though their modal groups differ.
     ///
     /// ## Why it matters
-    /// Both may claim the same axis words, or one changes what the other is just using. The control stops with an alarm.
+    /// Both may use the same axis words, or one changes what the other uses. The control stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -61,7 +61,10 @@ fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)
     Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` cannot share a block"))
         .label(second.1.entry().title.as_str())
         .also(cx.range(first.0), first.1.entry().title.as_str())
-        .note(format!("`{}` ({}) does not stand beside the other code  [{}]", by.code, by.title, by.source))
+        .note(format!(
+            "`{}` ({}) cannot be in a block with the other code  [{}]",
+            by.code, by.title, by.source
+        ))
         .help("put the two codes in separate blocks")
         .at_most(limit(by.confidence))
 }
@@ -71,8 +74,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_second_code_is_marked() {
@@ -96,7 +98,7 @@ mod tests {
 
     #[test]
     fn words_name_both() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G41 G2 X1. R1. D1\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G41 G2 X1. R1. D1\n", &World::default());
         let text = words(&found[0]);
         assert!(text.starts_with("`G41` and `G2` cannot share a block\n"), "{text}");
     }

@@ -1,18 +1,19 @@
-//! A program that moves without saying whether its words are positions or increments.
+//! A program that moves before `G90` or `G91` is stated.
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program moves before it says whether its words are positions (`G90`) or increments (`G91`).
+    /// A program moves before it states whether its words are positions (`G90`) or increments (`G91`).
     ///
     /// ## Why it matters
-    /// A program that ended, or was stopped, in increments leaves them on. The next one then goes by increments to where it
-    /// wants to be.
+    /// A program that ended, or was stopped, in increments leaves them on. The next one then takes its positions as
+    /// increments.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -24,7 +25,7 @@ declare_rule! {
     /// G21 G90 G54 G0 X100. Y50.
     /// M30
     /// ```
-    /// Moves to a reference point or in machine coordinates do not depend on it, as far as they go home.
+    /// Moves to a reference point or in machine coordinates do not depend on the mode, if they go home.
     /// ```nc,quiet,fanuc-mill
     /// G91 G28 Z0.
     /// G90 G54 G0 X100. Y50.
@@ -36,7 +37,7 @@ declare_rule! {
         tier: Path,
         recommended: false,
         sets: [Strict, RestartSafe],
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),
@@ -72,12 +73,12 @@ impl DistanceModeNotStated {
             cx.enough();
             return;
         }
-        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABC")) {
+        if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABC")) {
             return;
         }
         self.is_done = true;
         let is_stated =
-            cx.trace().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_behind_unknown_program();
+            cx.trace().set_by(Fact::Mode(Role::Distance)).is_some() || cx.is_after_unknown_program();
         let is_default = |effect| effect == Effect::Absolute;
         if is_stated
             || cx.is_called_only()
@@ -87,7 +88,7 @@ impl DistanceModeNotStated {
             return;
         }
         let (Some(absolute), Some(incremental)) =
-            (cx.cancel_of(Effect::Absolute), cx.cancel_of(Effect::Incremental))
+            (cx.name_of_effect(Effect::Absolute), cx.name_of_effect(Effect::Incremental))
         else {
             return;
         };
@@ -97,31 +98,18 @@ impl DistanceModeNotStated {
                 cx.range(),
                 format!("moves before positions or increments are stated (`{absolute}`, `{incremental}`)"),
             )
-            .label("counts from wherever the last program left the mode")
+            .label("depends on the mode that the last program left")
             .help(format!("state `{absolute}` at the head of the program"))
             .fix_if(cx.block_before(Some(&absolute)));
-        // Every program's end brings the positions back: only a program that was stopped leaves increments.
+        // Every end of program restores positions: only a program that was stopped leaves increments.
         let is_safe = cx.at_end().any(|code| is_default(code.effect()));
         report.add(if is_safe { finding.at_most(Severity::Hint) } else { finding });
     }
 }
 
-/// Increments have letters of their own (`U`, `W`): nobody needs the mode.
+/// Increments have their own letters (`U`, `W`): the mode is not needed.
 fn has_own_letters(cx: &PathCx<'_>) -> bool {
     !cx.model.semantics().increments.is_empty()
-}
-
-/// Moves that mean the same in either mode, or have their own words.
-pub(super) fn is_home(cx: &PathCx<'_>) -> bool {
-    cx.has_effect(|effect| {
-        matches!(
-            effect,
-            Effect::MachineCoordinates
-                | Effect::ReturnReference(_)
-                | Effect::ReturnFromReference
-                | Effect::ToolChange
-        )
-    })
 }
 
 #[cfg(test)]

@@ -1,19 +1,19 @@
-//! A subprogram that goes by increments in one call and to positions in another.
+//! A subprogram that is called in positions and in increments.
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Event, Fact, FrameKind, Role};
 
-use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A subprogram takes positions or increments (`G90`, `G91`) from its caller, and its callers differ: the same moves go to
-    /// points in one call and by distances in another.
+    /// A subprogram takes positions or increments (`G90`, `G91`) from its caller, and its callers differ: the same
+    /// moves go to points in one call and by distances in another.
     ///
     /// ## Why it matters
-    /// One of the two is not meant. The tool goes by the coordinates of its target instead of to them.
+    /// One of the two is wrong. The tool moves by the coordinates of its target instead of to them.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -101,11 +101,11 @@ impl PathRule for IncrementalIntoSubprogram {
 impl IncrementalIntoSubprogram {
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let depth = cx.depth();
-        if depth < 2 || is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
+        if depth < 2 || ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
         let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
-        // The caller set it: the last block that did stands outside the call.
+        // The caller set it: the last block that did is outside the call.
         let is_callers = matches!((set_by, self.depth_set), (Some(at), Some((set, set_depth))) if at == set && set_depth < depth);
         let (Some(frame), Some(is_incremental)) =
             (cx.state().frames().last(), cx.state().is_incremental(cx.model))
@@ -122,8 +122,8 @@ impl IncrementalIntoSubprogram {
         let other =
             self.calls.iter().find(|call| call.entry == frame.entry && call.is_incremental != is_incremental);
         if let Some(other) = other {
-            let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
-            let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+            let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
+            let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
             let how = |is_incremental: bool| {
                 if is_incremental { "called in increments here" } else { "called in positions here" }
             };
@@ -131,7 +131,7 @@ impl IncrementalIntoSubprogram {
                 .finding(
                     &META,
                     cx.range(),
-                    format!("the subprogram goes to positions in one call, by increments in another (`{incremental}`)"),
+                    format!("the subprogram moves to positions in one call and by increments in another (`{incremental}`)"),
                 )
                 .label("takes the mode from its caller")
                 .help(format!("state `{absolute}` or `{incremental}` in the subprogram before its first move"));
@@ -166,7 +166,7 @@ mod tests {
             "O1\nG21 G90 G54 G0 X0. Y0.\nM98 P2\nG91\nM98 P2\nG90\nM30\nO2\nG1 X1. F50.\nM99\n",
             &expect![[r#"
                 9 | G1 X1. F50.
-                  | ^^^^^^^^^^^ warning[incremental-into-subprogram] the subprogram goes to positions in one call, by increments in another (`G91`)
+                  | ^^^^^^^^^^^ warning[incremental-into-subprogram] the subprogram moves to positions in one call and by increments in another (`G91`)
             "#]],
         );
     }

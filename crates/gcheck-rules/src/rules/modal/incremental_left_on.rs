@@ -1,4 +1,4 @@
-//! Increments that nobody switched back to positions, or that stand where positions were meant.
+//! Increments that were left on, or that were written instead of positions.
 
 use std::ops::Range;
 
@@ -6,22 +6,23 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Ending, Event, Fact, Role};
 use gcheck_program::BlockFlags;
 
-use super::distance_mode_not_stated::is_home;
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::modes::{ActiveMode, ignores_distance_mode, left_on};
 use crate::{Finding, Fix, PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference return whose
-    /// block switched them on, goes by increments although the work before it was in positions; or the program ends in increments and begins without stating positions.
+    /// Increments (`G91`) were left on: the first move of the next tool, after a subprogram, or after a reference
+    /// return whose block switched them on, is in increments although the work before it was in positions; or the
+    /// program ends in increments and begins without stating positions.
     ///
-    /// So is `G91` where a tool begins: in the block of its first rapid move in X and Y, which also chooses a work offset or
-    /// names zeros alone, or where another tool of the program begins in positions. From where the tool was changed nobody
-    /// goes by increments.
+    /// `G91` is also reported where a tool begins: in the block of its first rapid move in X and Y, if that block also
+    /// chooses a work offset or has only zeros, or if another tool of the program begins in positions. Increments from
+    /// the tool change position make no sense.
     ///
     /// ## Why it matters
-    /// The tool goes by the coordinates of its target instead of to them: through the part, or against the end of travel.
+    /// The tool moves by the coordinates of its target instead of to them: through the part, or to the end of travel.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -67,7 +68,7 @@ declare_rule! {
         summary: "increments left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS).union(Watch::ENDS),
@@ -77,7 +78,7 @@ declare_rule! {
 }
 
 #[derive(Default, Clone, PartialEq)]
-#[expect(clippy::struct_excessive_bools, reason = "each is a fact of its own")]
+#[expect(clippy::struct_excessive_bools, reason = "each is a separate fact")]
 struct IncrementalLeftOn {
     /// The work before was in positions.
     was_absolute: bool,
@@ -85,7 +86,7 @@ struct IncrementalLeftOn {
     change: Option<(Range<u32>, Option<At>)>,
     /// A reference return that switched from positions to increments, with no move since.
     at_return: Option<At>,
-    /// A block of a subprogram that switched from positions to increments, and how deep in calls it stands.
+    /// A block of a subprogram that switched from positions to increments, and its call depth.
     in_subprogram: Option<(At, usize)>,
     /// The program moved before it stated the mode.
     relies_on_start: bool,
@@ -116,10 +117,10 @@ impl PathRule for IncrementalLeftOn {
         if switches_on && cx.depth() > 1 && cx.state().is_incremental(cx.model) == Some(false) {
             self.in_subprogram = Some((cx.origin().at, cx.depth()));
         }
-        match cx.boundary() {
+        match boundary(cx) {
             Some(Boundary::ToolChange) => {
                 let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
-                self.change = Some((cx.boundary_range(Boundary::ToolChange), set_by));
+                self.change = Some((boundary_range(cx, Boundary::ToolChange), set_by));
             }
             Some(Boundary::ProgramEnd) => self.end(cx, report),
             None => {}
@@ -136,7 +137,7 @@ impl PathRule for IncrementalLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.end(cx, report);
         }
     }
@@ -146,7 +147,7 @@ impl IncrementalLeftOn {
     /// Is this the first move of a tool, in increments that its own block states?
     fn begins(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_first = self.change.is_some() || !self.has_moved;
-        if !is_first || !cx.origin().letters.intersects(LetterSet::of("XY")) || is_home(cx) {
+        if !is_first || !cx.origin().letters.intersects(LetterSet::of("XY")) || ignores_distance_mode(cx) {
             return;
         }
         let has_others = self.begins_in_positions;
@@ -159,25 +160,24 @@ impl IncrementalLeftOn {
         if states && !is_meant && (chooses_offset || moves_nothing || has_others) {
             let range = cx.effect_range(|effect| effect == Effect::Incremental);
             let incremental = cx.code_name(Role::Distance).unwrap_or_default();
-            let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
-            let message = format!("the first move of the tool goes by increments (`{incremental}`)");
+            let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
+            let message = format!("the first move of the tool is in increments (`{incremental}`)");
             let fix = Fix::risky(format!("write `{absolute}`"), range.clone(), absolute.clone());
             let finding =
                 cx.finding(&META, range, message).help(format!("write `{absolute}` here")).fix_if(Some(fix));
             let why = if moves_nothing {
                 "an increment of zero moves nothing"
             } else if chooses_offset {
-                "the work offset of this block counts for positions"
+                "the work offset of this block needs positions"
             } else {
                 "the other tools of the program begin in positions"
             };
-            report
-                .add(finding.label("by this much from wherever the axes stand, not to this point").note(why));
+            report.add(finding.label("by this much from the present position, not to this point").note(why));
         }
     }
 
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
+        if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
         let set_by = cx.trace().set_by(Fact::Mode(Role::Distance));
@@ -194,13 +194,12 @@ impl IncrementalLeftOn {
             && at_change == set_by
             && was_absolute
         {
-            let finding = tell(cx, cx.range(), "the first move after the tool change goes by increments");
+            let finding = tell(cx, cx.range(), "the first move after the tool change is in increments");
             let finding = finding.label("by this much, not to this point").also(range, "tool changed here");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if at_return == set_by && !cx.origin().flags.contains(BlockFlags::EXPRESSION) {
-            // Who computes a way from where the axes stand wants increments.
-            let finding =
-                tell(cx, cx.range(), "the first move after the reference return goes by increments");
+            // A distance that is computed from the present position is a deliberate increment.
+            let finding = tell(cx, cx.range(), "the first move after the reference return is in increments");
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         } else if let Some((at, depth)) = self.in_subprogram
@@ -208,7 +207,7 @@ impl IncrementalLeftOn {
             && cx.depth() < depth
         {
             self.in_subprogram = None;
-            let finding = tell(cx, cx.range(), "the first move after the subprogram goes by increments");
+            let finding = tell(cx, cx.range(), "the first move after the subprogram is in increments");
             let finding = finding.label("by this much, not to this point");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), "increments"));
         }
@@ -218,11 +217,12 @@ impl IncrementalLeftOn {
         if !self.relies_on_start || cx.end_resets(Role::Distance) || cx.is_called_only() {
             return;
         }
-        let Some(LeftOn::Surely(_)) = cx.left_on(Role::Distance, |effect| effect == Effect::Incremental)
+        let Some(ActiveMode::Certain(_)) =
+            left_on(cx, Role::Distance, |effect| effect == Effect::Incremental)
         else {
             return;
         };
-        let range = cx.boundary_range(Boundary::ProgramEnd);
+        let range = boundary_range(cx, Boundary::ProgramEnd);
         let finding = tell(cx, range, "the program ends in increments and begins without stating positions");
         let finding = finding
             .label("the next part begins by increments")
@@ -241,10 +241,10 @@ fn moves_nothing(cx: &PathCx<'_>) -> bool {
 }
 
 fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {
-    let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
-    let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+    let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
+    let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
     cx.finding(&META, range, format!("{what} (`{incremental}`)"))
-        .help(format!("state `{absolute}` before the move"))
+        .help(format!("state `{absolute}` before this the move"))
         .fix_if(cx.block_before(Some(&absolute)))
 }
 
@@ -253,8 +253,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_first_move_of_the_next_tool_is_marked() {
@@ -264,7 +263,7 @@ mod tests {
             "G20 G90 G0 X0.\nG1 X1. F5.\nG91 G28 Z0.\nT2 M6\nG0 X3.\nX4.\nM30\n",
             &expect![[r#"
                 5 | G0 X3.
-                  | ^^^^^^ warning[incremental-left-on] the first move after the tool change goes by increments (`G91`)
+                  | ^^^^^^ warning[incremental-left-on] the first move after the tool change is in increments (`G91`)
             "#]],
         );
     }
@@ -289,36 +288,36 @@ mod tests {
             "fanuc-mill",
             &program("G90", "G91"),
             &expect![[r#"
-            6 | G91 G0 X3. Y3.
-              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]],
+                6 | G91 G0 X3. Y3.
+                  | ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
+            "#]],
         );
         check_rule(
             &RULE,
             "fanuc-mill",
             &program("G91", "G91"),
             &expect![[r#"
-            3 | G91 G0 X0. Y0.
-              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]],
+                3 | G91 G0 X0. Y0.
+                  | ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
+            "#]],
         );
         check_rule(
             &RULE,
             "fanuc-mill",
             &program("G91 G54", "G90"),
             &expect![[r#"
-            3 | G91 G54 G0 X0. Y0.
-              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]],
+                3 | G91 G54 G0 X0. Y0.
+                  | ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
+            "#]],
         );
         check_rule(
             &RULE,
             "fanuc-mill",
             &program("G91", "G90"),
             &expect![[r#"
-            3 | G91 G0 X0. Y0.
-              | ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
-        "#]],
+                3 | G91 G0 X0. Y0.
+                  | ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
+            "#]],
         );
         check_rule(&RULE, "fanuc-mill", "G91 G0 X5. Y5.\nG1 X5. F90.\nM30\n", &expect![[""]]);
     }
@@ -331,7 +330,7 @@ mod tests {
             "G20 G90 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
             &expect![[r#"
                 3 | G0 X3.
-                  | ^^^^^^ warning[incremental-left-on] the first move after the subprogram goes by increments (`G91`)
+                  | ^^^^^^ warning[incremental-left-on] the first move after the subprogram is in increments (`G91`)
             "#]],
         );
         check_rule(
@@ -340,7 +339,7 @@ mod tests {
             "G20 G91 G0 X0.\nM97 P10\nG0 X3.\nM30\nN10 G91 G1 X1. F5.\nM99\n",
             &expect![[r#"
                 1 | G20 G91 G0 X0.
-                  |     ^^^ warning[incremental-left-on] the first move of the tool goes by increments (`G91`)
+                  |     ^^^ warning[incremental-left-on] the first move of the tool is in increments (`G91`)
             "#]],
         );
     }
@@ -362,17 +361,17 @@ mod tests {
     #[test]
     fn what_it_says() {
         let found = findings(
-            &Selection::only(&RULE),
+            &only(&RULE),
             "haas-mill",
             "G20 G90 G0 X0.\nG1 X1. F5.\nG91 G28 Z0.\nT2 M6\nG0 X3.\nM30\n",
             &World::default(),
         );
         expect![[r#"
-            the first move after the tool change goes by increments (`G91`)
+            the first move after the tool change is in increments (`G91`)
               here: by this much, not to this point
               there: tool changed here
               there: increments set here
-              help: state `G90` before the move
+              help: state `G90` before this the move
               fix (unsafe): put `G90` in a block before this one
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

@@ -1,21 +1,21 @@
-//! Increments that some path leaves on.
+//! Increments that may be left on.
 
 use std::ops::Range;
 
 use gcheck_controls::{CodeIx, Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
-use super::distance_mode_not_stated::is_home;
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Where paths of the program meet, one comes in increments (`G91`) and one in positions (`G90`), and a block moves.
+    /// Paths of the program join, one in increments (`G91`) and one in positions (`G90`), and then a block moves.
     ///
     /// ## Why it matters
-    /// The same block goes to a point on one path and by its coordinates on the other. One of the two is not meant.
+    /// The same block moves to a point on one path and by its coordinates on the other. One of the two is wrong.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -48,7 +48,7 @@ declare_rule! {
 #[derive(Clone, PartialEq)]
 struct MaybeIncrementalLeftOn {
     change: Option<Range<u32>>,
-    /// Told since the mode was last certain.
+    /// Reported since the mode was last certain.
     is_told: bool,
 }
 
@@ -64,8 +64,8 @@ impl PathRule for MaybeIncrementalLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        if cx.boundary() == Some(Boundary::ToolChange) {
-            self.change = Some(cx.boundary_range(Boundary::ToolChange));
+        if boundary(cx) == Some(Boundary::ToolChange) {
+            self.change = Some(boundary_range(cx, Boundary::ToolChange));
         }
     }
 
@@ -80,7 +80,7 @@ impl PathRule for MaybeIncrementalLeftOn {
 
 impl MaybeIncrementalLeftOn {
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
+        if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZ")) {
             return;
         }
         let mode = cx.state().mode(Role::Distance);
@@ -100,12 +100,12 @@ impl MaybeIncrementalLeftOn {
         if cx.is_called_only() || cx.trace().set_by(Fact::Mode(Role::Distance)).is_none() {
             return;
         }
-        let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
-        let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+        let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
+        let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
         let mut finding = cx
-            .finding(&META, cx.range(), format!("the move may go by increments (`{incremental}`)"))
+            .finding(&META, cx.range(), format!("the move may be in increments (`{incremental}`)"))
             .label("to this point on one path, by this much on another")
-            .help(format!("state `{absolute}` where the paths have met"));
+            .help(format!("state `{absolute}` after the paths have joined"));
         if let Some(range) = change {
             finding = finding.also(range, "tool changed here");
         }
@@ -128,7 +128,7 @@ mod tests {
             "G20 G90 G0 X0.\nIF [#500 EQ 1] GOTO 5\nG91 G1 Z-1. F5.\nN5 G0 X1.\nX2.\nM30\n",
             &expect![[r#"
                 4 | N5 G0 X1.
-                  | ^^^^^^^^^ warning[maybe-incremental-left-on] the move may go by increments (`G91`)
+                  | ^^^^^^^^^ warning[maybe-incremental-left-on] the move may be in increments (`G91`)
             "#]],
         );
     }

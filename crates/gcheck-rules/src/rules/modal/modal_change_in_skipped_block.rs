@@ -6,18 +6,18 @@ use gcheck_controls::{CodeIx, LetterSet};
 use gcheck_engine::{At, Event, Fact, Role};
 use gcheck_program::BlockFlags;
 
-use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block with a block delete (`/`) changes a mode, and a later block without one moves by it: what it does depends on the
-    /// switch on the panel.
+    /// A block with a block delete (`/`) changes a mode, and a later block without one moves in that mode: its move
+    /// depends on the switch on the panel.
     ///
     /// ## Why it matters
-    /// With the switch in its other position the same block goes to another place, in another plane or from another zero. Blocks
-    /// to be skipped should leave no trace.
+    /// With the switch in its other position the same block moves to another place, in another plane or from another
+    /// zero. Blocks to be skipped should not change modes.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -130,7 +130,7 @@ impl ModalChangeInSkippedBlock {
         }
         if self.changes.is_empty()
             || is_optional(cx)
-            || is_home(cx)
+            || ignores_distance_mode(cx)
             || !cx.origin().letters.intersects(LetterSet::of("XYZABCUVW"))
         {
             return;
@@ -164,7 +164,7 @@ impl ModalChangeInSkippedBlock {
                 )
                 .label("changes a mode only when the switch is off")
                 .also(cx.range(), otherwise)
-                .help("set the mode back in a block with `/`, or state it in the next one without"),
+                .help("set the mode back in a block with `/`, or state it in the next block without `/`"),
             );
         }
     }

@@ -3,12 +3,12 @@
 use gcheck_controls::CodeIx;
 use gcheck_engine::{Ending, Event, Fact, FrameKind, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A main program that `M99` starts again relies on a mode it does not set, and leaves another one behind.
+    /// A main program that `M99` starts again relies on a mode that it does not set, and ends in another mode.
     ///
     /// ## Why it matters
     /// The first part comes out right and the second one wrong: the next pass begins in `G91`, in another plane, with the
@@ -58,7 +58,7 @@ const RELIED_ON: [Role; 4] = [Role::Distance, Role::Plane, Role::Units, Role::Fe
 struct RestartWithChangedMode {
     /// What was not set until the first move.
     relied_on: Vec<(Role, CodeIx)>,
-    /// Tools are changed and the spindle is started by programs that nobody calls.
+    /// A program that changes tools or starts the spindle is not a subprogram.
     is_main: bool,
 }
 
@@ -92,7 +92,7 @@ impl PathRule for RestartWithChangedMode {
         }
         for (role, first) in &self.relied_on {
             let Some(last) = cx.state().mode(*role).only().filter(|last| last != first) else { continue };
-            let control = cx.scene.control();
+            let control = cx.control();
             let (Some(first), Some(last)) = (control.code_at(*first), control.code_at(last)) else {
                 continue;
             };

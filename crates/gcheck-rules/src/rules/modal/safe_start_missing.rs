@@ -3,18 +3,18 @@
 use gcheck_controls::{CodeNumber, Effect, LetterSet, Machine};
 use gcheck_engine::{Event, Fact, Role};
 
-use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program moves before it has stated the modes that an interrupted program leaves behind: plane, positions or
+    /// A program moves before it states the modes that an interrupted program may leave on: plane, positions or
     /// increments, cutter compensation, canned cycle, tool length.
     ///
     /// ## Why it matters
-    /// After a stop in the middle, the control begins in whatever was on: the first move runs beside its path, drills a hole,
-    /// or goes by increments. A line such as `G17 G40 G49 G80 G90` at the head makes every start the same.
+    /// After a stop in the middle, the control begins in whatever was on: the first move is offset from its path,
+    /// drills a hole, or is in increments. A line such as `G17 G40 G49 G80 G90` at the head makes every start the same.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -35,7 +35,7 @@ declare_rule! {
         tier: Path,
         recommended: false,
         sets: [RestartSafe],
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::RAPIDS.union(Watch::CUTS),
@@ -85,23 +85,23 @@ impl SafeStartMissing {
             cx.enough();
             return;
         }
-        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABCUVW")) {
+        if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZABCUVW")) {
             return;
         }
         self.is_done = true;
-        if cx.is_called_only() || cx.is_behind_unknown_program() {
+        if cx.is_called_only() || cx.is_after_unknown_program() {
             return;
         }
-        let modes: &[(Role, Effect)] = match cx.scene.control().machine() {
+        let modes: &[(Role, Effect)] = match cx.control().machine() {
             Machine::Mill => &OF_MILLS,
             Machine::Lathe => &OF_LATHES,
         };
         let is_stated = |role: Role| cx.trace().set_by(Fact::Mode(role)).is_some();
-        // Increments with letters of their own leave nothing to state.
+        // Increments with their own letters need no mode.
         let has_own_letters = !cx.model.semantics().increments.is_empty();
         let mut missing: Vec<CodeNumber> = Vec::new();
         for (role, effect) in modes {
-            let code = cx.scene.control().codes().find(|code| code.effect() == *effect);
+            let code = cx.control().codes().find(|code| code.effect() == *effect);
             if let Some(code) = code
                 && !is_stated(*role)
                 && !(*role == Role::Distance && has_own_letters)
@@ -117,7 +117,7 @@ impl SafeStartMissing {
         let listed = names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
         report.add(
             cx.finding(&META, cx.range(), format!("moves before a safe start is stated ({listed})"))
-                .label("begins in whatever an interrupted program left on")
+                .label("begins in the modes that an interrupted program left on")
                 .help(format!("begin the program with {listed}"))
                 .fix_if(cx.block_before(Some(&names.join(" ")))),
         );
@@ -129,8 +129,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn what_is_stated_is_not_asked_for() {
@@ -148,7 +147,7 @@ mod tests {
     #[test]
     fn the_fix_states_it() {
         let program = "O1\nG90 G17\nG28 G91 Z0.\nN10 G0 G90 X1.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             O1
             G90 G17

@@ -2,15 +2,15 @@
 
 use gcheck_engine::Fault;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// `M72` restores modes in a program or subroutine that has not saved any with `M70` or `M73`.
     ///
     /// ## Why it matters
-    /// The control stops at the block. Saved modes belong to the subroutine that saved them: those of its caller are not
-    /// seen.
+    /// The control stops at the block. Saved modes belong to the subroutine that saved them: it cannot restore those of
+    /// its caller.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc

@@ -1,13 +1,13 @@
-//! More M codes in a block than the control takes.
+//! More M codes in a block than the control accepts.
 
 use gcheck_controls::Letter;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A block has more M codes than the control takes in one.
+    /// A block has more M codes than the control accepts in one block.
     ///
     /// ## Why it matters
     /// The control stops with an alarm, or carries out only one of them: the spindle starts and the coolant stays off.
@@ -21,7 +21,7 @@ declare_rule! {
     /// M3 S1000 M8
     /// ```
     rule "too-many-m-codes" in "modal" {
-        summary: "more M codes in a block than the control takes",
+        summary: "more M codes in a block than the control accepts",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -46,8 +46,8 @@ fn finding(cx: &BlockCx<'_>, over: &Word, max: u8, count: usize) -> Finding {
     let source = limits.source.as_ref().map(|source| format!("  [{source}]")).unwrap_or_default();
     let codes = if max == 1 { "M code" } else { "M codes" };
     Finding::new(&META, cx.range(over), format!("{count} M codes in one block"))
-        .label(format!("one too many: {max} {codes} a block"))
-        .note(format!("this control takes {max} {codes} in a block{source}"))
+        .label(format!("one too many: {max} {codes} per block"))
+        .note(format!("this control accepts {max} {codes} in a block{source}"))
         .help("put the M codes in separate blocks")
         .at_most(limit(limits.m_codes_confidence.unwrap_or(gcheck_controls::Confidence::Assumed)))
 }
@@ -57,8 +57,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_first_over_the_limit_is_marked() {
@@ -88,8 +87,8 @@ mod tests {
 
     #[test]
     fn words_name_the_limit() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "M3 S1000 M8\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "M3 S1000 M8\n", &World::default());
         let text = words(&found[0]);
-        assert!(text.contains("here: one too many: 1 M code a block"), "{text}");
+        assert!(text.contains("here: one too many: 1 M code per block"), "{text}");
     }
 }

@@ -1,20 +1,20 @@
-//! A tool's part of the program that cannot be started from its tool change.
+//! A tool section that cannot be restarted from its tool change.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Event, Fact, Role};
 
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
 use crate::{Finding, PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// What a tool does relies on modes that were set before its tool change: plane, positions or increments, units, work offset,
-    /// tool length, feed, speed, spindle, coolant.
+    /// A tool section relies on modes that were set before its tool change: plane, positions or increments, units, work
+    /// offset, tool length, feed, speed, spindle, coolant.
     ///
     /// ## Why it matters
-    /// After a broken tool the operator starts again at the tool change. What an earlier part of the program set is not set
-    /// then. The rule is for shops that restart so; it is off by default.
+    /// After a broken tool the operator restarts at the tool change. Modes from an earlier part of the program are not
+    /// set then. The rule is for shops that restart like this; it is off by default.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -52,7 +52,7 @@ declare_rule! {
     }
 }
 
-/// A tool's part of the program, before its first cut.
+/// A tool section, before its first cut.
 #[derive(Clone, PartialEq)]
 struct Section {
     finding: Finding,
@@ -62,7 +62,7 @@ struct Section {
 
 remembers!(Section: finding);
 
-/// What a section needs to be told.
+/// What a section must state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Needed {
     Plane,
@@ -80,7 +80,7 @@ enum Needed {
 struct ToolSectionNotRestartSafe {
     section: Option<Section>,
     sections: usize,
-    /// Some coolant is on.
+    /// Coolant is on.
     has_coolant: bool,
 }
 
@@ -92,14 +92,14 @@ impl PathRule for ToolSectionNotRestartSafe {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
-        if cx.boundary() != Some(Boundary::ToolChange) {
+        if boundary(cx) != Some(Boundary::ToolChange) {
             return;
         }
         self.sections += 1;
         self.section = None;
-        // The first tool's part begins with the program.
+        // The first tool section begins with the program.
         if self.sections > 1 {
-            let range = cx.boundary_range(Boundary::ToolChange);
+            let range = boundary_range(cx, Boundary::ToolChange);
             let mut stated = Vec::new();
             // `G90 G54 T2 M6`: stated in the block that the operator starts from.
             for code in cx.codes().iter().copied() {
@@ -141,37 +141,37 @@ impl PathRule for ToolSectionNotRestartSafe {
             (Needed::Plane, Some(Role::Plane), cx.code_name(Role::Plane)),
             (Needed::Units, Some(Role::Units), cx.code_name(Role::Units)),
             (Needed::Length, Some(Role::Length), cx.code_name(Role::Length)),
-            (Needed::Distance, Some(Role::Distance), cx.cancel_of(Effect::Absolute)),
-            (Needed::WorkOffset, Some(Role::WorkOffset), cx.cancel_of(Effect::WorkOffset(1))),
+            (Needed::Distance, Some(Role::Distance), cx.name_of_effect(Effect::Absolute)),
+            (Needed::WorkOffset, Some(Role::WorkOffset), cx.name_of_effect(Effect::WorkOffset(1))),
             (Needed::Feed, None, Some("F".to_owned())),
             (Needed::Speed, None, Some("S".to_owned())),
-            (Needed::Spindle, None, cx.cancel_of(Effect::SpindleClockwise)),
-            (Needed::Coolant, None, cx.cancel_of(Effect::FloodOn)),
+            (Needed::Spindle, None, cx.name_of_effect(Effect::SpindleClockwise)),
+            (Needed::Coolant, None, cx.name_of_effect(Effect::FloodOn)),
         ] {
             let Some(word) = word else { continue };
             let is_stated = section.stated.contains(&needed) || role.is_some_and(set_now);
             let is_needed = match needed {
                 // Turrets find the part by the tool's own offset.
                 Needed::WorkOffset => !by_turret,
-                // What the program never states is a matter of its head.
+                // Other rules report what the program never states.
                 Needed::Plane | Needed::Units => {
-                    // Turning knows one plane.
+                    // Turning has one plane.
                     let is_known = match needed {
                         Needed::Plane => by_turret,
-                        _ => cx.scene.machine.units_are_told,
+                        _ => cx.environment.machine.units_are_told,
                     };
                     !is_known && role.is_some_and(|role| cx.trace().set_by(Fact::Mode(role)).is_some())
                 }
-                // A length left over from the tool before; none at all has a rule of its own.
+                // A length from the tool before; another rule reports a missing length.
                 Needed::Length => {
                     let is_off = |effect| matches!(effect, Effect::LengthOff | Effect::None);
                     !by_turret
                         && cx.state().effect(Role::Length, cx.model).is_some_and(|effect| !is_off(effect))
                         && cx.trace().set_by(Fact::Length).is_some_and(|at| !in_section(at))
                 }
-                // On since an earlier part of the program, or off for all that anybody knows.
+                // On since an earlier part of the program, or off as far as is known.
                 Needed::Coolant => self.has_coolant,
-                // Increments with letters of their own leave nothing to state.
+                // Increments with their own letters need no mode.
                 Needed::Distance => cx.model.semantics().increments.is_empty(),
                 Needed::Feed | Needed::Speed | Needed::Spindle => true,
             };
@@ -179,17 +179,17 @@ impl PathRule for ToolSectionNotRestartSafe {
                 missing.push(format!("`{word}`"));
             }
         }
-        if missing.is_empty() || cx.is_behind_unknown_program() {
+        if missing.is_empty() || cx.is_after_unknown_program() {
             return;
         }
         let mut finding = section.finding;
         finding.message =
-            format!("the tool's part relies on what was set before it ({})", missing.join(", "));
+            format!("the tool section relies on modes that were set before it ({})", missing.join(", "));
         report.add(
             finding
                 .label("a restart from here does not set it")
                 .also(cx.range(), "its first cut")
-                .help(format!("state {} again behind the tool change", missing.join(", "))),
+                .help(format!("state {} again after the tool change", missing.join(", "))),
         );
     }
 }
@@ -219,7 +219,7 @@ mod tests {
             "G20 G90 G54\nT1 M6\nS500 M3\nG1 X1. F5.\nT2 M6\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T2 M6
-                  |    ^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G20`, `G90`, `G54`, `F`, `S`, `M3`)
+                  |    ^^ hint[tool-section-not-restart-safe] the tool section relies on modes that were set before it (`G20`, `G90`, `G54`, `F`, `S`, `M3`)
             "#]],
         );
     }
@@ -237,7 +237,7 @@ mod tests {
             "G21\nT0101\nG97 S500 M3\nG1 X1. F.1\nT0202\nG1 X2.\nM30\n",
             &expect![[r#"
                 5 | T0202
-                  | ^^^^^ hint[tool-section-not-restart-safe] the tool's part relies on what was set before it (`G21`, `F`, `S`, `M3`)
+                  | ^^^^^ hint[tool-section-not-restart-safe] the tool section relies on modes that were set before it (`G21`, `F`, `S`, `M3`)
             "#]],
         );
     }

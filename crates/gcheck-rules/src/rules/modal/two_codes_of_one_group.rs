@@ -3,15 +3,15 @@
 use gcheck_controls::{Code, Handling};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// Two codes of one modal group stand in the same block.
+    /// Two codes of one modal group are in the same block.
     ///
     /// ## Why it matters
-    /// Only one code of a group can be active. Some controls refuse the block, others silently take the last code, so the
-    /// same program moves differently on the next machine.
+    /// Only one code of a group can be active. Some controls refuse the block, others silently use the last code, so
+    /// the same program moves differently on the next machine.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -39,7 +39,7 @@ declare_rule! {
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (ix, (second, code)) in cx.codes().enumerate() {
         let earlier = cx.codes().take(ix).find(|(_, other)| other.group_ix() == code.group_ix());
-        // The same code twice is the business of another rule.
+        // Another rule reports the same code twice.
         if let Some((first, other)) = earlier
             && code.group().exclusive
             && other.number() != code.number()

@@ -3,16 +3,16 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Role, Units};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program goes over from inches to millimetres, or back, after it has moved.
+    /// A program changes from inches to millimetres, or back, after it has moved.
     ///
     /// ## Why it matters
-    /// Everything behind counts 25.4 times as much or as little: positions, and on most controls the feed and the offsets that
-    /// were given before. Often a part of another program was pasted in.
+    /// Everything after it counts 25.4 times as much or as little: positions, and on most controls the feed and the
+    /// offsets that were given before. Often a section of another program was pasted in.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -81,10 +81,10 @@ impl PathRule for UnitsChanged {
             Units::Inch => "inches",
             Units::Mm => "millimetres",
         };
-        let message = format!("the program goes over from {} to {}", name(old), name(new));
+        let message = format!("the program changes from {} to {}", name(old), name(new));
         let finding = cx
             .finding(&META, cx.effect_range(is_units), message)
-            .label(format!("numbers count {} from here", name(new)))
+            .label(format!("from here on numbers count {}", name(new)))
             .help("write the program in one unit; check what was pasted in");
         report.add(cx.resting_on(finding, fact, &format!("`{}`", cx.name_of(code))));
     }
@@ -115,7 +115,7 @@ mod tests {
             "G20\nG0 X1\nG21\nG0 X10\nG20\nG0 X1\nM2\n",
             &expect![[r#"
                 3 | G21
-                  | ^^^ info[units-changed] the program goes over from inches to millimetres
+                  | ^^^ info[units-changed] the program changes from inches to millimetres
             "#]],
         );
     }

@@ -1,18 +1,19 @@
-//! A program that moves without saying in which units.
+//! A program that moves before its units are stated.
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{Event, Fact, Role};
 
-use super::distance_mode_not_stated::is_home;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::ignores_distance_mode;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program moves before it says whether it is in inches (`G20`) or millimetres (`G21`).
+    /// A program moves before it states inches (`G20`) or millimetres (`G21`).
     ///
     /// ## Why it matters
-    /// The units are those of a setting, or of the last program. Wrong, every distance is 25.4 times too long or too short.
+    /// The units are those of a setting, or of the last program. If they are wrong, every distance is 25.4 times too
+    /// long or too short.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -65,17 +66,18 @@ impl UnitsNotStated {
             cx.enough();
             return;
         }
-        if is_home(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZUVW")) {
+        if ignores_distance_mode(cx) || !cx.origin().letters.intersects(LetterSet::of("XYZUVW")) {
             return;
         }
         self.is_done = true;
         let is_stated = cx.trace().set_by(Fact::Mode(Role::Units)).is_some()
-            || cx.scene.machine.units_are_told
-            || cx.is_behind_unknown_program();
+            || cx.environment.machine.units_are_told
+            || cx.is_after_unknown_program();
         if is_stated || cx.is_called_only() {
             return;
         }
-        let (Some(inch), Some(metric)) = (cx.cancel_of(Effect::Inch), cx.cancel_of(Effect::Millimetre))
+        let (Some(inch), Some(metric)) =
+            (cx.name_of_effect(Effect::Inch), cx.name_of_effect(Effect::Millimetre))
         else {
             return;
         };
@@ -85,7 +87,7 @@ impl UnitsNotStated {
                 cx.range(),
                 format!("moves before inches or millimetres are stated (`{inch}`, `{metric}`)"),
             )
-            .label("counts in the units that the control has at the moment")
+            .label("uses the units that the control has at that moment")
             .help(format!(
                 "state `{inch}` or `{metric}` at the head of the program, or configure the machine's units"
             )),

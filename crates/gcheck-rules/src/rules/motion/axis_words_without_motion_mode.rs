@@ -1,19 +1,20 @@
-//! Axis words while no kind of motion is active.
+//! Axis words while no motion mode is active.
 
 use std::collections::BTreeSet;
 
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Fact, Fault, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block has axis words, and no code says how to move: the kind of motion was ended, or never chosen.
+    /// A block has axis words, and no code says how to move: the motion mode was cancelled, or never chosen.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm. Behind a canned cycle it is the `G80` that ended the motion mode with the cycle.
+    /// The control stops with an alarm. After a canned cycle, `G80` has cancelled the motion mode together with the
+    /// cycle.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -32,7 +33,7 @@ declare_rule! {
     /// M2
     /// ```
     rule "axis-words-without-motion-mode" in "motion" {
-        summary: "axis words while no kind of motion is active",
+        summary: "axis words while no motion mode is active",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -42,7 +43,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct AxisWordsWithoutMotionMode {
-    /// What ended the motion mode: the first block behind each speaks for the others.
+    /// What cancelled the motion mode: the first block after each stands for the others.
     told: BTreeSet<Option<At>>,
     unknown_code: bool,
 }
@@ -55,12 +56,12 @@ impl PathRule for AxisWordsWithoutMotionMode {
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        // A code that nobody knows may have chosen a kind of motion.
+        // An unknown code may have chosen a motion mode.
         self.unknown_code |= *fault == Fault::UnknownCode;
         if *fault != Fault::NoMotionMode || cx.has_effect(|effect| effect == Effect::NurbsClose) {
             return;
         }
-        let is_axis = |word: &gcheck_program::Word| cx.scene.control().axes().contains(word.letter);
+        let is_axis = |word: &gcheck_program::Word| cx.control().axes().contains(word.letter);
         let mode = cx.state().mode(Role::Motion).only();
         if mode != Some(CodeIx::NONE) || cx.has_effect(|effect| effect == Effect::MachineCoordinates) {
             let machine = cx.effect_range(|effect| effect == Effect::MachineCoordinates);
@@ -74,7 +75,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
                 )
                 .label("needs `G0` or `G1`")
                 .help("write `G0` or `G1` in this block");
-            report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the kind of motion"));
+            report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the motion mode"));
             return;
         }
         let set = |role| cx.trace().set_by(Fact::Mode(role));
@@ -83,15 +84,15 @@ impl PathRule for AxisWordsWithoutMotionMode {
             return;
         }
         let mut finding = cx
-            .finding(&META, cx.word_range(is_axis), "axis words while no kind of motion is active")
-            .label("how to move is not said")
+            .finding(&META, cx.word_range(is_axis), "axis words while no motion mode is active")
+            .label("no code says how to move")
             .help("write `G0` or `G1` in this block");
         match cause.and_then(|at| cx.range_of(at)) {
-            Some(range) => finding = finding.also(range, "the kind of motion was ended here"),
+            Some(range) => finding = finding.also(range, "the motion mode was cancelled here"),
             None if cause.is_none() => {
                 finding = finding
                     .at_most(crate::Severity::Warning)
-                    .assuming("no kind of motion is active at the start of the program");
+                    .assuming("no motion mode is active at the start of the program");
             }
             None => {}
         }
@@ -114,9 +115,9 @@ mod tests {
             "G90 G0 X0 Y0 Z5\nG80\nN5 X20 Y5\nX30\nG1 X5 F100\nG80 Z2\nM2\n",
             &expect![[r#"
                 3 | N5 X20 Y5
-                  |    ^^^ error[axis-words-without-motion-mode] axis words while no kind of motion is active
+                  |    ^^^ error[axis-words-without-motion-mode] axis words while no motion mode is active
                 6 | G80 Z2
-                  |     ^^ error[axis-words-without-motion-mode] axis words while no kind of motion is active
+                  |     ^^ error[axis-words-without-motion-mode] axis words while no motion mode is active
             "#]],
         );
     }
@@ -129,7 +130,7 @@ mod tests {
             "G21 G90\nX10 Y10\nM2\n",
             &expect![[r#"
             2 | X10 Y10
-              | ^^^ warning[axis-words-without-motion-mode] axis words while no kind of motion is active
+              | ^^^ warning[axis-words-without-motion-mode] axis words while no motion mode is active
         "#]],
         );
     }

@@ -1,4 +1,4 @@
-//! A chamfer or rounding with no cut behind it.
+//! A chamfer or rounding before a rapid move.
 
 use std::ops::Range;
 
@@ -6,16 +6,17 @@ use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Event, TravelKind};
 use gcheck_program::Word;
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::turning::is_roughing;
+use crate::declare::declare_rule;
+use crate::facts::turning::{is_roughing, profile_blocks};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A block asks for a chamfer or a rounding to the next move (`,C`, `,R`), and the next move is a rapid one.
     ///
     /// ## Why it matters
-    /// The corner lies between two cuts: with a rapid move behind it there is none, and the control alarms.
+    /// The corner needs a cut on both sides: before a rapid move it does not exist, and the control stops with an
+    /// alarm.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -66,14 +67,14 @@ impl PathRule for CornerBeforeRapid {
         if !cx.has_effect(is_roughing) {
             return;
         }
-        // The passes of a cycle are not made block by block.
-        let last = cx.profile_blocks().map(|(_, last)| last);
+        // A cycle does not make its passes block by block.
+        let last = profile_blocks(cx).map(|(_, last)| last);
         if let Some(corner) = last.and_then(|last| cx.find_word(last, is_corner)) {
             report.add(
                 cx.finding(&META, corner, "chamfer or rounding at the end of a turning profile")
-                    .label("the corner to the next cut of the profile, which has none")
+                    .label("needs another cut of the profile after it")
                     .also(cx.range(), "the cycle that follows the profile")
-                    .help("end the profile with a cut behind the corner, or take the word away")
+                    .help("end the profile with a cut after the corner, or remove the word")
                     .at_most(Severity::Warning),
             );
         }
@@ -90,9 +91,9 @@ impl PathRule for CornerBeforeRapid {
         {
             report.add(
                 cx.finding(&META, corner, "chamfer or rounding before a rapid move")
-                    .label("the corner to the next cut")
+                    .label("needs a cut after it")
                     .also(cx.range(), "the next move is a rapid one")
-                    .help("end the contour with a cut behind the corner, or take the word away")
+                    .help("end the contour with a cut after the corner, or remove the word")
                     .at_most(Severity::Warning),
             );
         }
@@ -102,7 +103,7 @@ impl PathRule for CornerBeforeRapid {
     }
 }
 
-/// A corner that is asked for, of some size.
+/// A programmed corner of some size.
 fn is_corner(word: &Word) -> bool {
     corners().contains(word.letter) && word.number() != Some(0.0)
 }

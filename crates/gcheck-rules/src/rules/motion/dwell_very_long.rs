@@ -3,16 +3,16 @@
 use gcheck_controls::{DwellWord, Effect, Letter, LetterSet, Motion, Unpointed};
 use gcheck_engine::Event;
 
-use super::dwell_unit_unsure::other_reading;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::dwell::{LONG, duration, of_another_control, other_reading};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A dwell lasts five minutes or more.
     ///
     /// ## Why it matters
-    /// Some controls count a dwell in seconds, others in milliseconds: `G4 P2000` is two seconds on one and more than half
-    /// an hour on the other. The tool rubs in the part meanwhile.
+    /// Some controls read a dwell in seconds, others in milliseconds: `G4 P2000` is two seconds on one and more than
+    /// half an hour on the other. Meanwhile the tool rubs on the part.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -20,7 +20,7 @@ declare_rule! {
     /// G4 P2000
     /// M2
     /// ```
-    /// In a program that cuts nothing, such as one that warms the spindle up, it is information.
+    /// In a program that cuts nothing, such as one that warms up the spindle, it is *info*.
     ///
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
@@ -40,9 +40,6 @@ declare_rule! {
     }
 }
 
-/// Seconds: longer than any warm-up of a spindle step, shorter than a second meant as milliseconds.
-pub(super) const LONG: f64 = 300.0;
-
 struct DwellVeryLong;
 
 impl PathRule for DwellVeryLong {
@@ -56,12 +53,12 @@ impl PathRule for DwellVeryLong {
         let is_time = |word: &gcheck_program::Word| {
             dwell.keys().any(|letter| gcheck_controls::Letter::parse(letter) == Some(word.letter))
         };
-        // A cycle dwells in every hole; its time is judged where it stands.
+        // A cycle dwells in every hole; its time is judged in the block that gives it.
         if cx.find_word(cx.origin().at, is_time).is_none() {
             return;
         }
-        // A number without a point may be least increments there: nobody knows.
-        let by_parameter = cx.scene.control().numbers().unpointed == Unpointed::ByParameter;
+        // A number without a point may count least increments there: that is unknown.
+        let by_parameter = cx.control().numbers().unpointed == Unpointed::ByParameter;
         let is_unsure = |word: &gcheck_program::Word| {
             let kind = dwell.iter().find(|(letter, _)| Letter::parse(letter) == Some(word.letter));
             let is_seconds = kind.is_some_and(|(_, kind)| *kind == DwellWord::Seconds);
@@ -70,7 +67,7 @@ impl PathRule for DwellVeryLong {
         if by_parameter && cx.find_word(cx.origin().at, is_unsure).is_some() {
             return;
         }
-        // What the control does not take is reported as that.
+        // Another rule reports a value that the control does not accept.
         if cx.place().is_some_and(|place| is_above_range(cx, &place, is_time)) {
             return;
         }
@@ -86,10 +83,10 @@ impl PathRule for DwellVeryLong {
     }
 }
 
-/// May the program cut anything? What it calls may. A code that cuts needs somewhere to go: a line of modes that is copied
-/// from another machine may name one, such as `G90` on a lathe, and moves nothing.
+/// May the program cut? A program that it calls may. A code that cuts needs a target: a line of modes that was copied
+/// from another machine may have one, such as `G90` on a lathe, and moves nothing.
 fn may_cut(cx: &PathCx<'_>) -> bool {
-    let control = cx.scene.control();
+    let control = cx.control();
     let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
     let cuts = [Motion::Feed, Motion::Arc, Motion::Thread, Motion::Cycle, Motion::Operation, Motion::Curve];
     let goes = cx.survey.letters.intersects(LetterSet::of("XYZUVWABCIJK"));
@@ -98,14 +95,14 @@ fn may_cut(cx: &PathCx<'_>) -> bool {
         || goes && codes.any(|code| cuts.contains(&code.motion()))
 }
 
-/// Does the time exceed what the code that reads it takes?
+/// Does the time exceed the range of the code that reads it?
 fn is_above_range(
     cx: &PathCx<'_>,
     place: &gcheck_program::Place,
     is_time: impl Fn(&gcheck_program::Word) -> bool,
 ) -> bool {
     let words = place.table.words(place.block());
-    let codes = words.iter().filter_map(|word| cx.scene.control().code_at(word.code));
+    let codes = words.iter().filter_map(|word| cx.control().code_at(word.code));
     let entries: Vec<_> = codes
         .filter(|code| code.effect() == Effect::Dwell)
         .flat_map(|code| &code.entry().words)
@@ -117,40 +114,12 @@ fn is_above_range(
     })
 }
 
-/// A time for people: `0.5 seconds`, `8 minutes`, `28 hours`.
-pub(super) fn duration(seconds: f64) -> String {
-    const MINUTE: f64 = 60.0;
-    const HOUR: f64 = 60.0 * MINUTE;
-    let (value, unit) = if seconds < 0.1 {
-        (seconds * 1000.0, "milliseconds")
-    } else if seconds < 2.0 * MINUTE {
-        (seconds, "seconds")
-    } else if seconds < 2.0 * HOUR {
-        (seconds / MINUTE, "minutes")
-    } else {
-        (seconds / HOUR, "hours")
-    };
-    let text = match (value < 10.0, seconds < 2.0 * MINUTE) {
-        (true, true) => format!("{value:.2}"),
-        (true, false) => format!("{value:.1}"),
-        (false, _) => format!("{value:.0}"),
-    };
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "1" { format!("1 {}", unit.trim_end_matches('s')) } else { format!("{text} {unit}") }
-}
-
-/// The time on a control that counts in the other unit, where the control was only guessed.
-pub(super) fn of_another_control(seconds: f64) -> String {
-    format!("the control was guessed: one that counts in the other unit waits {}", duration(seconds))
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_cycle_is_told_once() {
@@ -209,7 +178,7 @@ mod tests {
     #[test]
     fn a_guessed_control_says_what_the_other_unit_makes() {
         let world = World { control_is_guessed: true, ..World::default() };
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G4 P8000\nM2\n", &world);
+        let found = findings(&only(&RULE), "linuxcnc", "G4 P8000\nM2\n", &world);
         expect![[r#"
             dwell of 2.2 hours
               here: 8000 seconds on this control

@@ -3,17 +3,16 @@
 use gcheck_controls::DwellWord;
 use gcheck_engine::Event;
 
-use super::dwell_unit_unsure::other_reading;
-use super::dwell_very_long::{duration, of_another_control};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::dwell::{SHORT, duration, of_another_control, other_reading};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// A dwell lasts less than twenty milliseconds, but more than one: `G4 P1` is written to keep the control from reading ahead.
     ///
     /// ## Why it matters
-    /// Some controls count a dwell in milliseconds, others in seconds: `G4 P2` is two seconds on one and no noticeable time
-    /// on the other. The spindle does not come up to speed, the bottom of the hole is not cleaned.
+    /// Some controls read a dwell in milliseconds, others in seconds: `G4 P2` is two seconds on one and no noticeable
+    /// time on the other. The spindle does not reach its speed, or the bottom of the hole is not cleaned.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -35,9 +34,7 @@ declare_rule! {
     }
 }
 
-/// Seconds: less than a spindle needs for a turn.
-pub(super) const SHORT: f64 = 0.02;
-/// Milliseconds: the shortest dwell there is only keeps the control from reading ahead.
+/// Milliseconds: the shortest possible dwell only keeps the control from reading ahead.
 const SHORTEST: f64 = 1.0001;
 
 struct DwellVeryShort;
@@ -59,7 +56,7 @@ impl PathRule for DwellVeryShort {
             let mut letters = kinds.filter_map(|(letter, _)| gcheck_controls::Letter::parse(letter));
             word.shape.point && letters.any(|letter| letter == word.letter)
         };
-        // A cycle dwells in every hole; its time is judged where it stands.
+        // A cycle dwells in every hole; its time is judged in the block that gives it.
         if words.iter().any(is_pointed) || !words.iter().any(is_time) {
             return;
         }
@@ -74,7 +71,7 @@ impl PathRule for DwellVeryShort {
     }
 }
 
-/// Less than anybody could want, but more than what is written to keep the control from reading ahead.
+/// Less than any useful dwell, but more than one that only keeps the control from reading ahead.
 fn is_too_short(seconds: f64) -> bool {
     seconds * 1000.0 > SHORTEST && seconds < SHORT
 }

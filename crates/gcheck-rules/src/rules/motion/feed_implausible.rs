@@ -1,19 +1,19 @@
-//! A feed that cannot be meant in the feed mode that is on.
+//! A feed that looks meant for another feed mode.
 
 use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
 
-use super::feed_of_another_mode::goes_by_feed;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::goes_by_feed;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A cut at more than 10 mm (0.4 inch) a turn of the spindle, or at less than 1 mm (0.04 inch) a minute.
+    /// A cut at more than 10 mm (0.4 inch) per turn of the spindle, or at less than 1 mm (0.04 inch) per minute.
     ///
     /// ## Why it matters
-    /// Nobody cuts so: the number is meant for the other feed mode. 300 mm a minute read as 300 mm a turn breaks the tool, and
-    /// 0.2 mm a turn read as 0.2 mm a minute rubs for hours.
+    /// No tool cuts like this: the number is meant for the other feed mode. 300 mm per minute read as 300 mm per turn
+    /// breaks the tool, and 0.2 mm per turn read as 0.2 mm per minute rubs for hours.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -34,7 +34,7 @@ declare_rule! {
     /// G94 X20. F300.
     /// M30
     /// ```
-    /// A thread goes by its lead.
+    /// A thread is cut at its lead.
     /// ```nc,quiet,fanuc-lathe
     /// G21 G99 T101
     /// G97 S50 M3
@@ -42,7 +42,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "feed-implausible" in "motion" {
-        summary: "feed that cannot be meant in the feed mode that is on",
+        summary: "feed that looks meant for another feed mode",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -50,14 +50,14 @@ declare_rule! {
     }
 }
 
-/// Millimetres a turn: more than any milling cutter or turning tool takes.
+/// Millimetres per turn: more than any milling cutter or turning tool allows.
 const MOST_A_TURN: f64 = 10.0;
-/// Millimetres a minute: less than anybody waits for.
+/// Millimetres per minute: less than any useful feed.
 const LEAST_A_MINUTE: f64 = 1.0;
 
 #[derive(Clone, PartialEq)]
 struct FeedImplausible {
-    /// The block whose feed was told of.
+    /// The block whose feed was reported.
     told: Option<At>,
 }
 
@@ -72,16 +72,16 @@ impl PathRule for FeedImplausible {
         let state = cx.state();
         let Some(feed) = Abstract::known(state.feed()).filter(|feed| *feed > 0.0) else { return };
         let (reads, other) = match state.feed_mode(cx.model) {
-            Some(FeedMode::PerRevolution) if feed > MOST_A_TURN => ("a turn of the spindle", "a minute"),
-            Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("a minute", "a turn of the spindle"),
+            Some(FeedMode::PerRevolution) if feed > MOST_A_TURN => ("per turn of the spindle", "per minute"),
+            Some(FeedMode::PerMinute) if feed < LEAST_A_MINUTE => ("per minute", "per turn of the spindle"),
             _ => return,
         };
-        // A mode that the program does not set may be another one on the machine.
+        // A mode that the program does not set may differ on the machine.
         if cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_none() {
             return;
         }
         let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
-        // A feed that was given under the other mode is told as that, and a lost point as a lost point.
+        // Other rules report a feed that was given under the other mode, and a missing decimal point.
         let (now, then) = (state.mode(Role::FeedMode).only(), state.feed_given_under().only());
         let word = |word: &gcheck_program::Word| word.letter == Letter::of('F');
         let lost = |w: &gcheck_program::Word| word(w) && !w.shape.point && w.number().is_some();
@@ -102,7 +102,7 @@ impl PathRule for FeedImplausible {
     }
 }
 
-/// A length for people.
+/// A length as people write it.
 fn told(length: f64) -> String {
     let text = if length < 1.0 { format!("{length:.3}") } else { format!("{length:.0}") };
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
@@ -123,7 +123,7 @@ mod tests {
             "G20 G90 G95 S900 M3\nG1 X1. F30.\nX2.\nG1 X3. F0.01\nM30\n",
             &expect![[r#"
                 2 | G1 X1. F30.
-                  |        ^^^^ warning[feed-implausible] feed of 762 mm a turn of the spindle (`F`)
+                  |        ^^^^ warning[feed-implausible] feed of 762 mm per turn of the spindle (`F`)
             "#]],
         );
     }

@@ -1,16 +1,17 @@
-//! A cut before any feed was given.
+//! A cut before a feed is given.
 
 use std::collections::BTreeSet;
 
-use gcheck_controls::Effect;
-use gcheck_engine::{At, Fact, Fault, FeedMode, Role};
+use gcheck_engine::{At, Fact, Fault, FeedMode};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::{is_probing_motion, zero_feed_given};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts while no feed is in effect: no `F` was given on the way here, or a change of the feed mode took it away.
+    /// A block cuts while no feed is in effect: no earlier block on this path gives `F`, or a change of the feed mode
+    /// cleared it.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the first cut, with the tool at the part.
@@ -59,11 +60,11 @@ impl PathRule for FeedMissing {
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let inverse_time = cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
-        if *fault != Fault::NoFeed || inverse_time || probes(cx) || zero_was_given(cx).is_some() {
+        if *fault != Fault::NoFeed || inverse_time || is_probing_motion(cx) || zero_feed_given(cx).is_some() {
             return;
         }
         let cause = cx.trace().set_by(Fact::Feed);
-        // What others call has the feed of its caller.
+        // A called program has the feed of its caller.
         if cause.is_none() && cx.is_called_only() || !self.causes.insert(cause) {
             return;
         }
@@ -74,31 +75,13 @@ impl PathRule for FeedMissing {
             .help("give `F` in this block or before it");
         if let Some(range) = cause.and_then(|at| cx.range_of(at)) {
             // LinuxCNC forgets the feed when its meaning changes.
-            finding = finding.also(range, "this took the feed away: what `F` means changes here");
+            finding = finding.also(range, "this clears the feed: the meaning of `F` changes here");
         }
-        if cause.is_none() && cx.scene.control_is_guessed {
+        if cause.is_none() && cx.environment.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
         report.add(finding);
     }
-}
-
-/// The block whose `F` word gave a feed of zero, if that is why there is none.
-pub(crate) fn zero_was_given(cx: &PathCx<'_>) -> Option<At> {
-    let at = cx.trace().set_by(Fact::Feed)?;
-    let place = cx.place_of(at)?;
-    place.block().letters.contains(gcheck_controls::Letter::of('F')).then_some(at)
-}
-
-/// Is probing the kind of motion?
-pub(crate) fn probes(cx: &PathCx<'_>) -> bool {
-    let effect = cx.state().effect(Role::Motion, cx.model);
-    matches!(
-        effect,
-        Some(
-            Effect::ProbeToward | Effect::ProbeTowardOptional | Effect::ProbeAway | Effect::ProbeAwayOptional
-        )
-    )
 }
 
 #[cfg(test)]

@@ -1,19 +1,20 @@
 //! A cut at a feed that was given while `F` meant something else.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role, TravelKind};
+use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::{goes_by_feed, meaning_of_feed};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The feed mode changed (`G93`, `G94`, `G95`; `G98`, `G99` on lathes), the program cuts, and no `F` was given since.
     ///
     /// ## Why it matters
-    /// The number stays and is read anew: a feed of 0.2 mm a turn becomes 0.2 mm a minute, an inverse time of 40 moves a
-    /// minute becomes 40 mm a minute, 300 mm a minute become 300 mm a turn. Controls that forget the feed instead stop with
-    /// an alarm; see `feed-missing`.
+    /// The number remains and gets a new meaning: a feed of 0.2 mm per turn becomes 0.2 mm per minute, an inverse time
+    /// of 40 moves per minute becomes 40 mm per minute, 300 mm per minute becomes 300 mm per turn. Controls that clear
+    /// the feed instead stop with an alarm; see `feed-missing`.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -31,7 +32,7 @@ declare_rule! {
     /// G1 X20.
     /// M30
     /// ```
-    /// The feed of this mode, with another mode in between that cut nothing.
+    /// The feed was given under this mode, and nothing was cut under the other mode in between.
     /// ```nc,quiet,generic-mill
     /// G21 G90 G54 S2000 M3
     /// G94 G1 X10. F300.
@@ -51,7 +52,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct FeedOfAnotherMode {
-    /// The change of mode that was reported last: what comes behind it is its consequence.
+    /// The change of mode that was reported last: what comes after it is its consequence.
     told: Option<gcheck_engine::At>,
 }
 
@@ -68,11 +69,12 @@ impl PathRule for FeedOfAnotherMode {
         else {
             return;
         };
-        let (Some(means), Some(before)) = (counts(cx.model.effect(now)), counts(cx.model.effect(given)))
+        let (Some(means), Some(before)) =
+            (meaning_of_feed(cx.model.effect(now)), meaning_of_feed(cx.model.effect(given)))
         else {
             return;
         };
-        // Under inverse time every cut has its own `F`, or a rule of its own.
+        // Under inverse time every cut has its own `F`; another rule reports a missing one.
         if means == before || cx.model.effect(now) == Effect::FeedInverseTime {
             return;
         }
@@ -92,32 +94,13 @@ impl PathRule for FeedOfAnotherMode {
         let feed = cx.find_word(at, is_feed);
         let mut finding = cx
             .finding(&META, cx.range(), format!("the feed was given under another feed mode (`{given}`)"))
-            .label(format!("the same number is read as {means} here (`{now}`)"))
+            .label(format!("here the same number means {means} (`{now}`)"))
             .note("as far as is known, this control keeps the number of `F` when its meaning changes")
-            .help(format!("give `F` anew with `{now}`"));
+            .help(format!("give `F` again with `{now}`"));
         if let Some(range) = feed {
             finding = finding.also(range, format!("given as {before} (`{given}`)"));
         }
         report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{now}`")));
-    }
-}
-
-/// What a number of `F` counts; `None` for codes that choose no meaning of it.
-pub(super) fn counts(mode: Effect) -> Option<&'static str> {
-    match mode {
-        Effect::FeedInverseTime => Some("moves per minute"),
-        Effect::FeedPerMinute => Some("a length per minute"),
-        Effect::FeedPerRevolution => Some("a length per turn"),
-        _ => None,
-    }
-}
-
-/// Does the feed in effect drive the move? A thread has its lead, a tap its pitch.
-pub(crate) fn goes_by_feed(event: &Event) -> bool {
-    match event {
-        Event::Travel(travel) => travel.kind == TravelKind::Feed,
-        Event::Arc(_) | Event::Curve(_) => true,
-        _ => false,
     }
 }
 
@@ -126,8 +109,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_change_is_reported_once() {
@@ -239,14 +221,14 @@ mod tests {
     #[test]
     fn words_say_what_the_number_counts() {
         let program = "G21 S900 M3\nG93 G1 X1. F40.\nG94\nG1 X2.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             the feed was given under another feed mode (`G93`)
-              here: the same number is read as a length per minute here (`G94`)
+              here: here the same number means a length per minute (`G94`)
               there: given as moves per minute (`G93`)
               there: `G94` set here
               note: as far as is known, this control keeps the number of `F` when its meaning changes
-              help: give `F` anew with `G94`
+              help: give `F` again with `G94`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

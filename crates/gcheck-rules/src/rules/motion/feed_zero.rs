@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 
 use gcheck_engine::{At, Fault};
 
-use super::feed_missing::zero_was_given;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::zero_feed_given;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts, and the feed that was given last is zero.
+    /// A block cuts, and the last feed is zero.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or the tool stands in the part with the spindle turning.
+    /// The control stops with an alarm, or the tool dwells in the part with the spindle turning.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -28,7 +28,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// Nobody knows the value.
+    /// The value is unknown.
     /// ```nc,quiet,haas-mill
     /// G1 X1. F#100
     /// M30
@@ -59,7 +59,7 @@ impl PathRule for FeedZero {
         if *fault != Fault::NoFeed {
             return;
         }
-        let Some(at) = zero_was_given(cx) else { return };
+        let Some(at) = zero_feed_given(cx) else { return };
         if !self.told.insert(at) {
             return;
         }

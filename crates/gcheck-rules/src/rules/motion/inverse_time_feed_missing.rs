@@ -4,16 +4,16 @@ use std::collections::BTreeSet;
 
 use gcheck_engine::{At, Fact, Fault, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Inverse-time feed (`G93`) is active, and a cutting block has no `F`.
     ///
     /// ## Why it matters
-    /// Under `G93` an `F` is the time of its own block, so it does not last. The control stops with an alarm; one that keeps
-    /// the word would cut a long move in the time of a short one.
+    /// Under `G93` an `F` gives the time of its own block, so it does not last. The control stops with an alarm; if a
+    /// control kept the word, it would cut a long move in the time of a short one.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -41,7 +41,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct InverseTimeFeedMissing {
-    /// Blocks that chose inverse time: the first cut without feed speaks for all behind it.
+    /// Blocks that chose inverse time: the first cut without feed stands for all after it.
     told: BTreeSet<Option<At>>,
 }
 
@@ -57,7 +57,7 @@ impl PathRule for InverseTimeFeedMissing {
         if *fault != Fault::NoInverseTimeFeed || !self.told.insert(cx.trace().set_by(fact)) {
             return;
         }
-        let Some(code) = cx.state().mode(Role::FeedMode).only().and_then(|ix| cx.scene.control().code_at(ix))
+        let Some(code) = cx.state().mode(Role::FeedMode).only().and_then(|ix| cx.control().code_at(ix))
         else {
             return;
         };

@@ -3,14 +3,14 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
-    /// A move in machine coordinates (`G53`) stands under increments (`G91`), on a control that refuses it.
+    /// A move in machine coordinates (`G53`) is programmed under increments (`G91`), on a control that refuses it.
     ///
     /// ## Why it matters
-    /// Machine coordinates are positions. The control stops here: often at the safe retract that `G53 Z0` was meant to be.
+    /// Machine coordinates are positions. The control stops here: often at a safe retract such as `G53 Z0`.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "machine coordinates while increments are on",
         severity: Error,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::FAULTS, make: || Box::new(MachineCoordinatesInIncrements) },
     }
@@ -47,13 +47,13 @@ impl PathRule for MachineCoordinatesInIncrements {
         if *fault != Fault::Conflict || !cx.has_effect(is_machine) || !is_incremental {
             return;
         }
-        // A mode of the block itself is another matter.
+        // A mode in the block itself is not judged here.
         if cx.code_of_role(Role::Distance).is_some_and(|code| cx.model.effect(code) == Effect::Absolute) {
             return;
         }
-        let name = cx.cancel_of(Effect::MachineCoordinates).unwrap_or_default();
-        let incremental = cx.cancel_of(Effect::Incremental).unwrap_or_default();
-        let absolute = cx.cancel_of(Effect::Absolute).unwrap_or_default();
+        let name = cx.name_of_effect(Effect::MachineCoordinates).unwrap_or_default();
+        let incremental = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
+        let absolute = cx.name_of_effect(Effect::Absolute).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
@@ -61,7 +61,7 @@ impl PathRule for MachineCoordinatesInIncrements {
                 format!("machine coordinates under increments (`{name}` under `{incremental}`)"),
             )
             .label("the control refuses the block")
-            .help(format!("state `{absolute}` before"))
+            .help(format!("state `{absolute}` before this this"))
             .fix_if(cx.block_before(Some(&absolute)))
             .at_most(limit(cx.model.semantics().confidence));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Distance), &format!("`{incremental}`")));

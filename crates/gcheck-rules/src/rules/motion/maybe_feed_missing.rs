@@ -1,18 +1,18 @@
-//! A cut that some path reaches before any feed was given.
+//! A cut that some paths reach without a feed.
 
 use std::collections::BTreeSet;
 
 use gcheck_engine::{AbstractValue, At, Event, Fact, FeedMode};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts, and on some path that comes here no feed is in effect.
+    /// A block cuts, and on some paths that come here no feed is in effect.
     ///
     /// ## Why it matters
-    /// The program runs well until the day the other path is taken; then the control stops with an alarm, the tool at the
+    /// The program runs well until the other path is taken; then the control stops with an alarm, with the tool at the
     /// part.
     ///
     /// ## Reported
@@ -32,7 +32,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-feed-missing" in "motion" {
-        summary: "cut that some path reaches without a feed",
+        summary: "cut that some paths reach without a feed",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -60,14 +60,14 @@ impl PathRule for MaybeFeedMissing {
             return;
         }
         let Some(at) = cx.trace().set_by(Fact::Feed).filter(|at| *at != cx.origin().at) else { return };
-        // A feed that is computed may be zero for reasons of its own.
+        // A computed feed may be zero for other reasons.
         if !is_plain(cx, at) || !self.told.insert(at) {
             return;
         }
         let mut finding = cx
             .finding(&META, cx.range(), "cut that may be without a feed (`F`)")
-            .label("on some path no feed is in effect here")
-            .help("give `F` where the paths have met again, or before they part");
+            .label("on some paths no feed is in effect here")
+            .help("give `F` after the paths have joined, or before they separate");
         if let Some(range) = cx.range_of(at) {
             finding = finding.also(range, "the other path has its feed from here");
         }
@@ -87,8 +87,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_first_cut_behind_the_meeting_of_the_paths_is_marked() {
@@ -106,13 +105,13 @@ mod tests {
     #[test]
     fn words_show_the_path() {
         let program = "G21\nIF [#500 EQ 2] GOTO 10\nF100.\nN10 G1 X1.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             cut that may be without a feed (`F`)
-              here: on some path no feed is in effect here
+              here: on some paths no feed is in effect here
               there: the other path has its feed from here
               there: when this is taken
-              help: give `F` where the paths have met again, or before they part
+              help: give `F` after the paths have joined, or before they separate
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -1,18 +1,18 @@
-//! A cut that some path reaches with a feed that was given while `F` meant something else.
+//! A cut that some paths reach with a feed of another feed mode.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
-use super::feed_of_another_mode::{counts, goes_by_feed};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::{goes_by_feed, meaning_of_feed};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts, and on some path that comes here its feed was given under another feed mode.
+    /// A block cuts, and on some paths that come here its feed was given under another feed mode.
     ///
     /// ## Why it matters
-    /// The program runs well until the day the other path is taken; then the same number is a feed a turn instead of a
+    /// The program runs well until the other path is taken; then the same number is a feed per turn instead of per
     /// minute, or an inverse time. See `feed-of-another-mode`.
     ///
     /// ## Reported
@@ -36,7 +36,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-feed-of-another-mode" in "motion" {
-        summary: "cut that some path reaches with a feed of another feed mode",
+        summary: "cut that some paths reach with a feed of another feed mode",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -60,13 +60,13 @@ impl PathRule for MaybeFeedOfAnotherMode {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let Some(now) = state.mode(Role::FeedMode).only() else { return };
-        let Some(means) = counts(cx.model.effect(now)) else { return };
+        let Some(means) = meaning_of_feed(cx.model.effect(now)) else { return };
         let given = state.feed_given_under();
         if given.only().is_some() || cx.model.effect(now) == Effect::FeedInverseTime {
             return;
         }
         let other = given.alternatives().iter().find_map(|code| {
-            let before = counts(cx.model.effect(*code)).filter(|before| *before != means)?;
+            let before = meaning_of_feed(cx.model.effect(*code)).filter(|before| *before != means)?;
             Some((*code, before))
         });
         if !goes_by_feed(event) || Abstract::known(state.feed()) == Some(0.0) {
@@ -82,8 +82,8 @@ impl PathRule for MaybeFeedOfAnotherMode {
         let (name, from) = (cx.name_of(now), cx.name_of(other));
         let finding = cx
             .finding(&META, cx.range(), format!("the feed may have been given under another mode (`{from}`)"))
-            .label(format!("a number given as {before} is read as {means} here"))
-            .help(format!("give `F` anew with `{name}`"));
+            .label(format!("a number that was given as {before} means {means} here"))
+            .help(format!("give `F` again with `{name}`"));
         let finding = cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`"));
         report.add(cx.with_path(finding));
     }

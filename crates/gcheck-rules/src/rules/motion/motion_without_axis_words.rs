@@ -2,14 +2,14 @@
 
 use gcheck_engine::{Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A block is to move by the mode in effect, and has none of the axis words that the move needs: an arc by radius without an
-    /// axis of its plane, a cycle without a point. The control refuses it.
+    /// A block moves in the active mode, and has none of the axis words that the move needs: an arc by radius without
+    /// an axis of its plane, a cycle without a point. The control refuses it.
     ///
-    /// Codes whose page asks for one of several words are judged by `word-choice-missing`.
+    /// `word-choice-missing` judges codes whose page asks for one of several words.
     ///
     /// ## Why it matters
     /// The control stops with an alarm.
@@ -51,16 +51,16 @@ impl PathRule for MotionWithoutAxisWords {
         report.add(
             cx.finding(&META, cx.range(), format!("move without the axis words it needs{code}"))
                 .label("has words of the move, but no point")
-                .help("give the end point, or end the mode before this block"),
+                .help("give the end point, or cancel the mode before this block"),
         );
     }
 }
 
-/// Does a code of the block ask for one of several words, none of which stands? Then that has been reported.
+/// Does a code of the block ask for one of several words, and none is there? Then that has been reported.
 fn is_told(cx: &PathCx<'_>) -> bool {
     let letters = cx.origin().letters;
     let codes = cx.codes();
-    let mut codes = codes.iter().filter_map(|ix| cx.scene.control().code_at(*ix));
+    let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
     codes.any(|code| {
         let mut lists = code.entry().one_of.iter();
         lists.any(|list| {

@@ -1,4 +1,4 @@
-//! A feed move down that finds the tool as deep already.
+//! A feed move down to where the tool already is.
 
 use std::ops::Range;
 
@@ -6,20 +6,20 @@ use gcheck_controls::{Letter, LetterSet};
 use gcheck_engine::{Axis, Event, Position, TravelKind};
 use gcheck_geometry::{Mm, Plane};
 
-use super::rapid_in_material::{LEVEL, SURFACE};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cuts::{LEVEL, SURFACE};
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A rapid move ends below the zero of the part, and the feed move in Z behind it has no way left to go down: the tool is
-    /// as deep already, or deeper.
+    /// A rapid move ends below the zero of the part, and the feed move in Z after it does not go down: the tool is
+    /// already at that depth, or deeper.
     ///
-    /// A program in which that is found more than twice does it on purpose, and nothing is said of it.
+    /// A program that does so more than twice does it on purpose, and is not reported.
     ///
     /// ## Why it matters
-    /// The way into the part was meant to be fed, and the tool has gone it at rapid: the clearance height in front of it has a
-    /// minus sign too many, or the retract before it is missing and the tool came sideways through the part.
+    /// The tool should enter the part at feed, and it entered at rapid: the clearance height before it has a wrong
+    /// minus sign, or the retract before it is missing and the tool came sideways through the part.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -54,7 +54,7 @@ declare_rule! {
     /// G0 Z5.
     /// M30
     /// ```
-    /// A cutter that is fed up from below.
+    /// A cutter that feeds up from below.
     /// ```nc,quiet,haas-mill
     /// G21 G90 G54 G0 X10. Y10.
     /// G43 H1 Z2.
@@ -65,7 +65,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "plunge-goes-nowhere" in "motion" {
-        summary: "feed move down finds the tool as deep already",
+        summary: "feed move down, but the tool is already as deep",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -105,11 +105,11 @@ enum Way {
     Down,
     /// Sideways at rapid, from a cut at the same depth.
     Along,
-    /// Up at feed, behind a rapid move sideways.
+    /// Up at feed, after a rapid move sideways.
     Up,
 }
 
-/// Programs in which it is found more often have their reasons: a cutter that is fed up step by step.
+/// Programs that do it more often do so on purpose: a cutter that is fed up step by step.
 const MOST: usize = 2;
 /// Clearance heights are no higher: millimetres. Cutters that are fed up from below begin deeper.
 const CLEARANCE: f64 = 5.1;
@@ -120,7 +120,7 @@ impl PathRule for PlungeGoesNowhere {
     }
 
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        // Where the change leaves the tool is the machine's business.
+        // The machine decides where the change leaves the tool.
         if matches!(event, Event::ToolChange(_)) {
             self.before = None;
         }
@@ -132,7 +132,7 @@ impl PathRule for PlungeGoesNowhere {
             return;
         }
         let before = self.before.take();
-        // There a program may turn: Z is no depth.
+        // There a program may turn: Z is not a depth.
         if cx.state().plane(cx.model) == Some(Plane::Zx) {
             return;
         }
@@ -173,7 +173,7 @@ fn cut(cx: &PathCx<'_>, z: f64) -> Before {
     Before { way: Way::Cut, z, bytes: cx.range() }
 }
 
-/// What a rapid move is for the feed move behind it.
+/// What a rapid move is for the feed move after it.
 fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<f64>) -> Option<Before> {
     let to = to.filter(|z| *z < SURFACE)?;
     let is_level = before.as_ref().is_some_and(|before| (before.z - to).abs() < LEVEL);
@@ -182,7 +182,7 @@ fn rapid(cx: &PathCx<'_>, before: Option<Before>, from: Option<f64>, to: Option<
             Some(Before { way: Way::Along, z: to, bytes: cx.range() })
         }
         Some(before) if is_level && before.way != Way::Up => Some(before),
-        // From where nobody knows, a tool comes from above.
+        // From an unknown height, a tool comes from above.
         _ => {
             let is_down =
                 cx.origin().letters.contains(Letter::of('Z')) && from.is_none_or(|from| from >= 0.0);
@@ -200,14 +200,14 @@ impl PlungeGoesNowhere {
             Way::Cut => false,
             Way::Down => is_same || is_up && z <= 0.0 && before.z >= -CLEARANCE,
             Way::Along if is_up && z > SURFACE => {
-                // Whether the way up was meant shows the move behind it.
+                // The next move shows whether the way up was deliberate.
                 self.before = Some(Before { way: Way::Up, z, ..before });
                 return;
             }
             Way::Along => is_same || is_up,
             Way::Up => z < SURFACE,
         };
-        // A loop comes by again.
+        // A loop repeats it.
         let is_known = self.found.iter().any(|finding| finding.range == before.bytes);
         if !is_odd || is_known || self.found.len() > MOST {
             return;
@@ -218,19 +218,19 @@ impl PlungeGoesNowhere {
         let (label, next) = match before.way {
             Way::Down => (
                 format!("goes down at rapid to {depth} below the zero of the part"),
-                "has no way left to feed",
+                "does not go down: the tool is already there",
             ),
             _ => (
                 format!("goes sideways {depth} below the zero of the part"),
-                "feeds down where the tool already is as deep",
+                "feeds down, but the tool is already as deep",
             ),
         };
         let help = match before.way {
             Way::Down => "check the sign and the height at which the rapid move ends",
-            _ => "lift the tool out of the part before the rapid move",
+            _ => "retract the tool from the part before the rapid move",
         };
         self.found.push(
-            cx.finding(&META, before.bytes, "rapid move goes as deep as the feed move behind it")
+            cx.finding(&META, before.bytes, "rapid move goes as deep as the feed move after it")
                 .label(label)
                 .also(cx.range(), next)
                 .help(help)
@@ -254,7 +254,7 @@ mod tests {
             "G21 G90 G54 G0 X0. Y0. Z50.\nZ-2.\nG1 Z-1. F90.\nX9.\nG0 Z50.\nX20.\nZ-2.\nG1 Z-5.\nG0 Z50.\nM30\n",
             &expect![[r#"
                 2 | Z-2.
-                  | ^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                  | ^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move after it
             "#]],
         );
     }
@@ -267,9 +267,9 @@ mod tests {
             "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z-2 F90\nX9\nG0 X20\nY5\nG1 Z-1\nX30\nG0 X40\nG1 Z5\nZ-2\nG0 Z5\nM2\n",
             &expect![[r#"
                 4 | G0 X20
-                  | ^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                  | ^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move after it
                 8 | G0 X40
-                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+                  | ^^^^^^ warning[plunge-goes-nowhere] rapid move goes as deep as the feed move after it
             "#]],
         );
     }
@@ -287,7 +287,7 @@ mod tests {
             &steps(1),
             &expect![[r#"
             4 | G0 X60.
-              | ^^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move behind it
+              | ^^^^^^^ info[plunge-goes-nowhere] rapid move goes as deep as the feed move after it
         "#]],
         );
         check_rule(&RULE, "fanuc-mill", &steps(3), &expect![[""]]);

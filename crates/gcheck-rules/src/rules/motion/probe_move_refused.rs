@@ -1,13 +1,13 @@
-//! A probing move that cannot start.
+//! A probing move that the control refuses.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing move begins under cutter compensation, or goes to where the probe already stands.
+    /// A probing move begins under cutter compensation, or its target is the probe's present position.
     ///
     /// ## Why it matters
     /// The control stops with an alarm.
@@ -56,7 +56,7 @@ impl PathRule for ProbeMoveRefused {
         }
         report.add(
             cx.finding(&META, cx.range(), "probing move that goes nowhere")
-                .label("the target is where the probe stands")
+                .label("the target is the probe's present position")
                 .help("give a target beyond the surface to be touched"),
         );
     }

@@ -5,16 +5,16 @@ use std::collections::BTreeSet;
 use gcheck_controls::{CodeIx, Letter, Need};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, TravelKind};
 
-use super::feed_missing::{probes, zero_was_given};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::feed::{is_probing_motion, zero_feed_given};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A probing move begins while no feed is in effect, or while feeds are inverse times.
+    /// A probing move begins while no feed is in effect, or under inverse-time feed.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm before the probe moves, or the probe is driven at whatever feed is left from before,
+    /// The control stops with an alarm before the probe moves, or the probe moves at whatever feed is left from before,
     /// which can break it.
     ///
     /// ## Reported
@@ -48,7 +48,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct ProbeWithoutFeed {
-    /// What left the probing moves reported without feed: one finding for each.
+    /// The causes of the reported probing moves without feed: one finding for each.
     told: BTreeSet<Option<At>>,
 }
 
@@ -60,7 +60,7 @@ impl PathRule for ProbeWithoutFeed {
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::NoFeed || !probes(cx) || zero_was_given(cx).is_some() {
+        if *fault != Fault::NoFeed || !is_probing_motion(cx) || zero_feed_given(cx).is_some() {
             return;
         }
         if cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime) {
@@ -77,7 +77,7 @@ impl PathRule for ProbeWithoutFeed {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Travel(travel) = event else { return };
         let skips = matches!(travel.kind, TravelKind::Probe { skip: true, .. });
-        // A code that needs `F` in its own block is spoken of there.
+        // Another rule reports a code that needs `F` in its own block.
         let needs_feed = |code: &CodeIx| {
             cx.code_of(*code).is_some_and(|code| {
                 code.entry().words.iter().any(|word| word.letter == "F" && word.need == Need::Required)
@@ -87,7 +87,7 @@ impl PathRule for ProbeWithoutFeed {
             return;
         }
         let none = Abstract::known(cx.state().feed()).is_some_and(|feed| feed.abs() <= 0.0);
-        if skips && none && zero_was_given(cx).is_none() {
+        if skips && none && zero_feed_given(cx).is_none() {
             let finding = self::finding(cx, "probing move without a feed (`F`)", "no feed is in effect here")
                 .at_most(Severity::Warning);
             self.tell(cx, finding, report);
@@ -98,7 +98,7 @@ impl PathRule for ProbeWithoutFeed {
 impl ProbeWithoutFeed {
     fn tell(&mut self, cx: &PathCx<'_>, finding: Finding, report: &mut Report<'_>) {
         let cause = cx.trace().set_by(Fact::Feed);
-        // What others call has the feed of its caller.
+        // A called program has the feed of its caller.
         if !(cause.is_none() && cx.is_called_only()) && self.told.insert(cause) {
             report.add(finding.help("give `F` in this block or before it"));
         }

@@ -6,26 +6,26 @@ use gcheck_controls::Effect;
 use gcheck_engine::{ArcMove, At, Event, Fact, Role, Spindle, TravelKind};
 use gcheck_geometry::Mm;
 
-use super::rapid_in_material::{Cuts, LEVEL, SURFACE, cutter_radius, point};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::declare::declare_rule;
+use crate::facts::cuts::{Cuts, LEVEL, SURFACE, cutter_radius, point};
+use crate::{Finding, FinishCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// Below the zero of the part a rapid move stands where a cut belongs:
+    /// Below the zero of the part, a rapid move is where a cut should be:
     ///
-    /// * between two cuts at the same depth, through what was not cut so deep before: at an angle to both, along an arc,
-    ///   or with cutter compensation on;
-    /// * behind an arc, straight on to where the contour began;
+    /// * between two cuts at the same depth, through material that was not cut so deep before: at an angle to both,
+    ///   tangent to an arc, or with cutter compensation on;
+    /// * after an arc, straight on to where the contour began;
     /// * from a cut to a place where the tool is fed down: the retract is missing;
-    /// * down into the part and along, straight on into an arc, or up again without a cut.
+    /// * down into the part and then sideways, straight into an arc, or up again without a cut.
     ///
-    /// A program that does so more than twice has its reasons: it steps over beside the part. From one straight cut to one
-    /// beside it nothing is said, for the same reason.
+    /// A program that does so more than twice does it on purpose: it steps over beside the part. For the same reason, a
+    /// move from one straight cut to a parallel one is not reported.
     ///
     /// ## Why it matters
-    /// A `G0` stands where `G1` was meant, and the tool runs through the part at rapid; or the retract was forgotten, and the
-    /// tool is dragged to the next place at depth.
+    /// A `G0` was written instead of `G1`, and the tool runs through the part at rapid; or the retract was forgotten,
+    /// and the tool is dragged to the next place at depth.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -53,7 +53,7 @@ declare_rule! {
     /// G0 Z5.
     /// M30
     /// ```
-    /// Nothing is cut: the plunge was meant to be fed.
+    /// Nothing is cut: the plunge should be at feed.
     /// ```nc,reported,haas-mill
     /// G21 G90 G54 G0 X0. Y0.
     /// G43 H1 Z5.
@@ -87,26 +87,25 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct RapidBetweenCuts {
-    cuts: Cuts,
     /// Where the last move ended, as programmed: the path of a cutter of unknown size is not known.
     at: Option<[f64; 3]>,
     /// Where the tool was fed down last.
     start: Option<[f64; 2]>,
-    /// The move before, when it was a cut that ended at depth.
+    /// The move before, if it was a cut that ended at depth.
     last: Option<Cut>,
     /// Rapid moves at one depth, with no other move since.
     way: Option<Way>,
-    /// Ways that are odd, or would be if they were not the program's habit.
+    /// Ways that are suspicious, unless they are the program's habit.
     found: Vec<Found>,
 }
 
 remembers!(RapidBetweenCuts: way, found);
 
-/// A cut at depth, as far as its neighbours ask.
+/// What the next moves need to know of a cut at depth.
 #[derive(Clone, Copy, PartialEq)]
 struct Cut {
     z: f64,
-    /// Where it goes at its end; `None` for one that goes down, and where that is not known.
+    /// Its direction at its end; `None` for one that goes down, and if that is unknown.
     heads: Option<[f64; 2]>,
     is_arc: bool,
 }
@@ -115,7 +114,7 @@ struct Cut {
 #[derive(Clone, PartialEq)]
 struct Way {
     z: f64,
-    /// The cut that they come from; `None` where a rapid move came down.
+    /// The cut that they come from; `None` if a rapid move came down.
     behind: Option<Cut>,
     /// The first block.
     bytes: Range<u32>,
@@ -127,7 +126,7 @@ struct Way {
     /// Moves sideways, and those of them with cutter compensation on.
     pieces: usize,
     compensated: usize,
-    /// Goes through what was not cut so deep before; `None` where nobody knows.
+    /// Goes through material that was not cut so deep before; `None` if that is unknown.
     is_new: Option<bool>,
     /// The tool was lifted straight up at the end.
     is_lifted: bool,
@@ -135,11 +134,11 @@ struct Way {
 
 remembers!(Way: bytes, blocks);
 
-/// An odd way.
+/// A suspicious way.
 #[derive(Clone, PartialEq)]
 struct Found {
     bytes: Range<u32>,
-    /// What is to be said of it, if that alone is odd.
+    /// Its finding, if it is suspicious by itself.
     finding: Option<Finding>,
 }
 
@@ -149,7 +148,7 @@ remembers!(Found: bytes, finding);
 const MOST: usize = 2;
 /// Shorter ways say nothing: millimetres.
 const SHORT: f64 = 2.0;
-/// How far beside its path a cutter clears of which nobody knows how wide it is: millimetres. For suspicions.
+/// How far beside its path a cutter of unknown diameter clears: millimetres. For suspicions.
 const CLEARS: f64 = 6.35;
 /// Sine of an angle below which two ways go in one direction.
 const STRAIGHT: f64 = 0.035;
@@ -161,8 +160,12 @@ impl PathRule for RapidBetweenCuts {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Cuts::shared)
+    }
+
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
-        // Where the change leaves the tool is the machine's business.
+        // The machine decides where the change leaves the tool.
         if matches!(event, Event::ToolChange(_)) {
             (self.at, self.start, self.last, self.way) = (None, None, None, None);
         }
@@ -178,8 +181,8 @@ impl PathRule for RapidBetweenCuts {
             Event::Arc(arc) => (point(&arc.programmed), arc.expanded),
             _ => (None, true),
         };
-        let sees = !self.cuts.is_blind() && self.cuts.follows(cx, event);
-        // What compensation puts in at a corner is no move of its own; the strokes of a cycle end what was under way.
+        let cuts = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event));
+        // A move that compensation inserts at a corner does not count; the strokes of a cycle end the present way.
         if is_expanded {
             if !is_compensated(cx) {
                 (self.at, self.last, self.way) = (programmed, None, None);
@@ -190,7 +193,7 @@ impl PathRule for RapidBetweenCuts {
             if let (Some(from), Some(to)) = (at, programmed) {
                 match event {
                     Event::Travel(travel) if travel.kind == TravelKind::Rapid => {
-                        self.way = self.rapid(cx, [from, to], last, way, sees);
+                        self.way = self.rapid(cx, cuts, [from, to], last, way);
                     }
                     Event::Travel(travel) if travel.kind == TravelKind::Feed => {
                         self.last = self.feed(cx, [from, to], way);
@@ -199,9 +202,6 @@ impl PathRule for RapidBetweenCuts {
                     _ => {}
                 }
             }
-        }
-        if sees {
-            self.cuts.add(event);
         }
     }
 
@@ -220,10 +220,10 @@ impl RapidBetweenCuts {
     fn rapid(
         &mut self,
         cx: &PathCx<'_>,
+        cuts: Option<&Cuts>,
         [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
         last: Option<Cut>,
         way: Option<Way>,
-        sees: bool,
     ) -> Option<Way> {
         let heads = direction([x0, y0], [x1, y1]);
         let at = cx.origin().at;
@@ -241,7 +241,7 @@ impl RapidBetweenCuts {
         };
         if (z1 - z0).abs() < LEVEL {
             let heads = heads?;
-            let is_new = sees.then(|| self.is_new(cx, [x0, y0], [x1, y1], z0));
+            let is_new = cuts.map(|cuts| self.is_new(cx, cuts, [x0, y0], [x1, y1], z0));
             let way = match (way, last) {
                 (Some(way), _) if !way.is_lifted => Way {
                     blocks: [way.blocks[0], at],
@@ -260,7 +260,7 @@ impl RapidBetweenCuts {
         }
         if heads.is_none() && z0 >= 0.0 && z1 < SURFACE {
             let is_open = |cuts: &Cuts| cuts.reach(cuts.len(), [x1, y1], z1, clears(cx));
-            return Some(begin(None, sees.then(|| !is_open(&self.cuts))));
+            return Some(begin(None, cuts.map(|cuts| !is_open(cuts))));
         }
         if heads.is_none() && z1 > z0 {
             let way = way?;
@@ -275,11 +275,11 @@ impl RapidBetweenCuts {
     }
 
     /// Does a move at this depth go where nothing was cut so deep?
-    fn is_new(&self, cx: &PathCx<'_>, from: [f64; 2], to: [f64; 2], z: f64) -> bool {
+    fn is_new(&self, cx: &PathCx<'_>, cuts: &Cuts, from: [f64; 2], to: [f64; 2], z: f64) -> bool {
         let (x, y) = (to[0] - from[0], to[1] - from[1]);
         let is_cut = |part: f64| {
             let at = [from[0] + part * x, from[1] + part * y];
-            self.cuts.reach(self.cuts.len(), at, z, clears(cx))
+            cuts.reach(cuts.len(), at, z, clears(cx))
         };
         self.found.len() <= MOST && x.hypot(y) >= SHORT && ![0.25, 0.5, 0.75].into_iter().all(is_cut)
     }
@@ -290,8 +290,13 @@ impl RapidBetweenCuts {
         [[x0, y0, z0], [x1, y1, z1]]: [[f64; 3]; 2],
         way: Option<Way>,
     ) -> Option<Cut> {
-        let heads = direction([x0, y0], [x1, y1]);
         let is_level = (z1 - z0).abs() < LEVEL;
+        let goes_down = z1 < z0 && (x1 - x0).abs() <= LEVEL && (y1 - y0).abs() <= LEVEL;
+        // Surfaces are feed moves by the million, neither level nor straight down, and nothing asks where those go.
+        if !is_level && !goes_down && way.is_none() {
+            return (z1 < SURFACE && z1 <= z0).then_some(Cut { z: z1, heads: None, is_arc: false });
+        }
+        let heads = direction([x0, y0], [x1, y1]);
         if let Some(way) = way {
             match heads {
                 Some(heads) if is_level && !way.is_lifted => {
@@ -333,7 +338,7 @@ impl RapidBetweenCuts {
         (z1 < SURFACE && is_flat).then_some(Cut { z: z1, heads: heads([x1, y1]), is_arc: true })
     }
 
-    /// Rapid moves that a cut at their depth follows.
+    /// Rapid moves before a cut at their depth.
     fn judge(&mut self, cx: &PathCx<'_>, way: &Way, next: Cut) {
         let Some([first, last]) = way.heads else { return };
         let from_arc = way.behind.is_some_and(|cut| goes_on(&cut, first));
@@ -353,17 +358,18 @@ impl RapidBetweenCuts {
                 Some(_) => "rapid move at depth between two cuts",
                 None => "rapid moves at depth lead straight into a cut",
             };
-            let next = if into_arc { "an arc goes on straight" } else { "this cuts on at the same depth" };
+            let next =
+                if into_arc { "an arc goes on straight" } else { "this goes on cutting at the same depth" };
             let finding = tell(cx, way, message, next)
                 .at_most(if is_within || is_tangent { Severity::Warning } else { Severity::Info })
-                .help("write `G1` if this belongs to the contour; else lift the tool before it");
+                .help("write `G1` if this belongs to the contour; else retract the tool before it");
             self.keep(way, Some(finding));
         } else if way.behind.is_some() && way.is_new == Some(true) {
             self.keep(way, None);
         }
     }
 
-    /// Rapid moves behind a cut with cutter compensation on: one leads away from the contour, more belong to it.
+    /// Rapid moves after a cut with cutter compensation on: one leads away from the contour, more belong to it.
     fn judge_compensated(&mut self, cx: &PathCx<'_>, way: &Way) {
         if way.behind.is_some() && way.compensated == 2 && way.is_new != Some(false) {
             let message = "rapid moves at depth with cutter compensation on";
@@ -372,7 +378,7 @@ impl RapidBetweenCuts {
         }
     }
 
-    /// Rapid moves behind an arc, straight on to where the contour began.
+    /// Rapid moves after an arc, straight on to where the contour began.
     fn judge_closing(&mut self, cx: &PathCx<'_>, way: &Way) {
         let (Some(behind), Some([first, _]), Some(start)) = (way.behind, way.heads, self.start) else {
             return;
@@ -393,7 +399,7 @@ impl RapidBetweenCuts {
         if way.is_new == Some(true) {
             let message = "rapid move at depth to where the tool goes down next";
             let finding = tell(cx, way, message, "the tool is fed down here");
-            self.keep(way, Some(finding.help("lift the tool out of the part before the rapid move")));
+            self.keep(way, Some(finding.help("retract the tool from the part before the rapid move")));
         }
     }
 
@@ -401,7 +407,7 @@ impl RapidBetweenCuts {
     fn judge_dip(&mut self, cx: &PathCx<'_>, way: &Way) {
         let [first, last] = way.blocks;
         let at = cx.origin().at;
-        // Whoever does something else down there has come for that.
+        // If the program does something else at depth, the move is deliberate.
         let goes_on = first.file == at.file
             && at.block == last.block + 1
             && (last.block - first.block) as usize == way.pieces;
@@ -414,7 +420,7 @@ impl RapidBetweenCuts {
         }
     }
 
-    /// Notes a way once, however often a loop comes by. More than say something are not kept.
+    /// Keeps a way once, however often a loop repeats it, and no more ways than can be reported.
     fn keep(&mut self, way: &Way, finding: Option<Finding>) {
         if let Some(known) = self.found.iter_mut().find(|found| found.bytes == way.bytes) {
             known.finding = known.finding.take().or(finding);
@@ -434,7 +440,7 @@ fn tell(cx: &PathCx<'_>, way: &Way, message: &str, why: &str) -> Finding {
     let finding = cx.finding(&META, way.bytes.clone(), message).also(cx.range(), why);
     if way.is_new == Some(true) {
         finding
-            .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
+            .label(format!("{depth} below the zero of the part, where no earlier cut is so deep"))
             .assuming("the part is solid where the program has not cut")
     } else {
         finding.label(format!("{depth} below the zero of the part"))
@@ -454,7 +460,8 @@ fn is_compensated(cx: &PathCx<'_>) -> bool {
 /// Length one; `None` for a way that goes nowhere.
 fn direction(from: [f64; 2], to: [f64; 2]) -> Option<[f64; 2]> {
     let (x, y) = (to[0] - from[0], to[1] - from[1]);
-    let length = x.hypot(y);
+    // Not `hypot`, which guards against overflow far beyond any machine and takes ten times as long.
+    let length = (x * x + y * y).sqrt();
     (length > LEVEL).then(|| [x / length, y / length])
 }
 

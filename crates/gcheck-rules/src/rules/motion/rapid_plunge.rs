@@ -5,22 +5,21 @@ use std::ops::Range;
 use gcheck_engine::{Event, Position, Travel, TravelKind};
 use gcheck_geometry::Mm;
 
-use super::rapid_in_material::{Clear, Cuts, point};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::declare::declare_rule;
+use crate::facts::cuts::{Clear, Cuts, point};
+use crate::{Finding, FinishCx, MakeShared, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A rapid move takes the tool from above the zero of the part to below it, at a place where no move has cut so deep
-    /// before, and the next move feeds straight on down.
+    /// A rapid move takes the tool from above the zero of the part to below it, at a place where no earlier move has
+    /// cut so deep, and the next move feeds straight on down.
     ///
-    /// A tool that goes down beside the part to cut its contour feeds sideways next. Of that nothing is said, unless it is
-    /// the only time in the program that a rapid move does so, and three or more times the tool is fed down: then it is
-    /// information.
+    /// A tool that goes down beside the part to cut a contour feeds sideways next. That is reported, as *info*, only if
+    /// it is the program's one rapid move of this kind and the tool is fed down three or more times.
     ///
     /// ## Why it matters
-    /// The tool that drills on down from there meets material there: it hits the part at rapid. Often a minus sign is one too
-    /// many, or a `G0` of an earlier block is still the kind of motion.
+    /// If the tool drills on from there, there is material: it hits the part at rapid. Often a minus sign is wrong, or
+    /// a `G0` of an earlier block is still the motion mode.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -57,7 +56,6 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct RapidPlunge {
-    cuts: Cuts,
     /// The move before this one, if it went down.
     plunge: Option<Plunge>,
     /// How often the tool was fed straight down from above the part, up to [`MANY`].
@@ -80,7 +78,7 @@ remembers!(Plunge: bytes);
 
 /// Millimetres: heights that differ by less are one, and the surface is this thick.
 const LEVEL: f64 = 0.01;
-/// So many times fed down make one rapid move down odd.
+/// After so many moves down at feed, one rapid move down is suspicious.
 const MANY: u8 = 3;
 
 impl PathRule for RapidPlunge {
@@ -88,11 +86,18 @@ impl PathRule for RapidPlunge {
         Remembers::All(self)
     }
 
+    fn shares(&self) -> Option<MakeShared> {
+        Some(Cuts::shared)
+    }
+
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let plunge = self.plunge.take();
-        if !self.cuts.follows(cx, event) {
+        let Some(cuts) = cx.shared::<Cuts>().filter(|cuts| cuts.knows(cx, event)) else {
+            if cx.shared::<Cuts>().is_none_or(Cuts::is_blind) {
+                cx.enough();
+            }
             return;
-        }
+        };
         if let Event::Travel(travel) = event {
             if is_fed_down(travel) {
                 self.fed = (self.fed + 1).min(MANY);
@@ -107,11 +112,10 @@ impl PathRule for RapidPlunge {
                 Some(plunge) if travel.kind == TravelKind::Feed => self.note(cx, &plunge, &travel.to),
                 _ => {}
             }
-            self.plunge = self.look(cx, travel);
+            self.plunge = look(cx, cuts, travel);
         } else if let (Some(plunge), Event::Arc(arc)) = (plunge, event) {
             self.note(cx, &plunge, &arc.to);
         }
-        self.cuts.add(event);
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
@@ -123,12 +127,12 @@ impl PathRule for RapidPlunge {
 }
 
 impl RapidPlunge {
-    /// Keeps a rapid move down behind which the tool cuts on sideways.
+    /// Keeps a rapid move down after which the tool cuts on sideways.
     fn note(&mut self, cx: &PathCx<'_>, plunge: &Plunge, to: &Position) {
         let cuts_on = point(to).is_some_and(|[.., z]| (z - plunge.to[2]).abs() < LEVEL);
         match &mut self.odd {
             _ if !cuts_on => {}
-            // A loop comes by again.
+            // A loop repeats it.
             Some((finding, _)) if finding.range == plunge.bytes => {}
             Some((_, count)) => *count = 2,
             None => {
@@ -138,24 +142,24 @@ impl RapidPlunge {
             }
         }
     }
+}
 
-    /// A rapid move from above the part to a depth that nothing has reached at that place.
-    fn look(&self, cx: &PathCx<'_>, travel: &Travel) -> Option<Plunge> {
-        if travel.kind != TravelKind::Rapid || travel.expanded {
-            return None;
-        }
-        let to = point(&travel.to)?;
-        let above = travel.from.get(gcheck_engine::Axis::Z)? >= 0.0;
-        let [x, y, z] = to;
-        if !above || z >= -LEVEL {
-            return None;
-        }
-        let clear = Clear::of(cx);
-        if self.cuts.reach(self.cuts.len(), [x, y], z, clear.radius) {
-            return None;
-        }
-        Some(Plunge { bytes: cx.range(), to, clear })
+/// A rapid move from above the part to a depth that nothing has reached at that place.
+fn look(cx: &PathCx<'_>, cuts: &Cuts, travel: &Travel) -> Option<Plunge> {
+    if travel.kind != TravelKind::Rapid || travel.expanded {
+        return None;
     }
+    let to = point(&travel.to)?;
+    let above = travel.from.get(gcheck_engine::Axis::Z)? >= 0.0;
+    let [x, y, z] = to;
+    if !above || z >= -LEVEL {
+        return None;
+    }
+    let clear = Clear::of(cx);
+    if cuts.reach(cuts.len(), [x, y], z, clear.radius) {
+        return None;
+    }
+    Some(Plunge { bytes: cx.range(), to, clear })
 }
 
 fn feeds_on_down(travel: &Travel, [x, y, z]: [f64; 3]) -> bool {
@@ -176,7 +180,7 @@ fn tell(cx: &PathCx<'_>, plunge: &Plunge, message: &str, next: &str) -> Finding 
     let depth = cx.shown(Mm(-plunge.to[2]));
     let finding = cx
         .finding(&META, plunge.bytes.clone(), message)
-        .label(format!("{depth} below the zero of the part, where nothing was cut so deep before"))
+        .label(format!("{depth} below the zero of the part, where no earlier cut is so deep"))
         .also(cx.range(), next)
         .assuming("the part is solid where the program has not cut")
         .help("end the rapid move above the part, and feed from there");
@@ -191,8 +195,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_rapid_move_is_marked() {
@@ -251,10 +254,10 @@ mod tests {
     #[test]
     fn words_state_the_assumption() {
         let program = "G20 G90 G54 G0 X1. Y1. Z1.\nG0 Z-.1\nG1 Z-1. F10.\nG0 Z1.\nM30\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             rapid move down into the part
-              here: 0.1 in below the zero of the part, where nothing was cut so deep before
+              here: 0.1 in below the zero of the part, where no earlier cut is so deep
               there: the tool feeds on down from there
               assuming: the part is solid where the program has not cut
               assuming: no cutter is wider than 25.4 mm (1 in)

@@ -3,15 +3,15 @@
 use gcheck_controls::LetterSet;
 use gcheck_engine::{Axis, Event, TravelKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A rapid move goes to another place and down in one block. Told once a program.
+    /// A rapid move goes sideways and down in one block. Reported once per program.
     ///
     /// ## Why it matters
-    /// In rapid each axis runs at its own speed: the tool does not go straight, and Z is often down before X and Y are there.
-    /// Clamps stand in that way. Careful programs go sideways above the part, and then down.
+    /// At rapid each axis runs at its own speed: the tool does not move in a straight line, and Z often arrives before
+    /// X and Y. Clamps may be in that way. Careful programs move sideways above the part, and then down.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -40,7 +40,7 @@ declare_rule! {
 
 struct RapidSidewaysAndDown;
 
-/// Millimetres: less is no way.
+/// Millimetres: less is not a move.
 const WAY: f64 = 0.01;
 
 impl PathRule for RapidSidewaysAndDown {
@@ -52,12 +52,12 @@ impl PathRule for RapidSidewaysAndDown {
             return;
         }
         let way = |axis: Axis| travel.to.raw(axis) - travel.from.raw(axis);
-        // A way that nobody knows is NaN, and no way.
+        // An unknown distance is NaN, and not a move.
         if way(Axis::X).hypot(way(Axis::Y)) > WAY && way(Axis::Z) < -WAY {
             report.add(
                 cx.finding(&META, cx.range(), "rapid move sideways and down in one block (`G0`)")
-                    .label("Z may be down before X and Y are there")
-                    .help("go to the place first, and down in a block of its own"),
+                    .label("Z may arrive before X and Y")
+                    .help("move sideways first, and down in a separate block"),
             );
             cx.enough();
         }

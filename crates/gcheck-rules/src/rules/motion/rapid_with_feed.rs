@@ -1,22 +1,22 @@
-//! A rapid move below the zero of the part that carries a feed.
+//! A rapid move below the zero of the part that has a feed.
 
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{Abstract, Axis, Domain, Event, Role, TravelKind};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A block with a feed (`F`) goes down to below the zero of the part, or sideways there, and a rapid move is on.
+    /// A block with a feed (`F`) moves at rapid down to below the zero of the part, or sideways there.
     ///
-    /// Who writes a feed into the block means the tool to cut. Above the part nothing is said: some give the feed of the
-    /// next cut early.
+    /// A feed in the block shows that the tool should cut. Above the part there is no finding: some programs give the
+    /// feed of the next cut early.
     ///
     /// ## Why it matters
-    /// At rapid the feed counts for nothing, and the tool runs into the part at full speed. A `G0` stands where `G1` was
-    /// meant, or the `G0` of an earlier block is still on.
+    /// At rapid the feed has no effect, and the tool runs into the part at full speed. `G0` was written instead of
+    /// `G1`, or the `G0` of an earlier block is still active.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -49,7 +49,7 @@ struct RapidWithFeed;
 
 /// Millimetres: heights that differ by less are one, and the surface is this thick.
 const LEVEL: f64 = 0.01;
-/// Millimetres a minute: with this and more, a CAM system says "as fast as it goes": `F9991300.`.
+/// Millimetres per minute: with this and more, a CAM system means "as fast as possible": `F9991300.`.
 const NO_CUT: f64 = 100_000.0;
 
 impl PathRule for RapidWithFeed {
@@ -63,7 +63,7 @@ impl PathRule for RapidWithFeed {
             && !travel.expanded
             && cx.state().effect(Role::Motion, cx.model) == Some(Effect::Rapid);
         let (from, to) = (travel.from.raw(Axis::Z), travel.to.raw(Axis::Z));
-        // A height that nobody knows is NaN, and below nothing. Up and out of the part is no cut.
+        // An unknown height is NaN, and not below anything. A move up and out of the part is not a cut.
         let is_below = to < -LEVEL && to < from + LEVEL;
         if !cx.is_mill() || !is_plain || !is_below || cx.has_effect(is_elsewhere) || has_unknown_code(cx) {
             return;
@@ -74,18 +74,18 @@ impl PathRule for RapidWithFeed {
         let depth = cx.shown(Mm(-to));
         report.add(
             cx.finding(&META, cx.letter_range('F'), "rapid move below the zero of the part has a feed (`F`)")
-                .label(format!("counts for nothing at rapid, {depth} below the zero of the part"))
-                .help("write `G1` if the block is to cut; else give the feed with the first cut"),
+                .label(format!("has no effect at rapid, {depth} below the zero of the part"))
+                .help("write `G1` if the block should cut; else give the feed with the first cut"),
         );
     }
 }
 
-/// Codes whose way is not one of the part's coordinates.
+/// Codes whose move is not in the coordinates of the part.
 fn is_elsewhere(effect: Effect) -> bool {
     matches!(effect, Effect::ReturnReference(_) | Effect::MachineCoordinates)
 }
 
-/// A code that the control does not have may be a move of its own on the control that the program is for.
+/// A code that the control does not have may be a move on the control that the program is for.
 fn has_unknown_code(cx: &PathCx<'_>) -> bool {
     let is_unknown = |word: &Word| matches!(word.letter.ascii(), b'G' | b'M') && !word.code.is_some();
     cx.find_word(cx.origin().at, is_unknown).is_some()

@@ -4,17 +4,17 @@ use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Event, Fact, Role, Travel};
 use gcheck_geometry::Mm;
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A return to the reference position (`G28`, `G30`) has axis words in absolute mode (`G90`), and the point they give is
-    /// lower than where the tool stands, or is crossed at depth.
+    /// A return to the reference position (`G28`, `G30`) has axis words in absolute mode (`G90`), and their point is
+    /// lower than the tool, or the tool reaches it at depth.
     ///
     /// ## Why it matters
-    /// The axis words of a reference return name a point that is passed on the way. `G90 G28 Z0` does not retract: it drives
-    /// to Z0 of the work at rapid first, into the part or the vice. Retracting is `G91 G28 Z0`.
+    /// The axis words of a reference return give a point that the tool passes on the way. `G90 G28 Z0` does not
+    /// retract: it first moves at rapid to Z0 of the work, into the part or the vice. To retract, write `G91 G28 Z0`.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -23,7 +23,7 @@ declare_rule! {
     /// G28 Z0
     /// M30
     /// ```
-    /// Where the tool stands is not known, but it goes to Z0 of the part.
+    /// The tool's position is unknown, but it moves to Z0 of the part.
     /// ```nc,reported,fanuc-mill
     /// G90 G28 Z0
     /// M30
@@ -36,7 +36,7 @@ declare_rule! {
     /// G90
     /// M30
     /// ```
-    /// The point lies above.
+    /// The point is above the tool.
     /// ```nc,quiet,haas-mill
     /// G20 G90 G54 G0 X0 Y0
     /// G43 H1 Z1.
@@ -63,7 +63,7 @@ struct ReferenceReturnThroughPoint {
 
 remembers!(ReferenceReturnThroughPoint: seen);
 
-/// Heights in millimetres that differ by less are one.
+/// Heights in millimetres that differ by less are equal.
 const SAME: f64 = 0.001;
 
 impl PathRule for ReferenceReturnThroughPoint {
@@ -96,7 +96,7 @@ impl PathRule for ReferenceReturnThroughPoint {
             let finding = cx.resting_on(finding, Fact::Mode(Role::Distance), "absolute mode");
             report
                 .add(finding.help(
-                    "write the return as increments (`G91 G28 Z0`), or name a point clear of the part",
+                    "write the return in increments (`G91 G28 Z0`), or give a point clear of the part",
                 ));
         }
     }
@@ -112,13 +112,13 @@ fn down(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     let is_at_part = travel.programmed.get(Axis::Z).map_or_else(|| zero_or_less(cx), |z| z <= SAME);
     let (message, label) = match (travel.from.get(Axis::Z), travel.programmed.get(Axis::Z)) {
         (Some(from), Some(to)) if to < from - SAME => (
-            "reference return goes down to a point of the part first",
-            "the tool is driven down to this height at rapid",
+            "reference return first goes down to a point of the part",
+            "the tool moves down to this height at rapid",
         ),
         (Some(_), Some(_)) => return None,
         _ if is_at_part => (
-            "reference return goes to a point of the part first",
-            "the tool is driven to this height of the part at rapid",
+            "reference return first goes to a point of the part",
+            "the tool moves to this height of the part at rapid",
         ),
         _ => return None,
     };
@@ -146,12 +146,14 @@ fn across(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     let depth = cx.shown(Mm(-depth));
     Some(
         cx.finding(&META, cx.effect_range(returns), "reference return crosses the part at depth")
-            .label(format!("the tool is {depth} below the zero of the part, and goes to this point at rapid"))
+            .label(format!(
+                "the tool is {depth} below the zero of the part, and moves to this point at rapid"
+            ))
             .note(PASSES),
     )
 }
 
-const PASSES: &str = "axis words of a reference return name a point that is passed on the way";
+const PASSES: &str = "axis words of a reference return give a point that the tool passes on the way";
 
 #[cfg(test)]
 mod tests {
@@ -168,7 +170,7 @@ mod tests {
             "G20 G90 G54 G0 X0 Y0\nG43 H1 Z1.\nG28 X0 Y0 Z.5\nG43 H1 Z1.\nG28 Z1.\nM30\n",
             &expect![[r#"
                 3 | G28 X0 Y0 Z.5
-                  |           ^^^ warning[reference-return-through-point] reference return goes down to a point of the part first
+                  |           ^^^ warning[reference-return-through-point] reference return first goes down to a point of the part
             "#]],
         );
     }

@@ -1,16 +1,16 @@
-//! A threading move that does not say its lead.
+//! A threading move without a lead.
 
 use gcheck_controls::{Code, Effect, Letter, LetterSet, Need, WordEntry};
 use gcheck_engine::{Fact, Fault, Role};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// A move is tied to the spindle, and nothing says how far the tool goes in one turn.
+    /// A move is synchronised with the spindle, and no word gives the distance per turn.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or cuts the thread at a lead left from before: the feed of the last cut.
+    /// The control stops with an alarm, or cuts the thread at an earlier lead: the feed of the last cut.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -48,7 +48,7 @@ struct ThreadWithoutLead;
 impl PathRule for ThreadWithoutLead {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let Some(code) = thread_from_feed(cx) else { return };
-        // A feed that a cut was given; a word alone, or one with a rapid move, may well be meant as the lead.
+        // The feed of a cut; a word alone, or one with a rapid move, may be meant as the lead.
         let Some(given) = cx.trace().set_by(Fact::Feed) else { return };
         let Some(place) = cx.place_of(given) else { return };
         let words = place.table.words(place.block());
@@ -60,10 +60,10 @@ impl PathRule for ThreadWithoutLead {
         let mut finding = cx
             .finding(
                 &META,
-                cx.word_range(|word| cx.scene.control().code_at(word.code).map(Code::number) == Some(name)),
-                format!("thread takes the feed of a cut for its lead (`{name}` without `F`)"),
+                cx.word_range(|word| cx.control().code_at(word.code).map(Code::number) == Some(name)),
+                format!("thread uses the feed of a cut as its lead (`{name}` without `F`)"),
             )
-            .label("how far the tool goes in one turn is not said here")
+            .label("no lead is given here")
             .help("give the lead with `F`")
             .at_most(Severity::Warning);
         if let Some(range) = cx.find_word(given, |word| word.letter == Letter::of('F')) {
@@ -86,13 +86,13 @@ impl PathRule for ThreadWithoutLead {
                 cx.range(),
                 format!("threading move without a lead (`{code}` without `{letter}`)"),
             )
-            .label(format!("`{letter}` is missing: how far the tool goes in one turn"))
+            .label(format!("`{letter}` is missing: the distance per turn"))
             .help(format!("give the lead with `{letter}`"));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), &format!("`{code}`")));
     }
 }
 
-/// The code of the block that begins a thread whose lead is `F`, where the block gives none.
+/// The code of a block that begins a thread whose lead is `F`, if the block has no `F`.
 fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     let letters = cx.origin().letters;
     if letters.intersects(LetterSet::of("FE")) || !letters.intersects(LetterSet::of("XZUW")) {
@@ -100,9 +100,9 @@ fn thread_from_feed<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     }
     let codes = cx.codes();
     let ix = codes.iter().copied().find(|ix| is_thread(cx.model.effect(*ix)))?;
-    // The passes behind the first one have its lead.
+    // The passes after the first one have its lead.
     let goes_on = cx.state().mode(Role::Motion).only().is_none_or(|mode| is_thread(cx.model.effect(mode)));
-    let code = cx.scene.control().code_at(ix)?;
+    let code = cx.control().code_at(ix)?;
     let is_lead =
         |word: &WordEntry| word.letter == "F" && matches!(word.need, Need::Modal | Need::Conditional);
     (!goes_on && code.entry().words.iter().any(is_lead)).then_some(code)
@@ -112,7 +112,7 @@ fn is_thread(effect: Effect) -> bool {
     matches!(effect, Effect::Thread | Effect::ThreadCycle | Effect::ThreadingPass)
 }
 
-/// Does the code feed, at what its `F` says?
+/// Does the code feed at its `F`?
 fn is_cut(effect: Effect) -> bool {
     use Effect as E;
     matches!(
@@ -137,7 +137,7 @@ fn is_cut(effect: Effect) -> bool {
 
 /// Does a code of the block need the word each time? Then a missing word has been reported already.
 fn asks_for_it(cx: &PathCx<'_>, letter: Letter) -> bool {
-    cx.codes().iter().copied().filter_map(|ix| cx.scene.control().code_at(ix)).any(|code| {
+    cx.codes().iter().copied().filter_map(|ix| cx.control().code_at(ix)).any(|code| {
         let words = &code.entry().words;
         words.iter().any(|word| word.need == Need::Required && Letter::parse(&word.letter) == Some(letter))
     })
@@ -176,7 +176,7 @@ mod tests {
             "G97 S500 M3\nG0 X30. Z5.\nG1 X26. F0.08\nG0 X34.\nG76 P020060 Q100 R0.05\nG76 X28.16 Z-27. P920 Q300\nM30\n",
             &expect![[r#"
                 6 | G76 X28.16 Z-27. P920 Q300
-                  | ^^^ warning[thread-without-lead] thread takes the feed of a cut for its lead (`G76` without `F`)
+                  | ^^^ warning[thread-without-lead] thread uses the feed of a cut as its lead (`G76` without `F`)
             "#]],
         );
     }

@@ -1,22 +1,22 @@
-//! A program that ends with the tool in the part.
+//! A program that ends with the tool below the zero of the part.
 
 use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Event, Fact};
 use gcheck_geometry::{Mm, Plane};
 
-use super::rapid_in_material::SURFACE;
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
+use crate::facts::cuts::SURFACE;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The program ends while the tool that cut last still stands below the zero of the part, and below the heights to which
-    /// its rapid moves went.
+    /// The program ends while the tool that cut last is still below the zero of the part, and below the heights of its
+    /// rapid moves.
     ///
     /// ## Why it matters
     /// The spindle stops in the part, and the first move of the next run drags the tool through it. The last retract is
-    /// missing, or its height has a minus sign too many.
+    /// missing, or its height has a wrong minus sign.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -56,13 +56,13 @@ declare_rule! {
 struct ToolDownAtEnd {
     /// The tool in the spindle has cut.
     has_cut: bool,
-    /// The highest level of its rapid moves: who has the zero far above the part goes about below it.
+    /// The highest level of its rapid moves: if the zero is far above the part, all moves are below it.
     highest: Option<f64>,
 }
 
 remembers!(ToolDownAtEnd);
 
-/// How much deeper than the highest rapid move the tool is to stand: millimetres.
+/// The tool counts as down if it is deeper than the highest rapid move by more than this: millimetres.
 const LIFT: f64 = 0.5;
 
 impl PathRule for ToolDownAtEnd {
@@ -83,8 +83,8 @@ impl PathRule for ToolDownAtEnd {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        match cx.boundary() {
-            // Where the change leaves the tool is the machine's business.
+        match boundary(cx) {
+            // The machine decides where the change leaves the tool.
             Some(Boundary::ToolChange) => *self = Self::default(),
             Some(Boundary::ProgramEnd) => self.end(cx, report),
             None => {}
@@ -94,11 +94,11 @@ impl PathRule for ToolDownAtEnd {
 
 impl ToolDownAtEnd {
     fn end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // Without Y, and in the ZX plane, a program turns.
+        // A program without Y, or in the ZX plane, may be for turning.
         let is_mill = cx.is_mill()
             && cx.survey.letters.contains(Letter::of('Y'))
             && cx.state().plane(cx.model) != Some(Plane::Zx);
-        // A probe and a pen go without the spindle, and may end anywhere.
+        // A probe and a pen work without the spindle, and may end anywhere.
         let works = self.has_cut && cx.trace().set_by(Fact::Spindle).is_some();
         let (Some(z), Some(highest)) = (cx.state().actual().get(Axis::Z), self.highest) else { return };
         let is_down = z < SURFACE && z < highest - LIFT;
@@ -107,11 +107,11 @@ impl ToolDownAtEnd {
             report.add(
                 cx.finding(
                     &META,
-                    cx.boundary_range(Boundary::ProgramEnd),
+                    boundary_range(cx, Boundary::ProgramEnd),
                     "the program ends with the tool below the zero of the part",
                 )
-                .label(format!("the tool still stands {depth} below it"))
-                .help("lift the tool out of the part before the end"),
+                .label(format!("the tool is still {depth} below it"))
+                .help("retract the tool from the part before the end"),
             );
         }
     }

@@ -3,16 +3,17 @@
 use gcheck_controls::Effect;
 use gcheck_engine::Role;
 
-use crate::carried::{LeftOn, Mode};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::mode_left_on::{Mode, ModeLeftOn};
 use crate::{Run, Watch};
 
 declare_rule! {
-    /// A mirror image is still on where the program ends, or the next tool cuts with it and nothing in the program switches it
-    /// off.
+    /// A mirror image is still on when the program ends, or the next tool cuts with it and the program never switches
+    /// it off.
     ///
     /// ## Why it matters
-    /// The next program, the next part or the next tool is cut left for right, and conventional milling becomes climb milling.
+    /// The next program, the next part or the next tool cuts a mirror image, and conventional milling becomes climb
+    /// milling.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -31,11 +32,11 @@ declare_rule! {
         summary: "mirror image left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
-            make: || Box::new(LeftOn::new(&MODE)),
+            make: || Box::new(ModeLeftOn::new(&MODE)),
         },
     }
 }

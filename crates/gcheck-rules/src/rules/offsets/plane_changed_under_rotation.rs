@@ -3,16 +3,16 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Role};
 
-use crate::boundary::LeftOn;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 
 declare_rule! {
     /// A plane is chosen while a rotation of the coordinates is on.
     ///
     /// ## Why it matters
-    /// The rotation turns about an axis of the plane in which it was begun. Some controls refuse another plane, others go on
-    /// turning in the old one, and the contour comes out somewhere else.
+    /// The rotation is about an axis of the plane in which it began. Some controls refuse another plane, others go on
+    /// rotating in the old one, and the contour is cut in another place.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -52,12 +52,12 @@ impl PathRule for PlaneChangedUnderRotation {
         let Some(new) = cx.code_of_role(Role::Plane) else { return };
         let Some(old) = cx.state().mode(Role::Plane).only() else { return };
         let is_on = |effect| effect == Effect::RotationOn;
-        let Some(LeftOn::Surely(rotation)) = cx.left_on(Role::Rotation, is_on) else { return };
+        let Some(ActiveMode::Certain(rotation)) = left_on(cx, Role::Rotation, is_on) else { return };
         if cx.model.effect(new) == cx.model.effect(old) {
             return;
         }
         let (plane, rotation) = (cx.name_of(new), cx.name_of(rotation));
-        let off = cx.cancel_of(Effect::RotationOff).unwrap_or_default();
+        let off = cx.name_of_effect(Effect::RotationOff).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
@@ -65,7 +65,7 @@ impl PathRule for PlaneChangedUnderRotation {
                 format!("another plane while the coordinates are rotated (`{plane}` under `{rotation}`)"),
             )
             .label("the rotation was begun in another plane")
-            .help(format!("end the rotation with `{off}` before, and begin it again in the new plane"));
+            .help(format!("end the rotation with `{off}` before this, and begin it again in the new plane"));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Rotation), &format!("`{rotation}`")));
     }
 }

@@ -3,16 +3,17 @@
 use gcheck_controls::Effect;
 use gcheck_engine::Role;
 
-use crate::carried::{LeftOn, Mode};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::mode_left_on::{Mode, ModeLeftOn};
 use crate::{Run, Watch};
 
 declare_rule! {
-    /// Polar coordinates (`G16`) are still on where the program ends, or the next tool cuts with them and nothing in the program
-    /// switches them off.
+    /// Polar coordinates (`G16`) are still on when the program ends, or the next tool cuts with them and the program
+    /// never switches them off.
     ///
     /// ## Why it matters
-    /// `X` is read as a radius and `Y` as an angle: the next program or the next tool goes to points that nobody wrote.
+    /// The control reads `X` as a radius and `Y` as an angle: the next program or the next tool moves to the wrong
+    /// points.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -31,11 +32,11 @@ declare_rule! {
         summary: "polar coordinates left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
-            make: || Box::new(LeftOn::new(&MODE)),
+            make: || Box::new(ModeLeftOn::new(&MODE)),
         },
     }
 }
@@ -46,7 +47,7 @@ static MODE: Mode = Mode {
     on: Effect::PolarOn,
     off: Effect::PolarOff,
     of_tool: "the polar coordinates",
-    at_end: "the reading of polar coordinates",
+    at_end: "the polar coordinates",
     switched: "polar coordinates",
 };
 
@@ -65,7 +66,7 @@ mod tests {
             "G17 G16\nG1 X50. Y30. F100.\nM30\n",
             &expect![[r#"
             3 | M30
-              | ^^^ warning[polar-coordinates-left-on] the reading of polar coordinates is still on at the end of the program (`G16`)
+              | ^^^ warning[polar-coordinates-left-on] the polar coordinates is still on at the end of the program (`G16`)
         "#]],
         );
     }

@@ -3,16 +3,16 @@
 use gcheck_controls::Effect;
 use gcheck_engine::Role;
 
-use crate::carried::{LeftOn, Mode};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::mode_left_on::{Mode, ModeLeftOn};
 use crate::{Run, Watch};
 
 declare_rule! {
-    /// The rotation of coordinates is still on where the program ends, or the next tool cuts with it and nothing in the
-    /// program switches it off.
+    /// The rotation of coordinates is still on when the program ends, or the next tool cuts with it and the program
+    /// never switches it off.
     ///
     /// ## Why it matters
-    /// The next program, the next part or the next tool is cut turned.
+    /// The next program, the next part or the next tool is cut rotated.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -54,11 +54,11 @@ declare_rule! {
         summary: "rotation left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::ENDS),
-            make: || Box::new(LeftOn::new(&MODE)),
+            make: || Box::new(ModeLeftOn::new(&MODE)),
         },
     }
 }
@@ -78,8 +78,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_end_is_marked_and_the_code_named() {
@@ -135,12 +134,8 @@ mod tests {
 
     #[test]
     fn what_it_says() {
-        let found = findings(
-            &Selection::only(&RULE),
-            "fanuc-mill",
-            "G68 X0. Y0. R30.\nG1 X10. F100.\nM30\n",
-            &World::default(),
-        );
+        let found =
+            findings(&only(&RULE), "fanuc-mill", "G68 X0. Y0. R30.\nG1 X10. F100.\nM30\n", &World::default());
         expect![[r#"
             the rotation is still on at the end of the program (`G68`)
               here: what runs next begins with it

@@ -3,17 +3,17 @@
 use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{At, Axis, Ending, Event};
 
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The shift of the work coordinates (`G52`, `G92`) is still on where the program ends.
+    /// The shift of the work coordinates (`G52`, `G92`) is still on when the program ends.
     ///
     /// ## Why it matters
-    /// Whether the end of the program clears it is up to a parameter or setting. Where it stays, every work offset is shifted
-    /// in the next program.
+    /// A parameter or setting decides whether the end of the program clears it. If it remains, every work offset is
+    /// shifted in the next program.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -28,7 +28,7 @@ declare_rule! {
     /// G52 X0.
     /// M30
     /// ```
-    /// A program that uses `G92` instead of work offsets sets it anew each time.
+    /// A program that uses `G92` instead of work offsets sets it again each time.
     /// ```nc,quiet,fanuc-mill
     /// G92 X0. Y0. Z100.
     /// G1 X10. F100.
@@ -48,7 +48,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct ShiftLeftOn {
-    /// The block that shifted last, and its code. Choosing a work offset tells of the shift too.
+    /// The block that shifted last, and its code. Choosing a work offset applies the shift too.
     set: Option<(At, CodeIx)>,
 }
 
@@ -64,7 +64,7 @@ impl PathRule for ShiftLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.judge(cx, report);
         }
     }
@@ -78,7 +78,7 @@ impl PathRule for ShiftLeftOn {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.judge(cx, report);
         }
     }
@@ -94,7 +94,8 @@ impl ShiftLeftOn {
             .map(Axis::name)
             .collect();
         let is_set_position = cx.model.effect(code) == Effect::SetPosition;
-        // Where the axes stood is seldom known, so neither is the shift that makes them read as the block says.
+        // The positions of the axes are seldom known, so the shift that gives them the block's values is seldom known
+        // too.
         let is_left = if is_set_position {
             Axis::ALL.into_iter().any(|axis| shift.get(axis) != Some(0.0))
         } else {
@@ -112,7 +113,7 @@ impl ShiftLeftOn {
             format!(" of {}", axes.iter().map(|axis| format!("`{axis}`")).collect::<Vec<_>>().join(", "))
         };
         let help = if is_set_position {
-            match cx.cancel_of(Effect::ClearShift) {
+            match cx.name_of_effect(Effect::ClearShift) {
                 Some(clear) => format!("clear it with `{clear}` before the program ends"),
                 None => format!("set it back with `{name}` before the program ends"),
             }
@@ -122,7 +123,7 @@ impl ShiftLeftOn {
         let finding = cx
             .finding(
                 &META,
-                cx.boundary_range(Boundary::ProgramEnd),
+                boundary_range(cx, Boundary::ProgramEnd),
                 format!("the shift{of} is still on at the end of the program (`{name}`)"),
             )
             .label("what runs next may begin with it")

@@ -1,19 +1,20 @@
-//! A tilted working plane, dynamic offset or tool centre point control that nobody switched off.
+//! A tilted working plane, dynamic offset or tool centre point control that is not switched off.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Fact, Role};
 
-use crate::boundary::{Boundary, LeftOn};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range, ends_at_tape_mark};
+use crate::facts::modes::{ActiveMode, left_on};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tilted working plane (`G68.2`, `G268`), a dynamic work offset (`G254`) or tool centre point control (`G43.4`, `G234`) is
-    /// still on where the tool is changed or the program ends.
+    /// A tilted working plane (`G68.2`, `G268`), a dynamic work offset (`G254`) or tool centre point control (`G43.4`,
+    /// `G234`) is still on when the tool is changed or the program ends.
     ///
     /// ## Why it matters
-    /// Coordinates no longer run along the machine's axes: the way to the tool change goes aslant, and a rotary axis that
+    /// Coordinates no longer follow the machine's axes: the move to the tool change is tilted, and a rotary axis that
     /// moves takes the linear axes with it.
     ///
     /// ## Reported
@@ -35,7 +36,7 @@ declare_rule! {
         summary: "tilted plane, dynamic offset or tool centre point control left on",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::BLOCKS.union(Watch::ENDS), make: || Box::new(ToolTiltLeftOn { told: [None; 3] }) },
     }
@@ -55,13 +56,13 @@ impl PathRule for ToolTiltLeftOn {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if let Some(place) = cx.boundary() {
+        if let Some(place) = boundary(cx) {
             self.judge(cx, place, report);
         }
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.judge(cx, Boundary::ProgramEnd, report);
         }
     }
@@ -80,7 +81,7 @@ impl ToolTiltLeftOn {
             if place == Boundary::ProgramEnd && cx.end_resets(role) {
                 continue;
             }
-            let Some(LeftOn::Surely(code)) = cx.left_on(role, |effect| effect == on) else { continue };
+            let Some(ActiveMode::Certain(code)) = left_on(cx, role, |effect| effect == on) else { continue };
             let set_by = cx.trace().set_by(Fact::Mode(role));
             if set_by.is_none() || set_by == *told {
                 continue;
@@ -89,11 +90,12 @@ impl ToolTiltLeftOn {
             let name = cx.name_of(code);
             let message = format!("{what} is still on {} (`{name}`)", place.words());
             // Some controls end it with the code that ends a rotation.
-            let cancel = cx.cancel_of(off).or_else(|| cx.cancel_of(Effect::RotationOff)).unwrap_or_default();
+            let cancel =
+                cx.name_of_effect(off).or_else(|| cx.name_of_effect(Effect::RotationOff)).unwrap_or_default();
             let finding = cx
-                .finding(&META, cx.boundary_range(place), message)
-                .label("coordinates do not run along the machine's axes here")
-                .help(format!("switch it off with `{cancel}` before the tool goes away"))
+                .finding(&META, boundary_range(cx, place), message)
+                .label("coordinates do not follow the machine's axes here")
+                .help(format!("switch it off with `{cancel}` before the tool moves away"))
                 .fix_if(cx.block_before(Some(&cancel)));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }

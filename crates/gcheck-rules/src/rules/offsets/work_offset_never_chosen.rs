@@ -1,22 +1,22 @@
-//! A job with tools and lengths that never says where its part lies.
+//! A job with tools and lengths, and without a work offset.
 
 use gcheck_engine::Event;
 
-use super::work_offset_not_chosen::{is_set_up, unchosen};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::work_offset::{never_chooses_work_offset, unchosen_work_offset};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool that was changed in cuts with its length offset, and the program chooses no work offset (`G54` and its kin), here
-    /// or later.
+    /// After a tool change a tool cuts with its length offset, and the program never chooses a work offset (`G54` and
+    /// the like).
     ///
-    /// Programs that need no tables of offsets, such as those of one tool that is zeroed by hand, are left to
-    /// `work-offset-not-chosen`, and so are controls on which each end of a program is known to bring the first work offset back.
+    /// `work-offset-not-chosen` covers programs without tables of offsets, such as those of one tool that is zeroed by
+    /// hand, and controls on which each end of program is known to restore the first work offset.
     ///
     /// ## Why it matters
-    /// The part lies where the work offset says that the last program, or the operator, left active. A tool that is set up in
-    /// another one cuts beside the part, or into the fixture.
+    /// The work offset that the last program, or the operator, left active decides where the part is. If the part is
+    /// set up in another one, the tool cuts beside the part, or into the fixture.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -47,7 +47,7 @@ declare_rule! {
 
 #[derive(Clone, PartialEq)]
 struct WorkOffsetNeverChosen {
-    /// The first cut says it, or nothing does.
+    /// Only the first cut is reported.
     is_done: bool,
 }
 
@@ -62,10 +62,10 @@ impl PathRule for WorkOffsetNeverChosen {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;
         }
-        let Some(name) = unchosen(cx).filter(|_| is_set_up(cx)) else { return };
+        let Some(name) = unchosen_work_offset(cx).filter(|_| never_chooses_work_offset(cx)) else { return };
         report.add(
-            cx.finding(&META, cx.range(), format!("the program chooses no work offset (`{name}`)"))
-                .label("the first cut: the part lies where the last program or the operator left it")
+            cx.finding(&META, cx.range(), format!("the program does not choose a work offset (`{name}`)"))
+                .label("the first cut: the last program or the operator decides where the part is")
                 .help(format!("choose the work offset at the head of the program: `{name}`")),
         );
     }
@@ -86,9 +86,9 @@ mod tests {
             "haas-mill",
             "T1 M6\nG43 H1 Z1.\nG1 X1. F5.\nM30\n",
             &expect![[r#"
-            3 | G1 X1. F5.
-              | ^^^^^^^^^^ info[work-offset-never-chosen] the program chooses no work offset (`G54`)
-        "#]],
+                3 | G1 X1. F5.
+                  | ^^^^^^^^^^ info[work-offset-never-chosen] the program does not choose a work offset (`G54`)
+            "#]],
         );
     }
 

@@ -1,20 +1,21 @@
-//! A cut in whatever work coordinate system is active.
+//! A cut without a chosen work offset.
 
-use gcheck_controls::{Confidence, Effect};
-use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
+use gcheck_controls::Effect;
+use gcheck_engine::{Event, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::work_offset::{chooses_work_offset, never_chooses_work_offset, unchosen_work_offset};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A program cuts without having chosen a work coordinate system (`G54` and its kin).
+    /// A program cuts before it chooses a work coordinate system (`G54` and the like).
     ///
-    /// A tool with a length offset in a program that never chooses one is left to `work-offset-never-chosen`.
+    /// For a tool with a length offset in a program that never chooses one, see `work-offset-never-chosen`.
     ///
     /// ## Why it matters
-    /// The part lies where the system says that the last program, or the operator, left active. Most controls begin with `G54`,
-    /// but only after power-on or a reset.
+    /// The system that the last program, or the operator, left active decides where the part is. Most controls begin
+    /// with `G54`, but only after power-on or a reset.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -40,7 +41,7 @@ declare_rule! {
         tier: Path,
         recommended: false,
         sets: [Strict],
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNotChosen { is_done: false }) },
     }
@@ -62,44 +63,20 @@ impl PathRule for WorkOffsetNotChosen {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;
         }
-        let Some(name) = unchosen(cx).filter(|_| !is_set_up(cx)) else { return };
+        let Some(name) = unchosen_work_offset(cx).filter(|_| !never_chooses_work_offset(cx)) else { return };
         let last = "the last program or the operator";
-        // Some controls take no other offset under cutter compensation.
+        // Some controls do not accept another offset under cutter compensation.
         let is_compensated = cx.state().effect(Role::Compensation, cx.model) != Some(Effect::CompensationOff);
         let fix = if is_compensated { None } else { cx.block_before(Some(&name)) };
-        let later = if cx.file_uses(chooses) { "; the program chooses one only later" } else { "" };
+        let later =
+            if cx.file_uses(chooses_work_offset) { "; the program chooses one only later" } else { "" };
         report.add(
             cx.finding(&META, cx.range(), format!("cut before a work offset is chosen (`{name}`)"))
-                .label(format!("the part lies where {last} left it{later}"))
+                .label(format!("{last} decides where the part is{later}"))
                 .help(format!("choose the work offset at the head of the program: `{name}`"))
                 .fix_if(fix),
         );
     }
-}
-
-/// The first work offset, where this cut is in one that nothing chose.
-pub(super) fn unchosen(cx: &PathCx<'_>) -> Option<String> {
-    let first = cx.scene.control().codes().find(|code| code.effect() == Effect::WorkOffset(1))?;
-    let is_chosen = cx.trace().set_by(Fact::Mode(Role::WorkOffset)).is_some()
-        || cx.trace().set_by(Fact::Shift).is_some()
-        || cx.is_behind_unknown_program();
-    let is_in_machine_coordinates = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
-    let is_free = is_chosen || is_in_machine_coordinates || cx.model.semantics().tools.change_by_t;
-    (!is_free).then(|| first.number().to_string())
-}
-
-/// The tool was changed in and has a length offset: the program is one for tables of offsets, and it chooses no work offset
-/// at all. Not so where each end of a program is known to bring the first one back.
-pub(super) fn is_set_up(cx: &PathCx<'_>) -> bool {
-    let semantics = cx.model.semantics();
-    let comes_back = semantics.confidence == Confidence::Manual && cx.end_resets(Role::WorkOffset);
-    let has_length = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus)
-        && Abstract::known(cx.state().h()).is_some_and(|offset| offset > 0.0);
-    has_length && cx.trace().set_by(Fact::Tool).is_some() && !comes_back && !cx.file_uses(chooses)
-}
-
-fn chooses(effect: Effect) -> bool {
-    matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
 }
 
 #[cfg(test)]

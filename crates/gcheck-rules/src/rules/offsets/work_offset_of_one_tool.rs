@@ -1,19 +1,20 @@
-//! One tool in another work offset than all others.
+//! One tool in another work offset than all other tools.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
+use gcheck_lint::work_offset_name;
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::schemes::whole;
-use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch, work_offset_name};
+use crate::declare::declare_rule;
+use crate::facts::offset_schemes::whole;
+use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// All tools but one work in the same work offset, or all work but that of one time a tool comes.
+    /// All tools but one work in the same work offset, or all tool sections but one.
     ///
     /// ## Why it matters
-    /// An offset that was changed in every section but one sends the tool to the wrong place. Where a tool has a place of its
-    /// own, all is well: the rule is for shops that say so in a comment.
+    /// An offset that was changed in every section but one sends the tool to the wrong place. A tool may deliberately
+    /// work in another offset: the rule is for shops that say so in a comment.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -59,7 +60,7 @@ declare_rule! {
 
 #[derive(Clone, Default, PartialEq)]
 struct WorkOffsetOfOneTool {
-    /// Where tools come, with the offsets that they then cut in.
+    /// Tool changes, with the offsets in which the tools then cut.
     works: Vec<Work>,
 }
 
@@ -67,17 +68,17 @@ remembers!(WorkOffsetOfOneTool: works);
 
 #[derive(Clone, PartialEq)]
 struct Work {
-    /// Where the tool came.
+    /// The tool change.
     section: At,
     tool: u32,
     offset: u16,
-    /// What is to be made of it if it is odd.
+    /// Its finding, if it is the exception.
     finding: Finding,
 }
 
 remembers!(Work: section, finding);
 
-/// More say nothing clear.
+/// More show no clear scheme.
 const MOST_WORKS: usize = 500;
 
 /// So many tools must work in the usual offset.
@@ -105,7 +106,7 @@ impl PathRule for WorkOffsetOfOneTool {
         let mut finding = cx
             .finding(&META, cx.range(), message)
             .label("its first cut")
-            .help("see that the offset is meant; where it is, say so in a suppression");
+            .help("check the offset; if it is right, say so in a suppression");
         if let Some(at) = cx.trace().set_by(Fact::Mode(Role::WorkOffset))
             && let Some(range) = cx.range_of(at)
         {

@@ -2,16 +2,17 @@
 
 use gcheck_engine::Touch;
 
-use crate::meta::declare_rule;
-use crate::probing::is_second_touch;
+use crate::declare::declare_rule;
+use crate::facts::probing::{is_second_touch, keeping_code, probing_code};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A code measures between two touches (`G136`, `G35`), and no touch was kept before it on any path that comes here.
+    /// A code measures between two touches (`G136`, `G35`), and on every path that comes here no first touch is kept.
     ///
     /// ## Why it matters
-    /// The control takes whatever point it kept last, perhaps another part's. It writes the middle between that point and
-    /// the new touch into the work offset, or the distance into the tool's size, without an alarm; the next cut is made there.
+    /// The control uses the point that it kept last, perhaps one of another part. It writes the middle between that
+    /// point and the new touch into the work offset, or the distance into the tool's size, without an alarm; the next
+    /// cut relies on that.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -48,7 +49,7 @@ struct FirstTouchMissing;
 
 impl PathRule for FirstTouchMissing {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // What others call may measure from a touch of its caller.
+        // A called program may measure from a touch of its caller.
         if cx.has_effect(is_second_touch) && cx.state().kept_touch() == Touch::None && !cx.is_called_only() {
             report.add(finding(cx));
         }
@@ -57,23 +58,18 @@ impl PathRule for FirstTouchMissing {
 
 fn finding(cx: &PathCx<'_>) -> crate::Finding {
     let range = cx.effect_range(is_second_touch);
-    let name = cx.probing_code().map(|code| cx.name_of(code)).unwrap_or_default();
+    let name = probing_code(cx).map(|code| cx.name_of(code)).unwrap_or_default();
     let keep = keeping_code(cx);
-    let message = format!("`{name}` measures between two touches, but none was kept");
+    let message = format!("`{name}` measures between two touches, but no first touch was kept");
     let note = if cx.state().touched() == Touch::None {
-        "no probing move stands before it".to_owned()
+        "there is no probing move before it".to_owned()
     } else {
-        format!("the probing moves before it keep no point: none of them has `{keep}`")
+        format!("the probing moves before it keep no point: they have no `{keep}`")
     };
     cx.finding(&META, range, message)
         .label("the second touch; the first is missing")
         .note(note)
-        .help(format!("touch the first side with `G31 … F… {keep}`, drive round, then measure"))
-}
-
-/// The code that keeps a touch, as programs write it.
-pub(super) fn keeping_code(cx: &PathCx<'_>) -> String {
-    cx.cancel_of(gcheck_controls::Effect::KeepTouch).unwrap_or_default()
+        .help(format!("touch the first side with `G31 … F… {keep}`, move to the other side, then measure"))
 }
 
 #[cfg(test)]
@@ -81,8 +77,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_second_touch_is_marked() {
@@ -91,9 +86,9 @@ mod tests {
             "haas-mill",
             "G91 G31 Y-1. F10.\nG136 Y1. F10.\nG90\nM30\n",
             &expect![[r#"
-            2 | G136 Y1. F10.
-              | ^^^^ error[first-touch-missing] `G136` measures between two touches, but none was kept
-        "#]],
+                2 | G136 Y1. F10.
+                  | ^^^^ error[first-touch-missing] `G136` measures between two touches, but no first touch was kept
+            "#]],
         );
     }
 
@@ -104,9 +99,9 @@ mod tests {
             "haas-mill",
             "G91 G136 Y1. F10.\nG31 Y-1. F10. M75\nG90\nM30\n",
             &expect![[r#"
-            1 | G91 G136 Y1. F10.
-              |     ^^^^ error[first-touch-missing] `G136` measures between two touches, but none was kept
-        "#]],
+                1 | G91 G136 Y1. F10.
+                  |     ^^^^ error[first-touch-missing] `G136` measures between two touches, but no first touch was kept
+            "#]],
         );
     }
 
@@ -117,9 +112,9 @@ mod tests {
             "haas-mill",
             "G91 G35 X1. D1 F10.\nG90\nM30\n",
             &expect![[r#"
-            1 | G91 G35 X1. D1 F10.
-              |     ^^^ error[first-touch-missing] `G35` measures between two touches, but none was kept
-        "#]],
+                1 | G91 G35 X1. D1 F10.
+                  |     ^^^ error[first-touch-missing] `G35` measures between two touches, but no first touch was kept
+            "#]],
         );
     }
 
@@ -156,14 +151,14 @@ mod tests {
     #[test]
     fn words_say_what_the_first_touch_lacks() {
         let found = findings(
-            &Selection::only(&RULE),
+            &only(&RULE),
             "haas-mill",
             "G91 G31 Y-1. F10.\nG136 Y1. F10.\nG90\nM30\n",
             &World::default(),
         );
         let text = words(&found[0]);
         assert!(
-            text.contains("note: the probing moves before it keep no point: none of them has `M75`"),
+            text.contains("note: the probing moves before it keep no point: they have no `M75`"),
             "{text}"
         );
     }

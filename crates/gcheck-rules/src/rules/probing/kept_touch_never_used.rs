@@ -1,19 +1,19 @@
-//! A touch that is kept for nothing.
+//! A touch that is kept and never used.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Ending, Touch};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::probing::is_second_touch;
+use crate::declare::declare_rule;
+use crate::facts::probing::is_second_touch;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A touch is kept (`M75`), and the program ends without a second touch that measures from it (`G136`, `G35`).
     ///
     /// ## Why it matters
-    /// The half of the measurement that writes the offset is missing: `G31` or `G1` may stand where `G136` was meant. The
-    /// work offset or the tool's size stays as it was.
+    /// The half of the measurement that writes the offset is missing: perhaps `G31` or `G1` was written instead of
+    /// `G136`. The work offset or the tool's size does not change.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -68,16 +68,16 @@ impl PathRule for KeptTouchNeverUsed {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, _: Ending, report: &mut Report<'_>) {
-        // A program that is not at hand may have measured; so may a path that was not taken here.
+        // A program that gcheck does not have may measure; so may another path.
         let is_certain = matches!(cx.state().kept_touch(), Touch::Made(_)) && cx.is_on_every_path();
         let Some(at) = self.kept.filter(|_| is_certain && !cx.is_called_only()) else { return };
         let keeps = |word: &gcheck_program::Word| cx.model.effect(word.code) == Effect::KeepTouch;
         let Some(range) = cx.find_word(at, keeps) else { return };
-        let measures = cx.cancel_of(Effect::ProbeCentre).unwrap_or_default();
+        let measures = cx.name_of_effect(Effect::ProbeCentre).unwrap_or_default();
         report.add(
             cx.finding(&META, range, "touch kept, but nothing measures from it")
                 .label("the first touch of two; the second never comes")
-                .help(format!("touch the other side with `{measures}`, or take this code away")),
+                .help(format!("touch the other side with `{measures}`, or remove this code")),
         );
     }
 }

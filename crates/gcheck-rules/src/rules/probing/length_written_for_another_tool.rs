@@ -1,18 +1,18 @@
-//! A tool length that is measured with one tool and written for another.
+//! A tool length that is measured with one tool and written to another tool's offset.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, Domain, Fact, Role};
 
-use crate::meta::declare_rule;
-use crate::schemes::whole;
+use crate::declare::declare_rule;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A tool length is measured (`G37`) with a tool in the spindle that has its own length offset on, and written into another
-    /// offset.
+    /// A tool length is measured (`G37`) while the tool in the spindle has its own length offset on, and the result is
+    /// written to another offset.
     ///
     /// ## Why it matters
-    /// The offset of the tool in the spindle stays as it was, and another tool gets its length: that one dives into the part
+    /// The offset of the tool in the spindle does not change, and another tool gets its length: that tool cuts too deep
     /// or cuts air by the difference.
     ///
     /// ## Reported
@@ -60,7 +60,7 @@ impl PathRule for LengthWrittenForAnotherTool {
             return;
         };
         let is_on = state.effect(Role::Length, cx.model).is_some_and(|effect| effect != Effect::LengthOff);
-        // A scheme of its own, H = T + 20 and the like, is none of ours.
+        // A different scheme, H = T + 20 and the like, is not judged.
         if !is_on || offset != tool || written == tool || written == 0 {
             return;
         }

@@ -1,17 +1,17 @@
-//! A measurement between two touches, of which some path misses the first.
+//! A measurement between two touches without the first one, on some paths.
 
 use gcheck_engine::Touch;
 
-use super::first_touch_missing::keeping_code;
-use crate::meta::declare_rule;
-use crate::probing::is_second_touch;
+use crate::declare::declare_rule;
+use crate::facts::probing::{is_second_touch, keeping_code, probing_code};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A code measures between two touches (`G136`, `G35`), and on some path that comes here no touch was kept before it.
+    /// A code measures between two touches (`G136`, `G35`), and on some paths that come here no first touch is kept.
     ///
     /// ## Why it matters
-    /// On that path the control measures from a point that another program kept, and writes the result without an alarm.
+    /// On such a path the control measures from a point that another program kept, and writes the result without an
+    /// alarm.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -45,14 +45,11 @@ struct MaybeFirstTouchMissing;
 impl PathRule for MaybeFirstTouchMissing {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let is_open = cx.state().kept_touch() == Touch::Unknown;
-        if !is_open
-            || !cx.has_effect(is_second_touch)
-            || cx.is_called_only()
-            || cx.is_behind_unknown_program()
+        if !is_open || !cx.has_effect(is_second_touch) || cx.is_called_only() || cx.is_after_unknown_program()
         {
             return;
         }
-        let name = cx.probing_code().map(|code| cx.name_of(code)).unwrap_or_default();
+        let name = probing_code(cx).map(|code| cx.name_of(code)).unwrap_or_default();
         let keep = keeping_code(cx);
         let finding = cx
             .finding(
@@ -60,7 +57,7 @@ impl PathRule for MaybeFirstTouchMissing {
                 cx.effect_range(is_second_touch),
                 format!("`{name}` may have no first touch to measure from (`{keep}`)"),
             )
-            .label("the second touch; on some path the first is missing")
+            .label("the second touch; on some paths the first is missing")
             .help(format!("touch the first side with `{keep}` on every path that comes here"));
         report.add(cx.with_path(finding));
     }

@@ -1,17 +1,18 @@
-//! A probing code in a mode that it does not work in, on some path.
+//! A probing code in a mode in which it does not work, on some paths.
 
-use super::probing_in_wrong_mode::{Demand, demands, worded};
-use crate::meta::declare_rule;
-use crate::probing::ModeInBlock;
+use crate::declare::declare_rule;
+use crate::facts::modes::{ModeInBlock, mode_in_block};
+use crate::facts::probing::{ModeDemand, mode_demands, mode_finding};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing or measuring code runs, on some path that comes here, in a mode that it must not run in: cutter compensation
-    /// on, tool length compensation on where a work offset is measured (`G36`, `G136`), or off where a tool length is
-    /// (`G37`).
+    /// On some paths that come here, a probing or measuring code runs in a wrong mode: with cutter compensation on,
+    /// with tool length compensation on while it measures a work offset (`G36`, `G136`), or off while it measures a
+    /// tool length (`G37`).
     ///
     /// ## Why it matters
-    /// On that path the control stops with an alarm, or writes a table with the tool's length or radius in it.
+    /// On such a path the control stops with an alarm, or writes a value to its table that is wrong by the tool's
+    /// length or radius.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -45,12 +46,13 @@ struct MaybeProbingInWrongMode;
 
 impl PathRule for MaybeProbingInWrongMode {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        for Demand { role, code, is_wrong, .. } in demands(cx) {
-            let ModeInBlock::Several(modes) = cx.mode_in_block(role) else { continue };
+        for ModeDemand { role, code, is_wrong, .. } in mode_demands(cx) {
+            let ModeInBlock::Several(modes) = mode_in_block(cx, role) else { continue };
             let Some(wrong) = modes.iter().copied().find(|mode| is_wrong(*mode)) else { continue };
             let mode = cx.name_of(wrong);
-            let mut finding = worded(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
-            finding.message = format!("on some path: {}", finding.message);
+            let mut finding =
+                mode_finding(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
+            finding.message = format!("on some paths: {}", finding.message);
             report.add(cx.with_path(finding));
         }
     }
@@ -71,7 +73,7 @@ mod tests {
             "G41 D1 G1 X1. F10.\nIF [#100 EQ 1] GOTO10\nG40 X2.\nN10 G91 G31 Y-1. F10.\nG40 X1.\nG90\nM30\n",
             &expect![[r#"
                 4 | N10 G91 G31 Y-1. F10.
-                  |         ^^^ warning[maybe-probing-in-wrong-mode] on some path: probing with cutter compensation on (`G41`)
+                  |         ^^^ warning[maybe-probing-in-wrong-mode] on some paths: probing with cutter compensation on (`G41`)
             "#]],
         );
     }

@@ -1,19 +1,19 @@
-//! A work offset measured with words that count in it.
+//! A work offset that is measured in positions.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Role};
 
-use crate::meta::declare_rule;
-use crate::probing::ModeInBlock;
+use crate::declare::declare_rule;
+use crate::facts::modes::{ModeInBlock, mode_in_block};
+use crate::facts::probing::probing_code;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A work offset is measured (`G36`, `G136`) in a block of positions (`G90`), where the manual asks for increments
-    /// (`G91`).
+    /// A work offset is measured (`G36`, `G136`) in positions (`G90`), and the manual asks for increments (`G91`).
     ///
     /// ## Why it matters
-    /// The end of the move counts in the very offset that is about to be set, so it lies where the old offset says, perhaps
-    /// short of the surface or far behind it. An increment always begins where the probe stands.
+    /// The end of the move counts in the offset that the block measures, so the old offset decides where it is, perhaps
+    /// short of the surface or far behind it. An increment always begins at the probe's position.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -45,15 +45,15 @@ impl PathRule for MeasuresInPositions {
         if !cx.has_effect(is_offset) {
             return;
         }
-        let (mode, is_written) = match cx.mode_in_block(Role::Distance) {
+        let (mode, is_written) = match mode_in_block(cx, Role::Distance) {
             ModeInBlock::Written(mode) => (mode, true),
             ModeInBlock::Before(mode) => (mode, false),
             ModeInBlock::Several(_) => return,
         };
         let fact = Fact::Mode(Role::Distance);
         let is_callers = !is_written && cx.is_called_only() && cx.trace().set_by(fact).is_none();
-        let Some(code) = cx.probing_code().and_then(|ix| cx.code_of(ix)) else { return };
-        let wanted = cx.cancel_of(Effect::Incremental).unwrap_or_default();
+        let Some(code) = probing_code(cx).and_then(|ix| cx.code_of(ix)) else { return };
+        let wanted = cx.name_of_effect(Effect::Incremental).unwrap_or_default();
         if cx.model.effect(mode) != Effect::Absolute
             || is_callers
             || !code.entry().recommends.contains(&wanted)
@@ -67,9 +67,9 @@ impl PathRule for MeasuresInPositions {
                 cx.effect_range(is_offset),
                 format!("`{name}` in positions (`{mode}`) instead of increments"),
             )
-            .label("the end of the move counts in the offset that is about to be set")
-            .note(format!("`{name}` is to be used with `{wanted}`  [{}]", code.entry().source))
-            .help(format!("write the way to the surface as an increment: `{wanted} {name} …`"));
+            .label("the end of the move counts in the offset that this block sets")
+            .note(format!("the manual asks for `{wanted}` with `{name}`  [{}]", code.entry().source))
+            .help(format!("write the distance to the surface as an increment: `{wanted} {name} …`"));
         report.add(if is_written { finding } else { cx.resting_on(finding, fact, &format!("`{mode}`")) });
     }
 }

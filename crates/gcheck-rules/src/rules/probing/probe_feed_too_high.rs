@@ -1,18 +1,18 @@
-//! A probing move faster than the probe bears.
+//! A probing move too fast for the probe.
 
 use gcheck_engine::{Abstract, Domain, Event, FeedMode, Units};
 
-use super::touches_do_not_meet::{is_compensated, is_probing};
-use crate::meta::declare_rule;
-use crate::probing::is_touch;
+use crate::declare::declare_rule;
+use crate::facts::compensation::may_be_on;
+use crate::facts::probing::{is_probing_move, is_touch};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing move has a feed above the one that the control's manual lets a probe have.
+    /// A probing move has a feed above the limit in the control's manual.
     ///
     /// ## Why it matters
-    /// The axes need their way to stop after the touch. Above this feed the stylus may break, and the measurement is off by
-    /// the way to stop.
+    /// After the touch the axes need some distance to stop. Above this feed the stylus may break, and the measurement
+    /// is off by that distance.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -43,7 +43,7 @@ impl PathRule for ProbeFeedTooHigh {
             cx.enough();
             return;
         };
-        if !is_probing(event) || !cx.has_effect(is_touch) || is_compensated(cx) {
+        if !is_probing_move(event) || !cx.has_effect(is_touch) || may_be_on(cx) {
             return;
         }
         let (Some(FeedMode::PerMinute), Some(units)) =
@@ -55,7 +55,7 @@ impl PathRule for ProbeFeedTooHigh {
             Units::Inch => (limit.inch, "inch/min"),
             Units::Mm => (limit.mm, "mm/min"),
         };
-        // A feed that is one of several is at least the lowest.
+        // Of several possible feeds the lowest counts.
         let Some((lowest, _)) = Abstract::bounds(cx.state().feed()) else { return };
         let feed = lowest / units.in_mm();
         if feed <= fastest * (1.0 + 1e-9) {
@@ -64,9 +64,9 @@ impl PathRule for ProbeFeedTooHigh {
         let finding = cx
             .finding(&META, cx.letter_range('F'), format!("probing at {feed:.0} {unit} (`F`)"))
             .label("too fast for the probe")
-            .note(format!("the manual asks for less than {fastest:.0} {unit} where the probe is to touch"))
+            .note(format!("the manual asks for less than {fastest:.0} {unit} for a touch"))
             .help("approach with a protected move, and touch slowly");
-        // A move that must not touch anything is as fast as its way to stop allows.
+        // A protected move may be as fast as its stopping distance allows.
         let guards = cx.has_effect(|effect| effect == gcheck_controls::Effect::AlarmIfTouched);
         if !guards {
             report.add(finding);

@@ -1,17 +1,17 @@
-//! A probing move without a way.
+//! A probing move that goes nowhere.
 
 use gcheck_engine::{Event, Touch};
 
-use super::touches_do_not_meet::{is_compensated, is_probing};
-use crate::meta::declare_rule;
-use crate::probing::{driven, is_touch};
+use crate::declare::declare_rule;
+use crate::facts::compensation::may_be_on;
+use crate::facts::probing::{driven, is_probing_move, is_touch, probing_code};
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing move ends where the probe stands.
+    /// A probing move ends where the probe already is.
     ///
     /// ## Why it matters
-    /// Nothing is touched, and the point where the probe stands is taken for the surface: in `#5061` and up, and in the
+    /// The probe touches nothing, and the control takes its position as the surface: in `#5061` and up, and in the
     /// table that the code writes.
     ///
     /// ## Reported
@@ -45,17 +45,17 @@ struct ProbeGoesNowhere;
 
 impl PathRule for ProbeGoesNowhere {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        if !is_probing(event) || !cx.has_effect(is_touch) || is_compensated(cx) {
+        if !is_probing_move(event) || !cx.has_effect(is_touch) || may_be_on(cx) {
             return;
         }
         let Touch::Made(ways) = cx.state().touched() else { return };
         if needs_axis(cx) || driven(ways).next().is_some() || !has_plain_axes(cx) {
             return;
         }
-        let name = cx.probing_code().map(|code| cx.name_of(code)).unwrap_or_default();
+        let name = probing_code(cx).map(|code| cx.name_of(code)).unwrap_or_default();
         report.add(
             cx.finding(&META, cx.range(), format!("probing move that goes nowhere (`{name}`)"))
-                .label("the target is where the probe stands")
+                .label("the target is the probe's present position")
                 .help("give a target beyond the surface to be touched"),
         );
     }
@@ -63,13 +63,13 @@ impl PathRule for ProbeGoesNowhere {
 
 /// Does the block lack an axis that another rule asks for?
 fn needs_axis(cx: &PathCx<'_>) -> bool {
-    let code = cx.probing_code().and_then(|code| cx.code_of(code));
+    let code = probing_code(cx).and_then(|code| cx.code_of(code));
     !cx.names_axes() && code.is_none_or(|code| !code.entry().one_of.is_empty())
 }
 
-/// Are all axis words of the block numbers? A variable without a value leaves its word out.
+/// Are all axis words of the block numbers? A variable without a value makes the control ignore its word.
 fn has_plain_axes(cx: &PathCx<'_>) -> bool {
-    let control = cx.scene.control();
+    let control = cx.control();
     let Some(place) = cx.place() else { return false };
     let words = place.table.words(place.block());
     let mut axes = words.iter().filter(|word| control.letter(word.letter).is_some_and(|entry| entry.axis));

@@ -1,19 +1,19 @@
-//! A probing code in a mode that it does not work in.
+//! A probing code in a mode in which it does not work.
 
-use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
-use gcheck_engine::{Abstract, Domain, Fact, Role};
+use gcheck_engine::Fact;
 
-use crate::meta::declare_rule;
-use crate::probing::ModeInBlock;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::declare::declare_rule;
+use crate::facts::modes::{ModeInBlock, mode_in_block};
+use crate::facts::probing::{ModeDemand, mode_demands, mode_finding};
+use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A probing or measuring code runs in a mode that it must not run in: cutter compensation on, tool length compensation on
-    /// where a work offset is measured (`G36`, `G136`), or off where a tool length is (`G37`).
+    /// A probing or measuring code runs in a wrong mode: with cutter compensation on, with tool length compensation on
+    /// while it measures a work offset (`G36`, `G136`), or off while it measures a tool length (`G37`).
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or writes a table with the tool's length or radius in it, by which the next tool
-    /// misses.
+    /// The control stops with an alarm, or writes a value to its table that is wrong by the tool's length or radius,
+    /// and the next tool cuts in the wrong place.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -40,7 +40,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "probing-in-wrong-mode" in "probing" {
-        summary: "probing code in a mode it does not work in",
+        summary: "probing code in a mode in which it does not work",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -52,8 +52,8 @@ struct ProbingInWrongMode;
 
 impl PathRule for ProbingInWrongMode {
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        for Demand { role, code, most, is_wrong } in demands(cx) {
-            let (mode, is_written) = match cx.mode_in_block(role) {
+        for ModeDemand { role, code, most, is_wrong } in mode_demands(cx) {
+            let (mode, is_written) = match mode_in_block(cx, role) {
                 ModeInBlock::Written(mode) => (mode, true),
                 ModeInBlock::Before(mode) => (mode, false),
                 ModeInBlock::Several(_) => continue,
@@ -64,7 +64,7 @@ impl PathRule for ProbingInWrongMode {
                 continue;
             }
             let mode = cx.name_of(mode);
-            let finding = worded(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
+            let finding = mode_finding(cx.finding(&META, cx.range(), String::new()), role, code, &mode, cx);
             let finding = finding.at_most(most);
             report.add(if is_written {
                 finding
@@ -73,91 +73,6 @@ impl PathRule for ProbingInWrongMode {
             });
         }
     }
-}
-
-/// What the probing code of a block asks of a mode.
-pub(super) struct Demand<'a> {
-    pub(super) role: Role,
-    pub(super) code: Code<'a>,
-    /// How grave it is at most: what the data only recommends is no error.
-    pub(super) most: Severity,
-    /// Is this code the wrong one to have in effect?
-    pub(super) is_wrong: Box<dyn Fn(CodeIx) -> bool + 'a>,
-}
-
-/// The modes that the probing code of the block requires and forbids, as the control's data states them.
-pub(super) fn demands<'a>(cx: &'a PathCx<'a>) -> Vec<Demand<'a>> {
-    let Some(code) = cx.probing_code().and_then(|ix| cx.code_of(ix)) else { return Vec::new() };
-    let of_name = |name: &str| {
-        let ix = cx.scene.control().code_ix(CodeNumber::parse(name)?);
-        Some((ix, cx.model.role(ix)?))
-    };
-    let entry = code.entry();
-    let demand = |name: &str, most: Severity| {
-        let (wanted, role) = of_name(name)?;
-        let wanted = cx.model.effect(wanted);
-        let is_wrong = move |mode: CodeIx| {
-            let effect = cx.model.effect(mode);
-            let is_off = role == Role::Length && has_no_length(cx);
-            mode.is_some() && effect != wanted && effect != Effect::None && !is_off
-        };
-        Some(Demand { role, code, most, is_wrong: Box::new(is_wrong) })
-    };
-    let required = entry.requires.iter().filter_map(|name| demand(name, Severity::Error));
-    let recommended = entry.recommends.iter().filter_map(|name| demand(name, Severity::Warning));
-    let recommended = recommended.filter(|demand| matches!(demand.role, Role::Compensation | Role::Length));
-    let forbidden = entry.forbids.iter().filter_map(|name| of_name(name)).map(|(unwanted, role)| Demand {
-        role,
-        code,
-        most: Severity::Error,
-        is_wrong: Box::new(move |mode: CodeIx| mode == unwanted),
-    });
-    required.chain(recommended).chain(forbidden).collect()
-}
-
-/// `G43 H0` is no length.
-fn has_no_length(cx: &PathCx<'_>) -> bool {
-    !cx.origin().letters.contains(gcheck_controls::Letter::of('H'))
-        && Abstract::known(cx.state().h()).is_some_and(|h| h.abs() < 0.5)
-}
-
-/// The words of a finding about a mode.
-pub(super) fn worded(
-    mut finding: Finding,
-    role: Role,
-    code: Code<'_>,
-    mode: &str,
-    cx: &PathCx<'_>,
-) -> Finding {
-    let (name, entry) = (code.number().to_string(), code.entry());
-    let range = cx.word_range(|word| cx.code_of(word.code).is_some_and(|of| of.number() == code.number()));
-    let (what, label, help) = match (role, code.effect()) {
-        (Role::Compensation, _) => (
-            "probing with cutter compensation on",
-            "the path of a probe cannot be offset",
-            "switch compensation off (`G40`) with a move away from the part before it",
-        ),
-        (Role::Length, Effect::ProbeLength) => (
-            "tool length measured with no length in effect",
-            "measures the length in effect, and none is",
-            "switch the length on before it: `G43 H…` with the offset that is measured",
-        ),
-        (Role::Length, _) => (
-            "work offset measured with a tool length on",
-            "the tool's length would go into the work offset",
-            "switch the length off (`G49`) before it",
-        ),
-        _ => {
-            ("probing in a mode it does not work in", "refused in this mode", "switch the mode off before it")
-        }
-    };
-    finding.range = range;
-    finding.message = format!("{what} (`{mode}`)");
-    finding
-        .label(label)
-        .note(format!("`{name}` ({}) must not run in this mode  [{}]", entry.title, entry.source))
-        .help(help)
-        .at_most(limit(entry.confidence))
 }
 
 #[cfg(test)]

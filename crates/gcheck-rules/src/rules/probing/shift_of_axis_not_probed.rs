@@ -1,17 +1,17 @@
-//! A shift of a measured offset along an axis that is not measured.
+//! A measured offset that is shifted along another axis.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
     /// `I`, `J` or `K` of a measured work offset (`G36`, `G136`) shifts an axis that the block does not probe.
     ///
     /// ## Why it matters
-    /// `I` belongs to X, `J` to Y and `K` to Z. A shift beside the measured axis either does nothing, or moves an offset that
-    /// nobody measured, by as much again at every run.
+    /// `I` belongs to X, `J` to Y and `K` to Z. A shift of another axis either does nothing, or moves an offset that
+    /// was not measured, further with every run.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -45,7 +45,7 @@ impl PathRule for ShiftOfAxisNotProbed {
         }
         let letters = cx.origin().letters;
         let Some(place) = cx.place() else { return };
-        // A block that probes nothing is another rule's.
+        // Another rule reports a block that probes nothing.
         let is_malformed = cx.origin().flags.contains(BlockFlags::ERROR);
         if is_malformed || !cx.names_axes() {
             return;

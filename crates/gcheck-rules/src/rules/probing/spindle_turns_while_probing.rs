@@ -1,19 +1,20 @@
-//! A probe that turns with the spindle, or is cut by the tool.
+//! A spindle that turns while the probe touches.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Event, Fact, Spindle};
 
-use super::touches_do_not_meet::{is_compensated, is_probing};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::compensation::may_be_on;
+use crate::facts::probing::is_probing_move;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
-    /// A work offset is measured (`G36`, `G136`) with the probe in a spindle that turns, or a tool's size (`G35`) with the
-    /// spindle turning as for a cut, or a mill probes (`G31`, `G38.2`) with the spindle turning so.
+    /// A work offset is measured (`G36`, `G136`) with the probe in a turning spindle, or a tool's size (`G35`) with the
+    /// spindle turning forward, or a mill probes (`G31`, `G38.2`) with the spindle turning forward.
     ///
     /// ## Why it matters
-    /// A spindle probe that turns is destroyed at the first touch. A right-hand cutter that turns forward cuts into the tool
-    /// probe; the manual has it turn backward (`M4`).
+    /// The first touch destroys a spindle probe that turns. A right-hand cutter that turns forward cuts into the tool
+    /// probe; the manual asks for backward rotation (`M4`).
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -52,13 +53,13 @@ impl PathRule for SpindleTurnsWhileProbing {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let is_measuring =
             |effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre | Effect::ProbeDiameter);
-        // What such a code touches with, nobody tells; the spindle of a lathe turns the part.
+        // The program does not show what such a code touches with; the spindle of a lathe turns the part.
         let is_touching = |effect| {
             matches!(effect, Effect::Skip | Effect::ProbeToward | Effect::ProbeTowardOptional)
                 && !cx.model.semantics().tools.change_by_t
         };
         let is_either = |effect| is_measuring(effect) || is_touching(effect);
-        if !is_probing(event) || !cx.has_effect(is_either) || is_compensated(cx) {
+        if !is_probing_move(event) || !cx.has_effect(is_either) || may_be_on(cx) {
             return;
         }
         let is_unsure = !cx.has_effect(is_measuring);
@@ -77,7 +78,7 @@ impl PathRule for SpindleTurnsWhileProbing {
             Some(Spindle::Clockwise | Spindle::CounterClockwise) if !of_tool && !is_unsure => (
                 "the spindle turns while its probe touches",
                 "the probe turns with the spindle",
-                "stop the spindle (`M5`) before the probe goes in",
+                "stop the spindle (`M5`) before the probing move",
             ),
             _ => return,
         };

@@ -1,18 +1,18 @@
-//! A code that speaks of a touch where nothing is touched.
+//! A code for a touch without a probing move.
 
 use gcheck_controls::Effect;
 use gcheck_engine::Touch;
 
-use crate::meta::declare_rule;
-use crate::probing::is_touch;
+use crate::declare::declare_rule;
+use crate::facts::probing::is_touch;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// A code keeps a touch (`M75`) or asks for one (`M78`, `M79`), and neither its block nor any before it probes; or `M75`
-    /// stands in a block that moves without probing.
+    /// A code keeps a touch (`M75`) or checks for one (`M78`, `M79`), and neither its block nor an earlier one probes;
+    /// or `M75` is in a block that moves without probing.
     ///
     /// ## Why it matters
-    /// `G1` in the place of `G31` is the usual reason: the axes then go through the surface at feed, and no point is kept.
+    /// The usual cause is `G1` instead of `G31`: the axes then move through the surface at feed, and no point is kept.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -32,7 +32,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "touch-code-without-probing" in "probing" {
-        summary: "keeps or asks for a touch where nothing probes",
+        summary: "keeps or checks a touch where nothing probes",
         severity: Error,
         tier: Path,
         since: "0.1.0",
@@ -65,7 +65,7 @@ impl PathRule for TouchCodeWithoutProbing {
             } else {
                 Effect::AlarmIfNotTouched
             };
-            let finding = finding(cx, effect, "asks for a touch, but nothing was probed", "the move");
+            let finding = finding(cx, effect, "checks for a touch, but nothing was probed", "the move");
             report.add(finding.at_most(Severity::Warning));
         }
     }
@@ -76,8 +76,8 @@ fn asks(effect: Effect) -> bool {
 }
 
 fn finding(cx: &PathCx<'_>, of: Effect, what: &str, which: &str) -> Finding {
-    let name = cx.cancel_of(of).unwrap_or_default();
-    let skip = cx.cancel_of(Effect::Skip).unwrap_or_default();
+    let name = cx.name_of_effect(of).unwrap_or_default();
+    let skip = cx.name_of_effect(Effect::Skip).unwrap_or_default();
     cx.finding(&META, cx.effect_range(|effect| effect == of), format!("`{name}` {what}"))
         .label(format!("belongs on a block with `{skip}`"))
         .help(format!("make {which} a probing move: `{skip} … F… {name}`"))
@@ -114,9 +114,9 @@ mod tests {
             1 | M75
               | ^^^ error[touch-code-without-probing] `M75` keeps a touch, but nothing was probed
             2 | M78
-              | ^^^ warning[touch-code-without-probing] `M78` asks for a touch, but nothing was probed
+              | ^^^ warning[touch-code-without-probing] `M78` checks for a touch, but nothing was probed
             3 | M79
-              | ^^^ warning[touch-code-without-probing] `M79` asks for a touch, but nothing was probed
+              | ^^^ warning[touch-code-without-probing] `M79` checks for a touch, but nothing was probed
         "#]],
         );
     }

@@ -1,21 +1,22 @@
-//! Two touches between which there is nothing to measure.
+//! Two touches that do not face each other.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{At, Event, Role, Touch, TravelKind, Way};
+use gcheck_engine::{At, Event, Touch, Way};
 
-use super::first_touch_missing::keeping_code;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::probing::{driven, is_second_touch};
+use crate::declare::declare_rule;
+use crate::facts::compensation::may_be_on;
+use crate::facts::probing::{driven, is_probing_move, is_second_touch, keeping_code};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// The second touch of a measurement between two (`G136`, `G35`) goes along another axis than the first, or the same way.
+    /// The second touch of a measurement between two touches (`G136`, `G35`) is along another axis than the first, or
+    /// in the same direction.
     ///
     /// ## Why it matters
-    /// Two sides of a part, a bore or a tool are touched from opposite ways along one axis. A first touch along Y says
-    /// nothing of the middle in X, and two touches in the same way hit the same side: the control computes a middle all
-    /// the same.
+    /// Two sides of a part, a bore or a tool are touched in opposite directions along one axis. A first touch along Y
+    /// does not help to find the middle in X, and two touches in the same direction hit the same side: the control
+    /// still computes a middle.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -75,9 +76,9 @@ impl PathRule for TouchesDoNotMeet {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
-        // What is called may drive axes by arguments that only its caller knows.
-        let is_open = is_compensated(cx) || cx.is_called_only();
-        if is_open || !is_probing(event) || !cx.has_effect(is_second_touch) {
+        // A called program may move axes by arguments that only its caller knows.
+        let is_open = may_be_on(cx) || cx.is_called_only();
+        if is_open || !is_probing_move(event) || !cx.has_effect(is_second_touch) {
             return;
         }
         let (Touch::Made(first), Touch::Made(second)) = (cx.state().kept_touch(), cx.state().touched())
@@ -89,14 +90,14 @@ impl PathRule for TouchesDoNotMeet {
             let keep = keeping_code(cx);
             let (message, label, help) = match (first.of(axis), way) {
                 (Way::Still, _) => (
-                    format!("the first touch did not go along {letter}"),
+                    format!("the first touch was not along {letter}"),
                     format!("measures along {letter}, where nothing was touched before"),
                     format!("keep a first touch along {letter}: `{keep}` on its probing move"),
                 ),
                 (Way::Up, Way::Up) | (Way::Down, Way::Down) => (
-                    format!("both touches go the same way along {letter}"),
-                    "hits the side that the first touch hit, or one that looks the same way".to_owned(),
-                    format!("touch along {letter} from the other side, the opposite way"),
+                    format!("both touches are in the same direction along {letter}"),
+                    "hits the same side as the first touch, or one that faces the same way".to_owned(),
+                    format!("touch along {letter} from the other side, in the opposite direction"),
                 ),
                 _ => continue,
             };
@@ -114,16 +115,6 @@ fn keeps(effect: Effect) -> bool {
     effect == Effect::KeepTouch
 }
 
-/// Is the move one that the probe ends?
-pub(super) fn is_probing(event: &Event) -> bool {
-    matches!(event, Event::Travel(travel) if matches!(travel.kind, TravelKind::Probe { .. }))
-}
-
-/// May cutter compensation be on, so that events come a block late? Probing under it is another rule's.
-pub(super) fn is_compensated(cx: &PathCx<'_>) -> bool {
-    !matches!(cx.state().effect(Role::Compensation, cx.model), Some(Effect::CompensationOff | Effect::None))
-}
-
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -139,7 +130,7 @@ mod tests {
             "G90 G54 G0 X0. Y5.\nG31 Y4. F10. M75\nG0 Y-5.\nG136 Y-8. F10.\nG136 Y-4. F10.\nM30\n",
             &expect![[r#"
                 4 | G136 Y-8. F10.
-                  |      ^^^^ warning[touches-do-not-meet] both touches go the same way along Y
+                  |      ^^^^ warning[touches-do-not-meet] both touches are in the same direction along Y
             "#]],
         );
     }
@@ -152,7 +143,7 @@ mod tests {
             "G91 G31 X-1. F10. M75\nG0 X-8.\nG136 X1. Y1. F10.\nG90\nM30\n",
             &expect![[r#"
                 3 | G136 X1. Y1. F10.
-                  |          ^^^ warning[touches-do-not-meet] the first touch did not go along Y
+                  |          ^^^ warning[touches-do-not-meet] the first touch was not along Y
             "#]],
         );
     }
@@ -165,7 +156,7 @@ mod tests {
             "G91 G31 X-1. F10. M75\nG0 X-8.\nG35 X-1. D1 F10.\nG90\nM30\n",
             &expect![[r#"
                 3 | G35 X-1. D1 F10.
-                  |     ^^^^ warning[touches-do-not-meet] both touches go the same way along X
+                  |     ^^^^ warning[touches-do-not-meet] both touches are in the same direction along X
             "#]],
         );
     }

@@ -1,19 +1,20 @@
-//! A jump to a sequence number that stands twice in its program.
+//! A jump to a sequence number that its program has more than once.
 
 use std::collections::BTreeSet;
 
 use gcheck_controls::{Motion, WordKind};
 use gcheck_program::{Jump, Label};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::{label_index, program_around, target_word};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A jump names a sequence number that stands more than once in the program.
+    /// A jump names a sequence number that is in the program more than once.
     ///
     /// ## Why it matters
-    /// Which block the control finds depends on where it begins to search: most search forward first and then from the top.
-    /// A block inserted by hand can send the jump to the wrong tool.
+    /// Which block the control finds depends on where its search begins: most controls search forward first and then
+    /// from the top. A block that was inserted by hand can send the jump to the wrong tool.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -36,7 +37,7 @@ declare_rule! {
     /// N30 M30
     /// ```
     rule "ambiguous-jump-target" in "program" {
-        summary: "jump target stands more than once",
+        summary: "jump target exists more than once",
         severity: Warning,
         tier: Program,
         since: "0.1.0",
@@ -48,15 +49,15 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.survey.jumps.is_empty() {
         return;
     }
-    let index = cx.label_index();
+    let index = label_index(cx);
     let mut told: BTreeSet<(u32, u32)> = BTreeSet::new();
     for jump in &cx.survey.jumps {
         let Some(target) = jump.target else { continue };
-        let word = cx.target_word(jump.code, WordKind::Label, cx.slice(jump.range.clone()));
+        let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         if word.is_some_and(|(code, word)| word.elsewhere || code.motion() != Motion::None) {
             continue;
         }
-        let program = cx.program_around(jump.range.start);
+        let program = program_around(cx, jump.range.start);
         if let [first, second, ..] = index.within(target, &program)
             && told.insert((program.start, target))
         {
@@ -66,8 +67,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }
 
 fn finding(jump: &Jump, first: &Label, second: &Label) -> Finding {
-    Finding::new(&META, jump.range.clone(), format!("jump target `N{}` stands more than once", first.number))
-        .label("goes to whichever of them the search meets first")
+    Finding::new(&META, jump.range.clone(), format!("jump target `N{}` exists more than once", first.number))
+        .label("goes to whichever one the search finds first")
         .also(first.range.clone(), "one of them")
         .also(second.range.clone(), "another")
         .note("most controls search forward from the jump, then from the top of the program  [general knowledge]")
@@ -79,8 +80,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn one_finding_for_each_number() {
@@ -90,7 +90,7 @@ mod tests {
             "M97 P10\nM97 P10\nM30\nN10 M99\nN10 M99\n",
             &expect![[r#"
                 1 | M97 P10
-                  |     ^^^ warning[ambiguous-jump-target] jump target `N10` stands more than once
+                  |     ^^^ warning[ambiguous-jump-target] jump target `N10` exists more than once
             "#]],
         );
     }
@@ -102,10 +102,10 @@ mod tests {
 
     #[test]
     fn both_blocks_are_shown() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "GOTO 1\nN1\nN1\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "GOTO 1\nN1\nN1\n", &World::default());
         expect![[r#"
-            jump target `N1` stands more than once
-              here: goes to whichever of them the search meets first
+            jump target `N1` exists more than once
+              here: goes to whichever one the search finds first
               there: one of them
               there: another
               note: most controls search forward from the jump, then from the top of the program  [general knowledge]

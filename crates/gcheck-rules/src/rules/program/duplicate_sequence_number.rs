@@ -1,15 +1,16 @@
-//! A sequence number that stands twice in a program.
+//! A sequence number that a program has twice.
 
 use std::collections::BTreeSet;
 
 use gcheck_controls::Ends;
 use gcheck_program::Label;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::{has_jumps, program_around};
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// The same sequence number stands at two blocks of one program. Told once for the file.
+    /// Two blocks of one program have the same sequence number. Reported once per file.
     ///
     /// ## Why it matters
     /// A search for the number, by hand at a restart or by a jump that is added later, finds the wrong block.
@@ -21,7 +22,7 @@ declare_rule! {
     /// N10 T2 M6
     /// ```
     /// ## Not reported
-    /// Different programs of a file may use the same numbers, and where nothing can go to a number it does not matter.
+    /// Different programs of a file may use the same numbers, and a number that nothing can jump to does not matter.
     /// ```nc,quiet,haas-mill
     /// O00001
     /// N10 M30
@@ -33,21 +34,21 @@ declare_rule! {
     /// N10 T2 M6
     /// ```
     rule "duplicate-sequence-number" in "program" {
-        summary: "sequence number stands twice in a program",
+        summary: "sequence number twice in a program",
         severity: Hint,
         tier: Program,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.labels.len() < 2 || !cx.has_jumps() {
+    if cx.survey.labels.len() < 2 || !has_jumps(cx) {
         return;
     }
     let mut labels: Vec<(u32, u32, &Label)> =
-        cx.survey.labels.iter().map(|l| (cx.program_around(l.range.start).start, l.number, l)).collect();
+        cx.survey.labels.iter().map(|l| (program_around(cx, l.range.start).start, l.number, l)).collect();
     labels.sort_by_key(|(program, number, label)| (*program, *number, label.range.start));
     let same = |pair: &&[(u32, u32, &Label)]| matches!(pair, [a, b] if (a.0, a.1) == (b.0, b.1));
     let count = labels.windows(2).filter(same).count();
@@ -55,7 +56,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let first =
         labels.windows(2).filter(same).min_by_key(|pair| pair.last().map(|(_, _, label)| label.range.start));
     let Some([(_, _, first), (_, _, second)]) = first else { return };
-    // A jump to the number makes it a matter of its own.
+    // Another rule reports a number that a jump leads to.
     if !cx.survey.jumps.iter().any(|j| j.target == Some(second.number)) {
         let again = labels.windows(2).filter(same).filter_map(|pair| pair.last()).map(|(_, _, label)| *label);
         report.add(finding(first, second, count).fix_if(without_numbers(cx, again)));
@@ -66,22 +67,22 @@ fn finding(first: &Label, second: &Label, count: usize) -> Finding {
     let finding = Finding::new(
         &META,
         second.range.clone(),
-        format!("sequence number `N{}` stands twice", second.number),
+        format!("sequence number `N{}` exists twice", second.number),
     )
     .label("the same number again")
     .also(first.range.clone(), "first used here")
-    .help("renumber the blocks, or leave the numbers out where nothing goes to them");
+    .help("renumber the blocks, or remove numbers that nothing jumps to");
     if count > 1 { finding.note(format!("{count} blocks of the file repeat a number")) } else { finding }
 }
 
-/// Numbers that one fix takes away; of more, the rest is left to the next run.
+/// Numbers that one fix removes; more are left to the next run.
 const MOST_NUMBERS: usize = 10_000;
 
-/// The repeated numbers taken away: only where every jump is known, and none goes to one of them.
+/// Removes the repeated numbers: only if every jump is known, and none leads to one of them.
 fn without_numbers<'l>(cx: &FileCx<'_>, again: impl Iterator<Item = &'l Label>) -> Option<Fix> {
     let targets: Option<BTreeSet<u32>> = cx.survey.jumps.iter().map(|jump| jump.target).collect();
     let targets = targets?;
-    // What other programs return to or call is not known.
+    // Returns and calls from other programs are not known.
     if !cx.survey.calls.is_empty() || cx.survey.ends.iter().any(|end| end.ends == Ends::Subprogram) {
         return None;
     }
@@ -94,7 +95,7 @@ fn without_numbers<'l>(cx: &FileCx<'_>, again: impl Iterator<Item = &'l Label>) 
             Edit { range: label.range.start..label.range.end + blanks as u32, text: String::new() }
         })
         .collect();
-    (!edits.is_empty()).then(|| Fix { title: "take the repeated numbers away".to_owned(), safe: true, edits })
+    (!edits.is_empty()).then(|| Fix { title: "remove the repeated numbers".to_owned(), safe: true, edits })
 }
 
 #[cfg(test)]
@@ -111,9 +112,9 @@ mod tests {
             "fanuc-lathe",
             "O1\nN1 T0101\nN2 T0202\nN2 M1\nN1 M30\n",
             &expect![[r#"
-            4 | N2 M1
-              | ^^ hint[duplicate-sequence-number] sequence number `N2` stands twice
-        "#]],
+                4 | N2 M1
+                  | ^^ hint[duplicate-sequence-number] sequence number `N2` exists twice
+            "#]],
         );
     }
 

@@ -3,11 +3,12 @@
 use gcheck_controls::{Code, WordEntry, WordKind};
 use gcheck_program::{Jump, Label};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::{label_index, program_around, target_word};
 use crate::{FileCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// A jump names a sequence number that stands nowhere in the program.
+    /// A jump names a sequence number that the program does not have.
     ///
     /// ## Why it matters
     /// The control searches the program for the number and stops with an alarm when the block runs, often in the middle of
@@ -19,7 +20,7 @@ declare_rule! {
     /// IF [#100 GT 5] GOTO 20
     /// N10 M30
     /// ```
-    /// The blocks of a lathe profile are looked for in the same way.
+    /// The control searches for the blocks of a lathe profile in the same way.
     /// ```nc,reported,haas-lathe
     /// G71 P100 Q200 D0.05 U0.02 W0.005 F0.01
     /// N100 G0 X1.
@@ -51,12 +52,12 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.survey.jumps.is_empty() {
         return;
     }
-    let index = cx.label_index();
+    let index = label_index(cx);
     for jump in &cx.survey.jumps {
         let Some(target) = jump.target else { continue };
-        let word = cx.target_word(jump.code, WordKind::Label, cx.slice(jump.range.clone()));
+        let word = target_word(cx, jump.code, WordKind::Label, cx.slice(jump.range.clone()));
         let is_elsewhere = word.is_some_and(|(_, word)| word.elsewhere);
-        if !is_elsewhere && index.within(target, &cx.program_around(jump.range.start)).is_empty() {
+        if !is_elsewhere && index.within(target, &program_around(cx, jump.range.start)).is_empty() {
             report.add(finding(jump, target, word, index.all(target).first().copied()));
         }
     }
@@ -79,9 +80,11 @@ fn finding(
         jump.range.clone(),
         format!("jump target `N{target}` does not exist in this program"),
     )
-    .label(format!("`{by}` looks for `N{target}`"))
-    .note("the control looks for the number when the block runs, and alarms if it is not found")
-    .help(format!("add `N{target}` at the block to go to, or correct the number"))
+    .label(format!("`{by}` searches for `N{target}`"))
+    .note(
+        "the control searches for the number when the block runs, and stops with an alarm if it is not found",
+    )
+    .help(format!("add `N{target}` to the target block, or correct the number"))
     .at_most(limit);
     match elsewhere {
         Some(label) => finding.also(label.range.clone(), "this one belongs to another program of the file"),

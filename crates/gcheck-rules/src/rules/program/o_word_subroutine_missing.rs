@@ -4,15 +4,15 @@ use std::collections::HashSet;
 
 use gcheck_program::{Call, CallKind, OKeyword, OLabel};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run, Severity};
 
 declare_rule! {
-    /// `CALL` names a subroutine that is neither in the file nor beside it. Told at the first call.
+    /// `CALL` names a subroutine that is neither in the file nor beside it. Reported at the first call.
     ///
     /// ## Why it matters
-    /// The control looks for the subroutine through the file and its subroutine folders when the call runs, and stops if it
-    /// is not there.
+    /// When the call runs, the control searches the file and its subroutine folders for the subroutine, and stops if it
+    /// is missing.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -58,10 +58,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             OLabel::Number(number) => {
                 here()
                     || programs.contains(number)
-                    || cx.scene.programs.has_number(*number)
-                    || cx.scene.programs.has_name(&number.to_string())
+                    || cx.environment.programs.has_number(*number)
+                    || cx.environment.programs.has_name(&number.to_string())
             }
-            OLabel::Name(name) => here() || cx.scene.programs.has_name(name),
+            OLabel::Name(name) => here() || cx.environment.programs.has_name(name),
         };
         if !known {
             told.insert(label);
@@ -77,9 +77,9 @@ fn finding(call: &Call, label: &OLabel) -> Finding {
         OLabel::Name(name) => (format!("o<{name}>"), Severity::Info),
         OLabel::Computed => (String::new(), Severity::Info),
     };
-    Finding::new(&META, call.range.clone(), format!("called subroutine `{name}` is not here"))
+    Finding::new(&META, call.range.clone(), format!("called subroutine `{name}` is missing"))
         .label("called here")
-        .note("looked for in this file and in the folders that gcheck was given")
+        .note("gcheck searched this file and the folders that it was given")
         .assuming("the control's subroutine folders may have it as a file of its own")
         .help("add the subroutine, correct its name, or name its folder in the configuration")
         .at_most(limit)
@@ -99,11 +99,11 @@ mod tests {
             "linuxcnc",
             "o7 call\no<tool-probe> call [1] [2]\nM2\n",
             &expect![[r#"
-            1 | o7 call
-              | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is not here
-            2 | o<tool-probe> call [1] [2]
-              | ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<tool-probe>` is not here
-        "#]],
+                1 | o7 call
+                  | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is missing
+                2 | o<tool-probe> call [1] [2]
+                  | ^^^^^^^^^^^^^^^^^^^^^^^^^^ info[o-word-subroutine-missing] called subroutine `o<tool-probe>` is missing
+            "#]],
         );
     }
 
@@ -114,9 +114,9 @@ mod tests {
             "linuxcnc",
             "o7 if [1 GT 0]\no7 endif\no7 call\nM2\n",
             &expect![[r#"
-            3 | o7 call
-              | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is not here
-        "#]],
+                3 | o7 call
+                  | ^^^^^^^ warning[o-word-subroutine-missing] called subroutine `o7` is missing
+            "#]],
         );
     }
 }

@@ -5,17 +5,17 @@ use std::ops::Range;
 use gcheck_controls::{CodeNumber, Effect, Ends};
 use gcheck_program::OKeyword;
 
-use crate::mending::line_end;
-use crate::meta::declare_rule;
-use crate::sections::Section;
+use crate::declare::declare_rule;
+use crate::facts::sections::{Section, keeps_programs_by_number, sections};
 use crate::{FileCx, Finding, Fix, Report, Run};
+use gcheck_lint::line_end;
 
 declare_rule! {
     /// A program has no block that ends it: no `M30` or `M2`, and no `M99` for a subprogram.
     ///
     /// ## Why it matters
-    /// The control runs off the end of the program with the spindle and coolant on, alarms, or runs on into the next program
-    /// of the tape. A missing end often means that the file was cut off.
+    /// The control reaches the end of the text with the spindle and coolant on, stops with an alarm, or runs on into
+    /// the next program of the tape. A missing end often means that the file was cut off.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -33,7 +33,7 @@ declare_rule! {
     /// G0 X10. Y10.
     /// M30
     /// ```
-    /// On some controls a pair of `%` lines ends the program too, and a file may hold nothing but subroutines.
+    /// On some controls a pair of `%` lines ends the program too, and a file may consist of subroutines only.
     /// ```nc,quiet,linuxcnc
     /// %
     /// G0 X10 Y10
@@ -48,7 +48,7 @@ declare_rule! {
         summary: "program does not end",
         severity: Warning,
         tier: Program,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -68,10 +68,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             return;
         }
     }
-    let sections = cx.sections();
-    // Where `O` numbers no programs, the file is one program.
+    let sections = sections(cx);
+    // If `O` does not number programs, the file is one program.
     let whole = [Section { number: None, range: 0..cx.region.end }];
-    let sections = if cx.keeps_programs_by_number() { sections.as_slice() } else { whole.as_slice() };
+    let sections = if keeps_programs_by_number(cx) { sections.as_slice() } else { whole.as_slice() };
     for section in sections {
         // In text order, as the sections are.
         let next = survey.ends.partition_point(|e| e.range.start < section.range.start);
@@ -80,7 +80,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             continue;
         }
         let is_last = section.range.contains(&last.start);
-        // A loop by GOTO has its end elsewhere or wants none.
+        // A loop by GOTO has its end elsewhere or needs none.
         let jumps_at_end = is_last && survey.jumps.iter().any(|j| last.contains(&j.range.start));
         if !jumps_at_end {
             let fix = if is_last { end(cx, last) } else { None };
@@ -111,7 +111,7 @@ fn finding(cx: &FileCx<'_>, section: &Section<'_>, last: Option<Range<u32>>) -> 
     Finding::new(&META, place, format!("program{name} has no end"))
         .label(if is_at_block { "the last block" } else { "no `M30`, `M2` or `M99` before the next program" })
         .note("at the end of the text the control stops with an alarm or with everything still on  [general knowledge]")
-        .help("end the program with `M30`, a subprogram with `M99`; see that the file is complete")
+        .help("end the program with `M30`, a subprogram with `M99`; check that the file is complete")
 }
 
 /// An end of the program on the line below the last block.
@@ -120,7 +120,7 @@ fn end(cx: &FileCx<'_>, last: &Range<u32>) -> Option<Fix> {
         .control()
         .codes()
         .filter(|code| code.effect() == Effect::ProgramEnd && code.entry().ends == Some(Ends::Program));
-    // `M30` where it does no more than that: it comes back to the head.
+    // `M30` if it only ends the program and returns to its head.
     let codes: Vec<CodeNumber> = ends.map(gcheck_controls::Code::number).collect();
     let code = codes.iter().find(|code| **code == CodeNumber::m(30)).or(codes.first())?;
     let (base, text) = cx.text.around(last.end);
@@ -138,13 +138,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn the_fix_ends_the_program_below_its_last_block() {
         let mended = |control: &str, program: &str| {
-            let found = findings(&Selection::only(&RULE), control, program, &World::default());
+            let found = findings(&only(&RULE), control, program, &World::default());
             found.iter().map(|finding| fixed(program, finding)).collect::<String>()
         };
         assert_eq!(mended("haas-lathe", "%\r\nO1\r\nG0 X1.\r\n%\r\n"), "%\r\nO1\r\nG0 X1.\r\nM30\r\n%\r\n");

@@ -5,14 +5,15 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Effect, Ends};
 use gcheck_program::{CallKind, OKeyword, OLabel};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::{keeps_programs_by_number, sections};
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
     /// The file holds a main program and a subprogram that no call in the file names.
     ///
     /// ## Why it matters
-    /// A call may have been lost, or its number changed. What nothing calls can go.
+    /// A call may have been lost, or its number changed. A subprogram that nothing calls can be removed.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -33,7 +34,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ## Not reported
-    /// A file of subprograms only, and one whose calls are computed.
+    /// A file with subprograms only, and one whose calls are computed.
     /// ```nc,quiet,fanuc-mill
     /// O0002
     /// M99
@@ -58,7 +59,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let survey = cx.survey;
-    // Without any call the programs of a file are just kept together.
+    // Without any call the programs are only stored in one file.
     if survey.calls.is_empty() || survey.has_mistakes {
         return;
     }
@@ -67,7 +68,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if survey.calls.iter().any(|call| is_computed(&call.target)) {
         return;
     }
-    if cx.keeps_programs_by_number() {
+    if keeps_programs_by_number(cx) {
         numbered(cx, report);
     }
     // The profile of a turning cycle is a subroutine.
@@ -94,14 +95,14 @@ fn numbered(cx: &FileCx<'_>, report: &mut Report<'_>) {
             CallKind::Program(number) => Some(number),
             _ => None,
         })
-        // Repeats may be packed in front of the number.
+        // The number of repeats may come before the program number.
         .flat_map(|number| [number, number % 10_000])
         .collect();
     let ends_in = |range: &std::ops::Range<u32>, ends: Ends| {
         survey.ends.iter().any(|end| end.ends == ends && range.contains(&end.range.start))
     };
-    let sections = cx.sections();
-    // The calls that matter are those of a main program that is here.
+    let sections = sections(cx);
+    // Only calls of a main program in this file matter.
     if !sections.first().is_some_and(|main| ends_in(&main.range, Ends::Program)) {
         return;
     }
@@ -116,7 +117,7 @@ fn numbered(cx: &FileCx<'_>, report: &mut Report<'_>) {
             report.add(
                 Finding::new(&META, number.range.clone(), format!("nothing in this file calls `{written}`"))
                     .label("never called")
-                    .help("add the call that is missing, or take the subprogram out"),
+                    .help("add the missing call, or remove the subprogram"),
             );
         }
     }
@@ -129,11 +130,11 @@ fn o_words(cx: &FileCx<'_>, report: &mut Report<'_>) {
             || matches!(label, OLabel::Number(n) if survey.calls.iter().any(|c| c.target == CallKind::Program(*n)))
     };
     let mut subs = survey.o_words.iter().filter(|o| o.keyword == OKeyword::Sub);
-    // A library may have a main part to try it out; one that calls its own subroutines is a program.
+    // A library may have a main program for tests; one that calls its own subroutines is a program.
     if !subs.any(|sub| calls(&sub.label)) || !survey.ends.iter().any(|end| end.ends == Ends::Program) {
         return;
     }
-    // Where a file is one subroutine, its own name calls it.
+    // If a file is one subroutine, its own name calls it.
     let own = survey.first_block.as_ref().map(|first| first.start);
     for sub in survey
         .o_words
@@ -149,7 +150,7 @@ fn o_words(cx: &FileCx<'_>, report: &mut Report<'_>) {
             report.add(
                 Finding::new(&META, sub.range.clone(), format!("nothing in this file calls `{name}`"))
                     .label("never called")
-                    .help("add the call that is missing, or take the subroutine out"),
+                    .help("add the missing call, or remove the subroutine"),
             );
         }
     }

@@ -2,7 +2,8 @@
 
 use gcheck_program::ProgramNumber;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::keeps_programs_by_number;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
@@ -30,7 +31,7 @@ declare_rule! {
     /// O0002
     /// M99
     /// ```
-    /// Where `O` labels loops and subroutines it repeats by nature.
+    /// If `O` labels loops and subroutines, it repeats by nature.
     /// ```nc,quiet,linuxcnc
     /// O100
     /// O100
@@ -46,7 +47,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if cx.survey.programs.len() < 2 || !cx.keeps_programs_by_number() {
+    if cx.survey.programs.len() < 2 || !keeps_programs_by_number(cx) {
         return;
     }
     let mut programs: Vec<&ProgramNumber> =

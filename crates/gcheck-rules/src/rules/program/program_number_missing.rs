@@ -5,15 +5,16 @@ use std::ops::Range;
 use gcheck_controls::Ends;
 use gcheck_program::EndMark;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::keeps_programs_by_number;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// The file is a whole program, but no `O` and number names it.
+    /// The file is a whole program, but has no `O` number.
     ///
     /// ## Why it matters
-    /// Controls that keep programs by number either refuse such a file when it is loaded or give it a number of their own,
-    /// which can overwrite another program.
+    /// A control that keeps programs by number either refuses such a file when it is loaded or gives it a number
+    /// itself, which can overwrite another program.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -43,12 +44,12 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    // Subprograms with numbers may stand behind a main program without.
+    // Numbered subprograms may follow a main program without a number.
     let numbered = cx.survey.programs.first().map_or(u32::MAX, |number| number.range.start);
     let ends = |end: &EndMark| end.ends == Ends::Program && end.range.end <= numbered;
     let is_whole = cx.survey.tape_marks.len() == 2 && cx.survey.ends.iter().any(ends);
     if is_whole
-        && cx.keeps_programs_by_number()
+        && keeps_programs_by_number(cx)
         && let Some(first) = &cx.survey.first_block
     {
         report.add(finding(first.clone()));
@@ -59,7 +60,7 @@ fn finding(first: Range<u32>) -> Finding {
     Finding::new(&META, first, "program has no number")
         .label("the program begins here without `O` and a number")
         .note("a control that keeps programs by number refuses the file or numbers it itself when it is loaded  [general knowledge]")
-        .help("put the program's number in a block of its own in front, for example `O1234`")
+        .help("put the program's number in a block of its own at the head, for example `O1234`")
 }
 
 #[cfg(test)]

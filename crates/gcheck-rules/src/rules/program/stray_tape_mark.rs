@@ -1,16 +1,16 @@
-//! A tape mark that is not alone, or text behind the closing one.
+//! A tape mark that cuts off code.
 
 use std::ops::Range;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A `%` stands inside the program, shares its line with code, or has code behind it.
+    /// A `%` is inside the program, shares its line with code, or has code after it.
     ///
     /// ## Why it matters
-    /// `%` ends the tape wherever the control meets it: what follows is not read. A program pasted behind another one is
-    /// silently left out.
+    /// `%` ends the tape wherever the control finds it: it does not read what follows. A program that was pasted after
+    /// another one is silently lost.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -31,7 +31,7 @@ declare_rule! {
     /// %
     /// ```
     /// ## Not reported
-    /// A comment beside the mark, and blank lines or notes behind the closing one.
+    /// A comment beside the mark, and blank lines or notes after the closing one.
     /// ```nc,quiet,haas-mill
     /// % (PART 12)
     /// O00001
@@ -43,7 +43,7 @@ declare_rule! {
         summary: "tape mark cuts off code",
         severity: Info,
         tier: Program,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -51,7 +51,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for mark in &cx.survey.tape_marks {
-        if !crate::sections::is_tape_mark_line(cx, mark) {
+        if !crate::facts::sections::is_tape_mark_line(cx, mark) {
             let at = cx.slice(mark.clone()).find('%').map_or(mark.start, |at| mark.start + at as u32);
             let before = cx.slice(mark.start..at);
             let blanks = before.len() - before.trim_end_matches([' ', '\t']).len();
@@ -68,7 +68,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The first line of a text that begins as a block does, leaving out what may be a note.
+/// The first line of a text that begins like a block; lines that may be notes do not count.
 fn first_code(text: &str) -> Option<Range<u32>> {
     for line in text.split(['\n', '\r']) {
         let block = line.trim();
@@ -87,14 +87,14 @@ fn first_code(text: &str) -> Option<Range<u32>> {
 }
 
 fn inside(at: Range<u32>) -> Finding {
-    Finding::new(&META, at, "tape mark `%` stands inside a block")
-        .label("only a line of its own makes it a tape mark")
-        .help("remove it, or put it in a line of its own at the end of the program")
+    Finding::new(&META, at, "tape mark `%` inside a block")
+        .label("it is a tape mark only on a line of its own")
+        .help("remove it, or put it on a line of its own at the end of the program")
 }
 
 fn behind(closing: Range<u32>, code: Range<u32>) -> Finding {
-    Finding::new(&META, code, "code behind the closing tape mark `%` is not read")
-        .label("the first block that is left out")
+    Finding::new(&META, code, "code after the closing tape mark `%` is not read")
+        .label("the first block that is not read")
         .also(closing, "the tape ends here")
         .help("remove the tape mark, or what follows it")
 }
@@ -104,8 +104,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_second_program_behind_the_tape_is_shown_by_its_first_block() {
@@ -115,7 +114,7 @@ mod tests {
             "%\nO1\nM30\n%\n\nO2\nM99\n%\n",
             &expect![[r#"
             6 | O2
-              | ^^ info[stray-tape-mark] code behind the closing tape mark `%` is not read
+              | ^^ info[stray-tape-mark] code after the closing tape mark `%` is not read
         "#]],
         );
     }
@@ -128,17 +127,17 @@ mod tests {
             "%\nG0 X1 %\nM2\n%\n",
             &expect![[r#"
             2 | G0 X1 %
-              |       ^ info[stray-tape-mark] tape mark `%` stands inside a block
+              |       ^ info[stray-tape-mark] tape mark `%` inside a block
         "#]],
         );
     }
 
     #[test]
     fn the_closing_mark_is_shown() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "%\nO1\nM30\n%\nO2\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "%\nO1\nM30\n%\nO2\n", &World::default());
         expect![[r#"
-            code behind the closing tape mark `%` is not read
-              here: the first block that is left out
+            code after the closing tape mark `%` is not read
+              here: the first block that is not read
               there: the tape ends here
               help: remove the tape mark, or what follows it
         "#]]

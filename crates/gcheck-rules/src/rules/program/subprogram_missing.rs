@@ -5,14 +5,15 @@ use std::collections::BTreeSet;
 use gcheck_controls::{Code, WordKind};
 use gcheck_program::{Call, CallKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::target_word;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A call names a program that is neither in the file nor beside it. Told at the first call.
+    /// A call names a program that is neither in the file nor beside it. Reported at the first call.
     ///
     /// ## Why it matters
-    /// If the control's memory does not have the program either, it stops with an alarm at the call.
+    /// If the program is not in the control's memory either, the control stops with an alarm at the call.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -23,7 +24,7 @@ declare_rule! {
     /// M99
     /// ```
     /// ## Not reported
-    /// Repeats in front of the number, computed numbers, and programs from 8000 up, which machine builders and makers of
+    /// Repeats before the number, computed numbers, and programs from 8000 up, which machine builders and makers of
     /// probes put into the control.
     /// ```nc,quiet,fanuc-mill
     /// O0001
@@ -69,7 +70,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         if told.contains(&number) {
             continue;
         }
-        let Some((code, word)) = cx.target_word(call.code, WordKind::Program, cx.slice(call.range.clone()))
+        let Some((code, word)) = target_word(cx, call.code, WordKind::Program, cx.slice(call.range.clone()))
         else {
             continue;
         };
@@ -80,8 +81,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         let known = |n: u32| {
             is_reserved(n)
                 || here.contains(&n)
-                || cx.scene.programs.has_number(n)
-                || cx.scene.programs.has_name(&n.to_string())
+                || cx.environment.programs.has_number(n)
+                || cx.environment.programs.has_name(&n.to_string())
         };
         if !known(number) && !packed.is_some_and(known) {
             told.insert(number);
@@ -91,9 +92,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 }
 
 fn finding(call: &Call, code: Code<'_>, number: u32) -> Finding {
-    Finding::new(&META, call.range.clone(), format!("called program `O{number}` is not here"))
+    Finding::new(&META, call.range.clone(), format!("called program `O{number}` is missing"))
         .label(format!("`{}` calls `O{number}`", code.entry().code))
-        .note("looked for in this file and in the folders that gcheck was given")
+        .note("gcheck searched this file and the folders that it was given")
         .assuming(format!("`O{number}` may be in the memory of the control"))
         .help(format!("add the program `O{number}`, name its folder under `[search]`, or correct the number"))
 }
@@ -113,7 +114,7 @@ mod tests {
             "O1\nM98 P5000 L2\nM30\n",
             &expect![[r#"
                 2 | M98 P5000 L2
-                  |     ^^^^^ warning[subprogram-missing] called program `O5000` is not here
+                  |     ^^^^^ warning[subprogram-missing] called program `O5000` is missing
             "#]],
         );
     }
@@ -126,7 +127,7 @@ mod tests {
             "O1\nM98 P7\nM98 P7\nM98 P90001\nM30\n",
             &expect![[r#"
                 2 | M98 P7
-                  |     ^^ warning[subprogram-missing] called program `O7` is not here
+                  |     ^^ warning[subprogram-missing] called program `O7` is missing
             "#]],
         );
     }
@@ -139,9 +140,9 @@ mod tests {
             "haas-mill",
             "O1\nM98 P50007\nM30\nO7\nM99\n",
             &expect![[r#"
-            2 | M98 P50007
-              |     ^^^^^^ warning[subprogram-missing] called program `O50007` is not here
-        "#]],
+                2 | M98 P50007
+                  |     ^^^^^^ warning[subprogram-missing] called program `O50007` is missing
+            "#]],
         );
     }
 
@@ -164,7 +165,7 @@ mod tests {
             &world,
             &expect![[r#"
                 2 | M98 P78
-                  |     ^^^ warning[subprogram-missing] called program `O78` is not here
+                  |     ^^^ warning[subprogram-missing] called program `O78` is missing
             "#]],
         );
     }

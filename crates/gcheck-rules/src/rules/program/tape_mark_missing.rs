@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 
-use crate::mending::line_end;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Fix, Report, Run};
+use gcheck_lint::line_end;
 
 declare_rule! {
-    /// The file has one `%` line where a pair is usual.
+    /// The file has one `%` line instead of a pair.
     ///
     /// ## Why it matters
-    /// A missing closing mark often means that the end of the file was cut off. Without an opening mark a control that loads
-    /// over a line skips the program as text in front of the tape.
+    /// A missing closing mark often means that the end of the file was cut off. Without an opening mark a control that
+    /// loads over a serial line skips the program as text before the tape.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -34,7 +34,7 @@ declare_rule! {
         summary: "one of the two tape marks is missing",
         severity: Info,
         tier: Program,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -42,7 +42,7 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
-    if crate::sections::is_tape_mark_line(cx, mark) {
+    if crate::facts::sections::is_tape_mark_line(cx, mark) {
         let opens = mark.start < first.start;
         report.add(finding(mark.clone(), opens).fix(pair(cx, opens)));
     }
@@ -52,7 +52,7 @@ fn finding(mark: Range<u32>, opens: bool) -> Finding {
     let (missing, place) = if opens { ("closing", "end") } else { ("opening", "beginning") };
     let label = if opens { "opens the tape" } else { "closes the tape" };
     Finding::new(&META, mark, format!("{missing} tape mark `%` is missing")).label(label).help(format!(
-        "put a line with `%` at the {place} of the file; see that nothing else is missing there"
+        "put a line with `%` at the {place} of the file; check that nothing else is missing there"
     ))
 }
 
@@ -74,8 +74,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn either_mark_may_be_missing() {
@@ -101,11 +100,11 @@ mod tests {
 
     #[test]
     fn the_help_names_the_end_that_lacks_it() {
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", "%\nO1\nM30\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", "%\nO1\nM30\n", &World::default());
         expect![[r#"
             closing tape mark `%` is missing
               here: opens the tape
-              help: put a line with `%` at the end of the file; see that nothing else is missing there
+              help: put a line with `%` at the end of the file; check that nothing else is missing there
               fix (unsafe): put `%` at the end
         "#]]
         .assert_eq(&words(&found[0]));

@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use gcheck_controls::Effect;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A comment at the head of the program says that its units are millimetres or inches, and the code chooses the other.
+    /// A comment at the head of the program names millimetres or inches, and the code chooses the other unit.
     ///
     /// ## Why it matters
-    /// One of the two was changed and the other forgotten. Every distance is 25.4 times too long or too short for somebody.
+    /// One of the two was changed and the other forgotten. If the code is wrong, every distance is 25.4 times too long
+    /// or too short.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -48,7 +49,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         let mut codes = cx.survey.codes.iter();
         codes.find(|(number, _)| control.code(*number).is_some_and(|code| code.effect() == wanted))
     };
-    // A program that uses both says nothing of what the comment means.
+    // A program that uses both units does not contradict the comment.
     let (code, is_inch) = match (chosen(Effect::Inch), chosen(Effect::Millimetre)) {
         (Some(code), None) => (code, true),
         (None, Some(code)) => (code, false),
@@ -67,7 +68,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The units that a comment says the program has: it must speak of units.
+/// The units that a comment names for the program: it must be about units.
 fn units_of(comment: &str) -> Option<(bool, Range<usize>)> {
     let upper = comment.to_ascii_uppercase();
     let units = upper.find("UNIT")?;
@@ -89,10 +90,10 @@ fn units_of(comment: &str) -> Option<(bool, Range<usize>)> {
 fn finding(cx: &FileCx<'_>, comment: Range<u32>, code: Range<u32>, is_inch: bool) -> Finding {
     let (says, does) = if is_inch { ("millimetres", "inches") } else { ("inches", "millimetres") };
     let name = cx.slice(code.clone());
-    Finding::new(&META, comment, format!("the comment says {says}, the code chooses {does} (`{name}`)"))
+    Finding::new(&META, comment, format!("the comment names {says}, the code chooses {does} (`{name}`)"))
         .label(format!("says that the program is in {says}"))
         .also(code, format!("chooses {does}"))
-        .help("find out which of the two is meant, and correct the other")
+        .help("find out which one is right, and correct the other")
 }
 
 #[cfg(test)]
@@ -110,7 +111,7 @@ mod tests {
             "; units are inches\nG21\nG0 X1\nM2\n",
             &expect![[r#"
                 1 | ; units are inches
-                  |   ^^^^^^^^^^^^^^^^ warning[units-comment-contradicts] the comment says inches, the code chooses millimetres (`G21`)
+                  |   ^^^^^^^^^^^^^^^^ warning[units-comment-contradicts] the comment names inches, the code chooses millimetres (`G21`)
             "#]],
         );
     }

@@ -1,19 +1,18 @@
-//! A program that seems to be written for another control.
+//! A program that looks written for another control.
 
 use std::ops::Range;
 
 use gcheck_controls::{CodeNumber, Control, Score, scores};
 
-use crate::evidence::evidence_of;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// The program uses codes or forms that the chosen control does not have and another one has.
+    /// The program uses codes or forms that the chosen control does not have and another control has.
     ///
     /// ## Why it matters
-    /// Checked for the wrong control a program shows many mistakes that are none, and hides those that are. Posted for the
-    /// wrong machine it alarms, or moves in a way that nobody wanted.
+    /// A check for the wrong control reports false mistakes and misses real ones. On the wrong machine the program
+    /// stops with an alarm, or moves in an unintended way.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -23,7 +22,7 @@ declare_rule! {
     /// o<square> endsub
     /// ```
     /// ## Not reported
-    /// A single unknown code does not make another control.
+    /// A single unknown code is not enough.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// G187 P3
@@ -36,7 +35,7 @@ declare_rule! {
     /// o<square> endsub
     /// ```
     rule "wrong-control-suspicion" in "program" {
-        summary: "program seems to be written for another control",
+        summary: "program looks written for another control",
         severity: Warning,
         tier: Program,
         since: "0.1.0",
@@ -44,15 +43,15 @@ declare_rule! {
     }
 }
 
-/// Points by which another control must be ahead: more than one strong hint.
+/// By so many points another control must lead: more than one strong hint.
 const LEAD: i32 = 8;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    // A control that was guessed is the best guess already.
-    if cx.scene.control_is_guessed || cx.survey.first_block.is_none() {
+    // A guessed control is already the best guess.
+    if cx.environment.control_is_guessed || cx.survey.first_block.is_none() {
         return;
     }
-    let scores = scores(&evidence_of(cx.text));
+    let scores = scores(cx.text.evidence());
     let own = scores.iter().find(|s| s.guess.control == cx.control().name());
     let own_points = own.map_or(0, |s| s.points);
     let [best, ..] = scores.as_slice() else { return };
@@ -84,10 +83,10 @@ fn finding(cx: &FileCx<'_>, best: &Score, other: &Control, unknown: &[&(CodeNumb
         format!("program looks written for `{name}`, not for `{}`", cx.control().name()),
     )
     .label(format!("checked for: {}", cx.control().title()))
-    .note(format!("`{}` speaks for: {}", best.guess.because, other.title()))
+    .note(format!("for `{}`: {}", best.guess.because, other.title()))
     .help(format!("choose the control with `--control {name}`, or `control = \"{name}\"` in `gcheck.toml`"));
     for (number, range) in unknown.iter().take(3) {
-        finding = finding.also(range.clone(), format!("`{number}` is a code of the other control only"));
+        finding = finding.also(range.clone(), format!("only the other control has `{number}`"));
     }
     finding
 }
@@ -97,8 +96,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     const LATHE: &str = "O1 (ST-20)\nG28 U0. W0.\nT0101\nG241 X1. Z-1. R0.1 F0.01\nG105 J1.\nM30\n";
 
@@ -124,13 +122,13 @@ mod tests {
 
     #[test]
     fn the_reason_is_said() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", LATHE, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", LATHE, &World::default());
         expect![[r#"
             program looks written for `haas-lathe`, not for `haas-mill`
               here: checked for: Haas mill (classic control and NGC)
-              there: `G241` is a code of the other control only
-              there: `G105` is a code of the other control only
-              note: `G105` speaks for: Haas lathe (ST, DS, SL, TL; NGC and classic)
+              there: only the other control has `G241`
+              there: only the other control has `G105`
+              note: for `G105`: Haas lathe (ST, DS, SL, TL; NGC and classic)
               help: choose the control with `--control haas-lathe`, or `control = "haas-lathe"` in `gcheck.toml`
         "#]].assert_eq(&found.first().map(words).unwrap_or_default());
     }

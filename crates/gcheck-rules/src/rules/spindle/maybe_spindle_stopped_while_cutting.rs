@@ -1,17 +1,17 @@
-//! A cut while the spindle stands on some path.
+//! A cut that some paths reach with the spindle stopped.
 
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Truth};
 
-use super::spindle_stopped_while_cutting::{is_cut, starts};
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// On some path of the program the spindle stands where a block cuts; on others it turns.
+    /// On some paths of the program the spindle is stopped when a block cuts; on others it turns.
     ///
     /// ## Why it matters
-    /// The program runs well until the day the other path is taken. Then the tool is pushed through the material.
+    /// The program runs well until the other path is taken. Then the tool is pushed through the material.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -30,7 +30,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "maybe-spindle-stopped-while-cutting" in "spindle" {
-        summary: "cut where the spindle may stand",
+        summary: "cut where the spindle may be stopped",
         severity: Info,
         tier: Path,
         since: "0.1.0",
@@ -54,11 +54,11 @@ impl PathRule for MaybeSpindleStopped {
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let state = cx.state();
         let may_stand = state.spindle().is_none() && state.live_tool() == Truth::False;
-        // What a program leaves that is not at hand is not known, and no path of this one.
-        let is_told_of = !cx.is_behind_unknown_program()
+        // The state after a program that gcheck does not have is unknown, and is not a path of this one.
+        let is_told_of = !cx.is_after_unknown_program()
             && !cx.trace().decisions().is_empty()
             && Abstract::bounds(state.speed()).is_some()
-            && cx.file_uses(starts);
+            && cx.file_uses(starts_spindle);
         if !may_stand || !is_told_of || !is_cut(cx, event) || cx.is_called_only() {
             return;
         }
@@ -68,9 +68,9 @@ impl PathRule for MaybeSpindleStopped {
         }
         self.told.push(switched_by);
         let finding = cx
-            .finding(&META, cx.range(), "cut where the spindle may stand (`M5`)")
-            .label("on some path nothing turns here")
-            .help("start the spindle where the paths have met again");
+            .finding(&META, cx.range(), "cut where the spindle may be stopped (`M5`)")
+            .label("on some paths the spindle does not turn here")
+            .help("start the spindle after the paths have joined");
         report.add(cx.with_path(finding));
     }
 }
@@ -90,7 +90,7 @@ mod tests {
             "S1000 M3\nG1 X1. F5.\nIF [#500 EQ 1] GOTO 5\nM5\nN5 G1 X2.\nX3.\nM30\n",
             &expect![[r#"
                 5 | N5 G1 X2.
-                  | ^^^^^^^^^ info[maybe-spindle-stopped-while-cutting] cut where the spindle may stand (`M5`)
+                  | ^^^^^^^^^ info[maybe-spindle-stopped-while-cutting] cut where the spindle may be stopped (`M5`)
             "#]],
         );
     }

@@ -1,18 +1,18 @@
-//! A spindle that turns with no speed given.
+//! A spindle that is started without a speed.
 
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Spindle};
 
-use super::spindle_stopped_while_cutting::is_cut;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts with the spindle started (`M3`, `M4`) and no speed (`S`) given on the way here.
+    /// A block cuts with the spindle started (`M3`, `M4`), and no earlier block on this path gives a speed (`S`).
     ///
     /// ## Why it matters
-    /// The spindle turns with the speed of the last program, stands, or the control stops with an alarm.
+    /// The spindle turns at the speed of the last program, does not turn, or the control stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -73,7 +73,7 @@ impl PathRule for SpeedMissing {
         };
         let finding = cx
             .finding(&META, cx.range(), message)
-            .label("cuts with whatever speed is left over")
+            .label("cuts at the speed that an earlier program left")
             .help(format!("give `S` with `{code}`"));
         // A machine whose speed is set by hand.
         let finding = if has_any { finding } else { finding.at_most(Severity::Info) };
@@ -81,7 +81,7 @@ impl PathRule for SpeedMissing {
         report.add(if is_zero {
             cx.resting_on(finding, Fact::Speed, "`S0`")
         } else {
-            finding.assuming("no speed is left from what ran before")
+            finding.assuming("no earlier program left a speed")
         });
     }
 }

@@ -1,22 +1,22 @@
-//! A cut while the spindle stands.
+//! A cut while the spindle is stopped.
 
-use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{
-    Abstract, At, Axis, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, TravelKind, Truth,
-};
+use gcheck_controls::Effect;
+use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, Truth};
 
-use super::super::motion::feed_of_another_mode::goes_by_feed;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::{is_cut, starts_spindle};
+use crate::facts::feed::goes_by_feed;
+use crate::facts::probing::is_near;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts while the spindle stands: it was never started, or `M5` or a tool change stopped it.
+    /// A block cuts while the spindle is stopped: it was never started, or `M5` or a tool change stopped it.
     ///
     /// ## Why it matters
-    /// The tool is pushed through the material and breaks. Probing, drag knives, engraving by scratching and machines whose
-    /// spindle is switched by hand are the exceptions. Where the feed is counted by turns of the spindle (`G95`; `G99` on
-    /// lathes), the axes do not even move: the program waits for turns that do not come.
+    /// The tool is pushed through the material and breaks. Exceptions are probing, drag knives, scratch engraving and
+    /// machines whose spindle is switched by hand. Under feed per turn (`G95`; `G99` on lathes) the axes do not even
+    /// move: the program waits forever.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -26,7 +26,7 @@ declare_rule! {
     /// G1 X3.
     /// M30
     /// ```
-    /// By turns the spindle has to turn for every feed move, the way out as well.
+    /// Under feed per turn the spindle has to turn for every feed move, the retract as well.
     /// ```nc,reported,generic-mill
     /// G21 G90 G95 G0 Z-5. S1000 M3
     /// G1 X20. F0.2
@@ -42,7 +42,7 @@ declare_rule! {
     /// G0 Z5.
     /// M30
     /// ```
-    /// Feed a minute needs no turns.
+    /// Feed per minute does not need the spindle.
     /// ```nc,quiet,generic-mill
     /// G21 G90 G95 G0 Z-5. S1000 M3
     /// G1 X20. F0.2
@@ -50,7 +50,7 @@ declare_rule! {
     /// G94 G1 Z50. F500.
     /// M30
     /// ```
-    /// A feed move straight up is a way out, not a cut.
+    /// A feed move straight up is a retract, not a cut.
     /// ```nc,quiet,fanuc-mill
     /// G21 G90 G0 Z-5. S1000 M3
     /// G1 X20. F100.
@@ -59,7 +59,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "spindle-stopped-while-cutting" in "spindle" {
-        summary: "cut while the spindle stands",
+        summary: "cut while the spindle is stopped",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
@@ -88,7 +88,7 @@ impl PathRule for SpindleStoppedWhileCutting {
     fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
             Event::OrientSpindle { .. } => self.is_oriented = true,
-            // A new bar is taken at an angle, and then the spindle is to turn again.
+            // A new bar is taken at an angle, and after that the spindle has to turn again.
             Event::Spindle(_) | Event::BarPush(_) => self.is_oriented = false,
             _ => {}
         }
@@ -96,7 +96,7 @@ impl PathRule for SpindleStoppedWhileCutting {
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let stands = cx.state().spindle() == Some(Spindle::Stopped) && cx.state().live_tool() == Truth::False;
-        // Who chose a feed by turns wants them for every move.
+        // A program that chose feed per turn needs the spindle for every move.
         let by_turns = cx.state().feed_mode(cx.model) == Some(FeedMode::PerRevolution);
         let needs_turns = by_turns
             && cx.trace().set_by(Fact::Mode(Role::FeedMode)).is_some()
@@ -114,21 +114,21 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
-        let is_ever_started = cx.file_uses(starts);
-        // Neither start nor speed anywhere: a spindle switched by hand, or none at all: a laser, a knife, a pen.
+        let is_ever_started = cx.file_uses(starts_spindle);
+        // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen.
         if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() {
             return;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
             return;
         }
-        if cx.is_near(probes) {
+        if is_near(cx, probes) {
             return;
         }
         self.told.push(stopped_by);
-        // `T1 M6 M3` in one block: which comes first is the builder's affair.
+        // `T1 M6 M3` in one block: the machine builder decides which comes first.
         let is_started_with_change =
-            stopped_by.and_then(|at| cx.find_word(at, |word| starts(cx.model.effect(word.code))));
+            stopped_by.and_then(|at| cx.find_word(at, |word| starts_spindle(cx.model.effect(word.code))));
         if is_started_with_change.is_some() {
             return;
         }
@@ -136,21 +136,21 @@ impl PathRule for SpindleStoppedWhileCutting {
             (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
             (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
             (Some(at), true) => {
-                format!("feed by turns of a spindle that was stopped (`{}`)", stop_code(cx, at))
+                format!("feed per turn of a spindle that was stopped (`{}`)", stop_code(cx, at))
             }
-            (None, true) => "feed by turns of a spindle that was not started (no `M3`)".to_owned(),
+            (None, true) => "feed per turn of a spindle that was not started (no `M3`)".to_owned(),
         };
         let mut finding = cx
             .finding(&META, cx.range(), message)
             .label(match (needs_turns, is_ever_started) {
-                (true, _) => "the axes wait for turns that do not come",
-                (false, true) => "nothing turns here",
+                (true, _) => "the axes wait for the spindle, which does not turn",
+                (false, true) => "the spindle does not turn here",
                 (false, false) => "the program never starts the spindle",
             })
             .help(
                 "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
             );
-        // `S` may be a laser's power where no tool is changed.
+        // `S` may be a laser's power if no tool is changed.
         let is_mill = is_ever_started || cx.file_uses(|effect| effect == Effect::ToolChange);
         if !is_mill || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
@@ -166,17 +166,19 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let finding = cx
-            .finding(&META, cx.range(), "feed by the spindle's turns while it stands (`M5`)")
-            .label("waits for turns that do not come")
+            .finding(&META, cx.range(), "feed per turn while the spindle is stopped (`M5`)")
+            .label("waits for the spindle, which does not turn")
             .note("this control refuses the block")
-            .help("start the spindle with `S` and `M3` or `M4` before it");
+            .help("start the spindle with `S` and `M3` or `M4` before this block");
         report.add(since(cx, finding, cx.trace().set_by(Fact::Spindle)));
     }
 }
 
-/// Adds where the spindle was stopped.
+/// Adds the place where the spindle was stopped.
 fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
-    let Some(at) = stopped_by else { return finding.assuming("the spindle stands when the program starts") };
+    let Some(at) = stopped_by else {
+        return finding.assuming("the spindle is stopped when the program starts");
+    };
     let range = cx.find_word(at, |word| stops(cx.model.effect(word.code))).or_else(|| cx.range_of(at));
     match range {
         Some(range) => finding.also(range, "stopped here"),
@@ -196,36 +198,6 @@ fn stop_code(cx: &PathCx<'_>, at: At) -> String {
         words.find(|word| stops(cx.model.effect(word.code))).map(|word| word.code)
     });
     code.map_or_else(|| "M5".to_owned(), |code| cx.name_of(code))
-}
-
-/// A move with the tool in the work, as far as a program shows it.
-pub(crate) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
-    if cx.has_effect(|effect| matches!(effect, Effect::MachineCoordinates | Effect::Skip)) {
-        return false;
-    }
-    match event {
-        Event::Travel(travel) => {
-            let is_along_z = !cx.origin().letters.intersects(LetterSet::of("XYABCUV"));
-            // Up, or from a height that nobody knows.
-            let goes_down = travel.to.raw(Axis::Z) < travel.from.raw(Axis::Z);
-            let is_up = is_along_z && !goes_down;
-            travel.kind == TravelKind::Feed && !is_up
-        }
-        Event::Arc(_) | Event::Curve(_) => true,
-        _ => false,
-    }
-}
-
-/// Does the code start something that cuts?
-pub(super) fn starts(effect: Effect) -> bool {
-    matches!(
-        effect,
-        Effect::SpindleClockwise
-            | Effect::SpindleCounterClockwise
-            | Effect::SpindleClockwiseWithCoolant
-            | Effect::SpindleCounterClockwiseWithCoolant
-            | Effect::LiveToolOn
-    )
 }
 
 /// Does the code touch the work with a probe?
@@ -249,8 +221,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn moves_around_a_touch_cut_nothing() {
@@ -352,7 +323,7 @@ mod tests {
             "G21 G0 X0 Z5\nG33 Z-10 K1\nM2\n",
             &expect![[r#"
             2 | G33 Z-10 K1
-              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
+              | ^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped (`M5`)
         "#]],
         );
     }
@@ -365,9 +336,9 @@ mod tests {
             "G21 G90 G95 G0 X0. Z5.\nG1 Z-1. F0.1\nS900 M3\nG1 X5.\nM5\nG1 Z5.\nG94 G1 Z9. F99.\nM30\n",
             &expect![[r#"
                 2 | G1 Z-1. F0.1
-                  | ^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was not started (no `M3`)
+                  | ^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
                 6 | G1 Z5.
-                  | ^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was stopped (`M5`)
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was stopped (`M5`)
             "#]],
         );
         check_rule(
@@ -376,7 +347,7 @@ mod tests {
             "G21 G95\nG1 X1 F0.1\nM2\n",
             &expect![[r#"
             2 | G1 X1 F0.1
-              | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed by the spindle's turns while it stands (`M5`)
+              | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn while the spindle is stopped (`M5`)
         "#]],
         );
         check_rule(
@@ -385,7 +356,7 @@ mod tests {
             "G21 G95 S900\nG1 X1 F0.1\nM2\n",
             &expect![[r#"
             2 | G1 X1 F0.1
-              | ^^^^^^^^^^ info[spindle-stopped-while-cutting] feed by turns of a spindle that was not started (no `M3`)
+              | ^^^^^^^^^^ info[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
         "#]],
         );
     }
@@ -398,23 +369,19 @@ mod tests {
             "fanuc-lathe",
             "G21 G99 S900 M3\nG1 X5. F0.1\nM5\nG1 Z5.\nM30\n",
             &expect![[r#"
-            4 | G1 Z5.
-              | ^^^^^^ warning[spindle-stopped-while-cutting] feed by turns of a spindle that was stopped (`M5`)
-        "#]],
+                4 | G1 Z5.
+                  | ^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was stopped (`M5`)
+            "#]],
         );
     }
 
     #[test]
     fn what_it_says() {
-        let found = findings(
-            &Selection::only(&RULE),
-            "haas-mill",
-            "S1000 M3\nG1 X1. F5.\nM5\nG1 X2.\nM30\n",
-            &World::default(),
-        );
+        let found =
+            findings(&only(&RULE), "haas-mill", "S1000 M3\nG1 X1. F5.\nM5\nG1 X2.\nM30\n", &World::default());
         expect![[r#"
             cut after the spindle was stopped (`M5`)
-              here: nothing turns here
+              here: the spindle does not turn here
               there: stopped here
               help: start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress
         "#]].assert_eq(&found.iter().map(words).collect::<String>());

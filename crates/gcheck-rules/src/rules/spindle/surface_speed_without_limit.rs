@@ -1,18 +1,18 @@
-//! Constant surface speed that nothing limits.
+//! Constant surface speed without a limit.
 
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Event, Fact, Role, Spindle};
 
-use super::spindle_stopped_while_cutting::is_cut;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A block cuts at constant surface speed (`G96`) and no limit of the spindle speed was given (`G50 S`, `G92 S`, `D`).
+    /// A block cuts at constant surface speed (`G96`) without a limit of the spindle speed (`G50 S`, `G92 S`, `D`).
     ///
     /// ## Why it matters
-    /// Toward the centre the speed rises to the highest the machine has. A chuck that loses its grip throws the part.
+    /// Toward the centre the spindle speed rises to the machine's highest. A chuck that loses its grip throws the part.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -76,15 +76,15 @@ impl PathRule for SurfaceSpeedWithoutLimit {
         let Some(code) = state.mode(Role::SpindleMode).only() else { return };
         self.told = set_by;
         let name = cx.name_of(code);
-        let limiter = cx.cancel_of(Effect::SpeedLimitOrSetPosition);
+        let limiter = cx.name_of_effect(Effect::SpeedLimitOrSetPosition);
         let help = match &limiter {
-            Some(limiter) => format!("give the limit before it: `{limiter} S2000`"),
-            None => format!("give the limit with it: `{name} D2000`"),
+            Some(limiter) => format!("give the limit before this: `{limiter} S2000`"),
+            None => format!("give the limit in the same block: `{name} D2000`"),
         };
         let finding = cx
             .finding(&META, cx.range(), format!("constant surface speed has no limit (`{name}`)"))
-            .label("the spindle may go up to its highest speed")
-            .assuming("no limit is left from what ran before")
+            .label("the spindle may reach its highest speed")
+            .assuming("no earlier program left a limit")
             .help(help);
         report.add(cx.resting_on(finding, Fact::Mode(Role::SpindleMode), &format!("`{name}`")));
     }

@@ -3,15 +3,16 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Fact, Spindle};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
-    /// A tapping cycle begins with the spindle turning the other way than its thread: a right-hand tap under `M4`, a left-hand
-    /// tap under `M3`.
+    /// A tapping cycle begins while the spindle turns in the wrong direction for its thread: a right-hand tap under
+    /// `M4`, a left-hand tap under `M3`.
     ///
     /// ## Why it matters
-    /// A control that looks at it refuses the cycle. One that does not would screw the tap out of the hole while it feeds in.
+    /// A control that checks the direction refuses the cycle. A control that does not would unscrew the tap while it
+    /// feeds in.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -29,7 +30,7 @@ declare_rule! {
     /// G80
     /// M2
     /// ```
-    /// Other controls turn the spindle themselves.
+    /// Other controls set the direction themselves.
     /// ```nc,quiet,haas-mill
     /// G20 G90 G54 G0 X0. Y0.
     /// M4 S100
@@ -54,7 +55,7 @@ impl PathRule for TapInWrongDirection {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        // A control that does not look at the spindle turns it itself.
+        // A control that does not check the direction sets it itself.
         if !cx.model.semantics().cycles.tap_needs_spindle {
             return;
         }
@@ -74,13 +75,13 @@ impl PathRule for TapInWrongDirection {
             )
             .label("the control refuses the cycle")
             .note("a right-hand thread needs the spindle clockwise (`M3`), a left-hand one counter-clockwise (`M4`)")
-            .help("start the spindle the other way, or use the cycle of the other thread")
+            .help("start the spindle in the other direction, or use the cycle for the other thread")
             .at_most(limit(cx.model.semantics().confidence));
         report.add(cx.resting_on(finding, Fact::Spindle, "the direction"));
     }
 }
 
-/// The way in which the spindle must turn.
+/// The direction in which the spindle must turn.
 fn wanted(effect: Effect) -> Option<Spindle> {
     match effect {
         Effect::CycleTap => Some(Spindle::Clockwise),

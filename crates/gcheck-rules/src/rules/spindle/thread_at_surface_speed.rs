@@ -3,16 +3,17 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{At, Fact, Role};
 
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::is_thread;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A thread is cut while the spindle keeps a constant surface speed (`G96`).
     ///
     /// ## Why it matters
-    /// Each pass lies deeper, so the spindle turns at another speed in each. The slide starts its move by the spindle's angle
-    /// and needs a little way to catch up, which differs with the speed: the passes do not fall into one groove.
+    /// Each pass is deeper, so the spindle turns at another speed in each. The slide starts its move at an angle of the
+    /// spindle and needs some distance to catch up, which depends on the speed: the passes do not follow one groove.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
@@ -73,7 +74,7 @@ impl PathRule for ThreadAtSurfaceSpeed {
         let Some(code) = cx.state().mode(Role::SpindleMode).only() else { return };
         self.told = set_by;
         let name = cx.name_of(code);
-        let constant = cx.cancel_of(Effect::ConstantSpeed).unwrap_or_default();
+        let constant = cx.name_of_effect(Effect::ConstantSpeed).unwrap_or_default();
         let finding = cx
             .finding(
                 &META,
@@ -81,15 +82,10 @@ impl PathRule for ThreadAtSurfaceSpeed {
                 format!("the thread is cut at constant surface speed (`{name}`)"),
             )
             .label("the spindle's speed changes from pass to pass")
-            .help(format!("go over to a constant speed (`{constant} S…`) before the thread"))
+            .help(format!("change to a constant spindle speed (`{constant} S…`) before the thread"))
             .at_most(Severity::Warning);
         report.add(cx.resting_on(finding, fact, &format!("`{name}`")));
     }
-}
-
-/// Does the code tie the feed to the spindle's angle?
-pub(crate) fn is_thread(effect: Effect) -> bool {
-    matches!(effect, Effect::Thread | Effect::ThreadingPass | Effect::ThreadCycle | Effect::RigidTap)
 }
 
 #[cfg(test)]

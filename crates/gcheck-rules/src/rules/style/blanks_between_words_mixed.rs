@@ -1,14 +1,15 @@
 //! Words with and without a blank between them.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Words are set apart in some blocks and run together in others: `G1 X1. Y1.` and `G1X1.Y1.`. Told once for the file.
+    /// Some blocks have blanks between words and others do not: `G1 X1. Y1.` and `G1X1.Y1.`. Reported once per file.
     ///
     /// ## Why it matters
-    /// The control reads both. Run together, a block is hard to read at the machine, where mistakes are looked for in a hurry.
+    /// The control reads both. Without blanks, a block is hard to read at the machine, where people search for mistakes
+    /// in a hurry.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -29,14 +30,15 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::Blank).odd() else { return };
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::Blank).odd() else { return };
     let Some(first) = odd.places.first() else { return };
     let (_, before) = word_around(cx.text, &(first.start.saturating_sub(1)..first.start));
     let (behind, word) = word_around(cx.text, &(first.end..first.end + 1));
@@ -52,12 +54,15 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended(&RULE, "haas-mill", "G1 X1. Y1. F1.\nX2.Y2.(A)\n"), "G1 X1. Y1. F1.\nX2. Y2.(A)\n");
-        assert_eq!(mended(&RULE, "haas-mill", "G1X1.Y1.F1.\nX2.  Y2.\n"), "G1X1.Y1.F1.\nX2.Y2.\n");
+        assert_eq!(
+            fixes_of(&RULE, "haas-mill", "G1 X1. Y1. F1.\nX2.Y2.(A)\n"),
+            "G1 X1. Y1. F1.\nX2. Y2.(A)\n"
+        );
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G1X1.Y1.F1.\nX2.  Y2.\n"), "G1X1.Y1.F1.\nX2.Y2.\n");
     }
 
     #[test]

@@ -1,16 +1,16 @@
-//! Whole positions with and without a decimal point, where both mean one.
+//! Whole positions with and without a decimal point.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Whole positions are written in two ways in one file: `X1` and `X1.`, on a control that reads both as one. Told once for
-    /// the file.
+    /// Whole positions are written in two ways in one file: `X1` and `X1.`, on a control that reads both as one.
+    /// Reported once per file.
     ///
     /// ## Why it matters
-    /// On another control the same number without a point is a thousandth of it. A file with points throughout can be moved to
-    /// any machine, one without can be recognised at a glance; a mixture is neither.
+    /// On another control the number without a point is a thousandth of that. A file with points throughout can be
+    /// moved to any machine, and one without points is easy to recognise; a mixture has neither advantage.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -19,7 +19,7 @@ declare_rule! {
     /// M2
     /// ```
     /// ## Not reported
-    /// Where the point changes the value, its absence is no matter of style: see `missing-decimal-point`.
+    /// If the point changes the value, its absence is not a matter of style: see `missing-decimal-point`.
     /// ```nc,quiet,linuxcnc
     /// G1 X1. Y2. F100
     /// X3.5
@@ -36,14 +36,15 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::Point).odd() else { return };
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::Point).odd() else { return };
     let Some(first) = odd.places.first() else { return };
     let (place, word) = word_around(cx.text, first);
     let others = if odd.is_long { "without" } else { "with" };
@@ -57,12 +58,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1. Y2.\nX-3\n"), "G0 X1. Y2.\nX-3.\n");
-        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1 Y2\nX-3.\n"), "G0 X1 Y2\nX-3\n");
+        assert_eq!(fixes_of(&RULE, "linuxcnc", "G0 X1. Y2.\nX-3\n"), "G0 X1. Y2.\nX-3.\n");
+        assert_eq!(fixes_of(&RULE, "linuxcnc", "G0 X1 Y2\nX-3.\n"), "G0 X1 Y2\nX-3\n");
     }
 
     #[test]

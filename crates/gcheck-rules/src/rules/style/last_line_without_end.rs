@@ -1,14 +1,15 @@
-//! The last line has no end.
+//! The last line has no line end.
 
-use crate::mending::line_end;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Fix, Report, Run};
+use gcheck_lint::line_end;
 
 declare_rule! {
     /// The last line of the file has no line end.
     ///
     /// ## Why it matters
-    /// A control that loads over a line takes a block when its end comes: the last one, `M30` or `%`, is not read.
+    /// A control that loads over a serial line takes a block at its line end: it does not read the last block, `M30` or
+    /// `%`.
     ///
     /// ## Reported
     /// `␃` stands for the end of the file.
@@ -22,12 +23,12 @@ declare_rule! {
     /// M30
     /// ```
     rule "last-line-without-end" in "style" {
-        summary: "last line without an end",
+        summary: "last line without a line end",
         severity: Hint,
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -42,7 +43,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         return;
     }
     report.add(
-        Finding::new(&META, base + start as u32..end, "last line has no end")
+        Finding::new(&META, base + start as u32..end, "last line has no line end")
             .label("the end of the block is missing")
             .help("end the line")
             .fix(Fix::safe("end the line", end..end, line_end(text))),
@@ -54,12 +55,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_fix_ends_it_as_other_lines_end() {
-        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\r\nM30"), "G0 X1.\r\nM30\r\n");
-        assert_eq!(mended(&RULE, "haas-mill", "M30"), "M30\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G0 X1.\r\nM30"), "G0 X1.\r\nM30\r\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "M30"), "M30\n");
         check_rule(&RULE, "haas-mill", "M30\n  ", &expect![[""]]);
     }
 }

@@ -1,15 +1,16 @@
 //! Codes written with and without leading zeros in one file.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Codes are written in two ways in one file: `G1` and `G01`, `M3` and `M03`. Told once for `G` and once for `M`.
+    /// Codes are written in two ways in one file: `G1` and `G01`, `M3` and `M03`. Reported once for `G` and once for
+    /// `M`.
     ///
     /// ## Why it matters
-    /// The control reads both. People who search for `G01` do not find `G1`, and a file of two hands is a file that somebody
-    /// changed at the machine.
+    /// The control reads both. A search for `G01` does not find `G1`, and two forms suggest that the file was changed
+    /// at the machine.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -19,7 +20,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// One way throughout.
+    /// One form throughout.
     /// ```nc,quiet,haas-mill
     /// G0 X1. Y1.
     /// G1 Z-0.5 F10.
@@ -31,7 +32,7 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -39,7 +40,8 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for question in [Question::ZeroInG, Question::ZeroInM] {
-        let Some(odd) = cx.writing().habit(question).odd() else { continue };
+        let notation = cx.fact::<Notation>();
+        let Some(odd) = notation.habit(question).odd() else { continue };
         let Some(first) = odd.places.first() else { continue };
         let (place, word) = word_around(cx.text, first);
         let others = if odd.is_long { "without" } else { "with" };
@@ -48,7 +50,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// What stands in the place of the zero, written as the other codes are.
+/// The code in the form of the other codes.
 fn zero(is_odd: bool) -> String {
     if is_odd { "" } else { "0" }.to_owned()
 }
@@ -58,7 +60,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn letters_are_counted_apart() {
@@ -78,11 +80,11 @@ mod tests {
     #[test]
     fn the_fix_makes_one_hand_of_it() {
         assert_eq!(
-            mended(&RULE, "haas-mill", "G00 X1.\nG01 X2. F1.\nG1 X0.\n"),
+            fixes_of(&RULE, "haas-mill", "G00 X1.\nG01 X2. F1.\nG1 X0.\n"),
             "G00 X1.\nG01 X2. F1.\nG01 X0.\n"
         );
         assert_eq!(
-            mended(&RULE, "haas-mill", "G0 X1.\nG1 X2. F1.\nG01 X0.\n"),
+            fixes_of(&RULE, "haas-mill", "G0 X1.\nG1 X2. F1.\nG01 X0.\n"),
             "G0 X1.\nG1 X2. F1.\nG1 X0.\n"
         );
     }

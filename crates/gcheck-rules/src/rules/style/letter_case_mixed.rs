@@ -1,15 +1,16 @@
 //! Capitals and small letters in one file.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Addresses are written in capitals in some places and in small letters in others, on a control that reads both. Told
-    /// once for the file.
+    /// Addresses are written in capitals in some places and in small letters in others, on a control that reads both.
+    /// Reported once per file.
     ///
     /// ## Why it matters
-    /// Not every control reads small letters. A file of one case can be carried over by a look at its first line.
+    /// Not every control reads small letters. If a file has one case, its first line shows whether another control can
+    /// read it.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -29,14 +30,15 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::Capital).odd() else { return };
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::Capital).odd() else { return };
     let Some(first) = odd.places.first() else { return };
     let (place, word) = word_around(cx.text, &(first.end..first.end));
     let (found, others) =
@@ -53,12 +55,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_fix_follows_the_many() {
-        assert_eq!(mended(&RULE, "linuxcnc", "G0 X1 Y1\ng1 X2 f100\n"), "G0 X1 Y1\nG1 X2 F100\n");
-        assert_eq!(mended(&RULE, "linuxcnc", "g0 x1 y1\nG1 x2 f100\n"), "g0 x1 y1\ng1 x2 f100\n");
+        assert_eq!(fixes_of(&RULE, "linuxcnc", "G0 X1 Y1\ng1 X2 f100\n"), "G0 X1 Y1\nG1 X2 F100\n");
+        assert_eq!(fixes_of(&RULE, "linuxcnc", "g0 x1 y1\nG1 x2 f100\n"), "g0 x1 y1\ng1 x2 f100\n");
     }
 
     #[test]

@@ -1,15 +1,15 @@
 //! Line ends of two kinds in one file.
 
-use crate::meta::declare_rule;
-use crate::writing::Question;
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Some lines end with a line feed, others with a carriage return and a line feed. Told once for the file.
+    /// Some lines end with a line feed, others with a carriage return and a line feed. Reported once per file.
     ///
     /// ## Why it matters
-    /// The file was put together from two places. Controls that load over a line, and programs that compare files, stumble over
-    /// it: a block is doubled or seems to have changed.
+    /// The file comes from two sources. Controls that load over a serial line may read a block twice, and tools that
+    /// compare files show changes that are not there.
     ///
     /// ## Reported
     /// `␍` stands for a carriage return.
@@ -29,14 +29,15 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::LineEnd).odd() else { return };
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::LineEnd).odd() else { return };
     let Some(first) = odd.places.first() else { return };
     let (found, others) = if odd.is_long {
         ("carriage return and line feed", "line feed")
@@ -53,12 +54,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_fix_follows_the_many() {
         check_rule(&RULE, "haas-mill", "G0 X1.\r\nX2.\r\n", &expect![[""]]);
-        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\r\nX2.\nX3.\r\n"), "G0 X1.\r\nX2.\r\nX3.\r\n");
-        assert_eq!(mended(&RULE, "haas-mill", "G0 X1.\nX2.\r\nX3.\n"), "G0 X1.\nX2.\nX3.\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G0 X1.\r\nX2.\nX3.\r\n"), "G0 X1.\r\nX2.\r\nX3.\r\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G0 X1.\nX2.\r\nX3.\n"), "G0 X1.\nX2.\nX3.\n");
     }
 }

@@ -1,16 +1,16 @@
-//! A minus sign before nought.
+//! A minus sign before zero.
 
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
-use crate::writing::MOST_PLACES;
+use crate::declare::declare_rule;
+use crate::facts::notation::MAX_PLACES;
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A number is minus nought: `X-0.`. Told once for the file.
+    /// A number is minus zero: `X-0.`. Reported once per file.
     ///
     /// ## Why it matters
-    /// It means nought, and comes from a rounded number of a post-processor. It stops the reader, who asks what is negative.
+    /// It means zero, and comes from a rounded number of a post-processor. It makes the reader ask what is negative.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -23,12 +23,12 @@ declare_rule! {
     /// M30
     /// ```
     rule "minus-zero" in "style" {
-        summary: "minus sign before nought",
+        summary: "minus sign before zero",
         severity: Hint,
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -38,7 +38,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let mut edits = Vec::new();
     let mut first = None;
     cx.each_block(|block| {
-        if block.block().flags.contains(BlockFlags::ERROR) || edits.len() >= MOST_PLACES {
+        if block.block().flags.contains(BlockFlags::ERROR) || edits.len() >= MAX_PLACES {
             return;
         }
         for word in block.words().iter().filter(|word| word.shape.minus && word.number() == Some(0.0)) {
@@ -53,10 +53,10 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some((place, word)) = first else { return };
     let count = edits.len();
     report.add(
-        Finding::new(&META, place, format!("minus nought: `{word}`"))
-            .label(if count == 1 { "means nought".to_owned() } else { format!("the first of {count}") })
+        Finding::new(&META, place, format!("minus zero: `{word}`"))
+            .label(if count == 1 { "means zero".to_owned() } else { format!("the first of {count}") })
             .help("write it without the sign")
-            .fix(Fix { title: "take the sign away".to_owned(), safe: true, edits }),
+            .fix(Fix { title: "remove the sign".to_owned(), safe: true, edits }),
     );
 }
 
@@ -65,12 +65,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn all_signs_are_taken_away() {
         assert_eq!(
-            mended(&RULE, "haas-mill", "G1 X-0. Y-.0\nZ-0.000 F1.\nX-0.001\n"),
+            fixes_of(&RULE, "haas-mill", "G1 X-0. Y-.0\nZ-0.000 F1.\nX-0.001\n"),
             "G1 X0. Y.0\nZ0.000 F1.\nX-0.001\n"
         );
         check_rule(&RULE, "haas-mill", "G1 X0. Y[-0]\n", &expect![[""]]);

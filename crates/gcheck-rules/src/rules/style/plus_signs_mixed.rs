@@ -1,14 +1,14 @@
 //! Positive numbers with and without a plus sign.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Positive numbers are written in two ways in one file: `X1.` and `X+1.`. Told once for the file.
+    /// Positive numbers are written in two ways in one file: `X1.` and `X+1.`. Reported once per file.
     ///
     /// ## Why it matters
-    /// The control reads both. A sign that stands at some numbers only seems to say something, and says nothing.
+    /// The control reads both. A sign at only some numbers seems to mean something, and does not.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -27,15 +27,16 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::PlusSign).odd() else { return };
-    // A sign at every number would be written before `F`, `S` and `T` too, which not every control takes.
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::PlusSign).odd() else { return };
+    // A sign at every number would include `F`, `S` and `T`, which not every control accepts.
     if !odd.is_long {
         return;
     }
@@ -50,11 +51,11 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn the_sign_is_dropped() {
-        assert_eq!(mended(&RULE, "haas-mill", "G1 X1. Y2.\nX+3.\n"), "G1 X1. Y2.\nX3.\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G1 X1. Y2.\nX+3.\n"), "G1 X1. Y2.\nX3.\n");
         check_rule(&RULE, "haas-mill", "G1 X+1. Y+2. F1.\nX+3.\n", &expect![[""]]);
     }
 }

@@ -1,14 +1,15 @@
 //! A program number without a name.
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::sections::keeps_programs_by_number;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// No comment behind the program's number says what part it makes.
+    /// No comment after the program's number names its part.
     ///
     /// ## Why it matters
-    /// The list of programs on the control shows the number and this comment. A number alone is how the wrong program is
-    /// started.
+    /// The control's list of programs shows the number and this comment. With a number alone, the operator can start
+    /// the wrong program.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -34,7 +35,7 @@ declare_rule! {
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    if !cx.keeps_programs_by_number() {
+    if !keeps_programs_by_number(cx) {
         return;
     }
     for program in cx.survey.programs.iter().filter(|program| program.number.is_some()) {
@@ -47,8 +48,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             let number = cx.slice(program.range.clone());
             report.add(
                 Finding::new(&META, program.range.clone(), format!("program `{number}` has no name"))
-                    .label("a program by its number alone")
-                    .help(format!("write what it makes in a comment: `{number} (PART, SIDE)`")),
+                    .label("only a number")
+                    .help(format!("name the part in a comment: `{number} (PART, SIDE)`")),
             );
         }
     }

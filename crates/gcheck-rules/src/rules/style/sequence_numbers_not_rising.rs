@@ -2,14 +2,14 @@
 
 use gcheck_program::Label;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// The sequence numbers of a program rise, and then one is lower than the one before it. Told once for the file.
+    /// The sequence numbers of a program rise, and then one is lower than the one before it. Reported once per file.
     ///
     /// ## Why it matters
-    /// Blocks were moved or pasted in from elsewhere. Who looks for a number by going up or down through the program misses it.
+    /// Blocks were moved or pasted in. A person who scrolls through the program for a number misses it.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -59,11 +59,11 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let finding = Finding::new(
         &META,
         label.range.clone(),
-        format!("sequence number `N{}` behind `N{}`", label.number, before.number),
+        format!("sequence number `N{}` after `N{}`", label.number, before.number),
     )
     .label("lower than the one before it")
     .also(before.range.clone(), "the one before it")
-    .help("renumber the blocks, or leave the numbers out where nothing goes to them");
+    .help("renumber the blocks, or remove numbers that nothing jumps to");
     report.add(if falling > 1 {
         finding.note(format!("{falling} numbers of the file are lower than the one before"))
     } else {

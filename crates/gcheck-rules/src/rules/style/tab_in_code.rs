@@ -1,16 +1,17 @@
-//! A tabulator in code.
+//! A tab in code.
 
 use gcheck_controls::Semicolon;
 
-use crate::meta::declare_rule;
-use crate::writing::MOST_PLACES;
+use crate::declare::declare_rule;
+use crate::facts::notation::MAX_PLACES;
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A tabulator stands in the code. Told once for the file.
+    /// The code contains a tab. Reported once per file.
     ///
     /// ## Why it matters
-    /// Many controls have no such character: it is dropped, shown as something else, or refused when the program is loaded.
+    /// Many controls do not have this character: they drop it, show something else, or refuse the program when it is
+    /// loaded.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -23,12 +24,12 @@ declare_rule! {
     /// M30
     /// ```
     rule "tab-in-code" in "style" {
-        summary: "tabulator in code",
+        summary: "tab in code",
         severity: Hint,
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -37,9 +38,9 @@ declare_rule! {
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let semicolon_comments = cx.control().syntax().semicolon == Semicolon::Comment;
     let mut edits = Vec::new();
-    // What stands in brackets may be text that is printed.
+    // Text in brackets may be printed.
     let (mut in_comment, mut to_line_end, mut depth) = (false, false, 0_u32);
-    let bytes = cx.pieces().flat_map(|(base, piece)| (base..).zip(piece.bytes()));
+    let bytes = cx.runs().flat_map(|(base, piece)| (base..).zip(piece.bytes()));
     for (at, byte) in bytes {
         match byte {
             b'\n' | b'\r' => (in_comment, to_line_end, depth) = (false, false, 0),
@@ -49,7 +50,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             b';' if semicolon_comments => to_line_end = true,
             b'[' => depth += 1,
             b']' => depth = depth.saturating_sub(1),
-            b'\t' if depth == 0 && edits.len() < MOST_PLACES => {
+            b'\t' if depth == 0 && edits.len() < MAX_PLACES => {
                 edits.push(Edit { range: at..at + 1, text: " ".to_owned() });
             }
             _ => {}
@@ -58,10 +59,14 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let Some(first) = edits.first() else { return };
     let count = edits.len();
     report.add(
-        Finding::new(&META, first.range.clone(), "tabulator in code")
-            .label(if count == 1 { "this is no blank".to_owned() } else { format!("the first of {count}") })
+        Finding::new(&META, first.range.clone(), "tab in code")
+            .label(if count == 1 {
+                "this is not a blank".to_owned()
+            } else {
+                format!("the first of {count}")
+            })
             .help("write a blank")
-            .fix(Fix { title: "write blanks for tabulators".to_owned(), safe: true, edits }),
+            .fix(Fix { title: "replace tabs by blanks".to_owned(), safe: true, edits }),
     );
 }
 
@@ -70,12 +75,12 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn comments_keep_theirs() {
         assert_eq!(
-            mended(&RULE, "linuxcnc", "G0\tX1 ; a\tb\n(c\td)\tG1 X2\n"),
+            fixes_of(&RULE, "linuxcnc", "G0\tX1 ; a\tb\n(c\td)\tG1 X2\n"),
             "G0 X1 ; a\tb\n(c\td) G1 X2\n"
         );
         check_rule(&RULE, "linuxcnc", "(a\tb)\n;\t(c\n", &expect![[""]]);

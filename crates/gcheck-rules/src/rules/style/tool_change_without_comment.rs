@@ -1,19 +1,19 @@
-//! A tool change that does not name its tool.
+//! A tool change without a comment.
 
 use std::ops::Range;
 
 use gcheck_controls::{Effect, Semicolon};
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// No comment at a tool change says which tool it is: not in its block, and not on the line above or below.
+    /// No comment at a tool change names the tool: not in its block, and not on the line above or below.
     ///
     /// ## Why it matters
-    /// The operator loads tools by these comments, and finds the place to start again by them. A number alone does not tell a
-    /// drill from a tap.
+    /// The operator loads tools by these comments, and finds the place for a restart by them. A number alone does not
+    /// tell a drill from a tap.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -64,13 +64,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         {
             let name = block.text(block.word('T').unwrap_or(word));
             report.add(
-                Finding::new(
-                    &META,
-                    block.range(word),
-                    format!("no comment says which tool this is (`{name}`)"),
-                )
-                .label("a tool by its number alone")
-                .help("write the tool's name in a comment in this block, or on the line above"),
+                Finding::new(&META, block.range(word), format!("no comment names the tool (`{name}`)"))
+                    .label("only a tool number")
+                    .help("write the tool's name in a comment in this block, or on the line above"),
             );
         }
     });
@@ -106,7 +102,7 @@ mod tests {
             "; drill\nT1 M6\nG0 X1\n\nT2 M6\n(tap)\nG0 X2\nG0 X3\nT3 M6\nG0 X4\nM2\n",
             &expect![[r#"
                 9 | T3 M6
-                  |    ^^ hint[tool-change-without-comment] no comment says which tool this is (`T3`)
+                  |    ^^ hint[tool-change-without-comment] no comment names the tool (`T3`)
             "#]],
         );
     }
@@ -119,7 +115,7 @@ mod tests {
             "(TURN)\nT0101\nG0 X1.\nX2.\nT0111\nX3.\nX4.\nT0202\nM30\n",
             &expect![[r#"
                 8 | T0202
-                  | ^^^^^ hint[tool-change-without-comment] no comment says which tool this is (`T0202`)
+                  | ^^^^^ hint[tool-change-without-comment] no comment names the tool (`T0202`)
             "#]],
         );
     }

@@ -1,14 +1,15 @@
 //! Blanks at the end of lines.
 
-use crate::meta::declare_rule;
-use crate::writing::MOST_PLACES;
+use crate::declare::declare_rule;
+use crate::facts::notation::MAX_PLACES;
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// Lines end with blanks. Told once for the file.
+    /// Lines end with blanks. Reported once per file.
     ///
     /// ## Why it matters
-    /// Nobody sees them, they cost memory of the control, and they make two versions of a program differ where nothing changed.
+    /// They are invisible, they use memory of the control, and they make two versions of a program differ where nothing
+    /// changed.
     ///
     /// ## Reported
     /// `␠` stands for a blank.
@@ -27,7 +28,7 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -38,8 +39,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for (start, line) in cx.lines() {
         let line = line.trim_end_matches(['\n', '\r']);
         let kept = line.trim_end_matches([' ', '\t']).len();
-        // A blank line belongs to another rule.
-        if kept > 0 && kept < line.len() && edits.len() < MOST_PLACES {
+        // Another rule judges blank lines.
+        if kept > 0 && kept < line.len() && edits.len() < MAX_PLACES {
             let range = start + kept as u32..start + line.len() as u32;
             edits.push(Edit { range, text: String::new() });
         }
@@ -52,8 +53,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     report.add(
         Finding::new(&META, first.range.clone(), message)
             .label("nothing follows")
-            .help("take the blanks away")
-            .fix(Fix { title: "take the blanks away".to_owned(), safe: true, edits }),
+            .help("remove the blanks")
+            .fix(Fix { title: "remove the blanks".to_owned(), safe: true, edits }),
     );
 }
 
@@ -62,11 +63,11 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn line_ends_and_blank_lines_stay() {
-        assert_eq!(mended(&RULE, "haas-mill", "G0 X1. \t\r\n  \r\nM30 \n"), "G0 X1.\r\n  \r\nM30\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G0 X1. \t\r\n  \r\nM30 \n"), "G0 X1.\r\n  \r\nM30\n");
         check_rule(&RULE, "haas-mill", "G0 X1.\n   \n", &expect![[""]]);
     }
 }

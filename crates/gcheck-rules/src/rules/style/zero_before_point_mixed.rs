@@ -1,15 +1,15 @@
 //! Numbers below one with and without a zero before the point.
 
-use crate::meta::declare_rule;
-use crate::writing::{Question, word_around};
+use crate::declare::declare_rule;
+use crate::facts::notation::{Notation, Question, word_around};
 use crate::{FileCx, Report, Run};
 
 declare_rule! {
-    /// Numbers below one are written in two ways in one file: `X.5` and `X0.5`. Told once for the file.
+    /// Numbers below one are written in two ways in one file: `X.5` and `X0.5`. Reported once per file.
     ///
     /// ## Why it matters
-    /// The control reads both. A point at the head of a number is easy to overlook, so most shops write the zero; whichever
-    /// it is, one way is easier to read.
+    /// The control reads both. A point at the beginning of a number is easy to overlook, so most shops write the zero;
+    /// one form throughout is easier to read.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -29,14 +29,15 @@ declare_rule! {
         tier: Program,
         recommended: false,
         sets: [HouseStyle],
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
-    let Some(odd) = cx.writing().habit(Question::ZeroBeforePoint).odd() else { return };
+    let notation = cx.fact::<Notation>();
+    let Some(odd) = notation.habit(Question::ZeroBeforePoint).odd() else { return };
     let Some(first) = odd.places.first() else { return };
     let (place, word) = word_around(cx.text, first);
     let others = if odd.is_long { "without" } else { "with" };
@@ -50,7 +51,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{check_rule, mended};
+    use crate::testing::{check_rule, fixes_of};
 
     #[test]
     fn nought_itself_is_neither_way() {
@@ -59,7 +60,7 @@ mod tests {
 
     #[test]
     fn the_fix_writes_or_drops_the_zero() {
-        assert_eq!(mended(&RULE, "haas-mill", "G1 X0.5 Y-0.5\nX-.25\n"), "G1 X0.5 Y-0.5\nX-0.25\n");
-        assert_eq!(mended(&RULE, "haas-mill", "G1 X.5 Y-.5\nX-0.25\n"), "G1 X.5 Y-.5\nX-.25\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G1 X0.5 Y-0.5\nX-.25\n"), "G1 X0.5 Y-0.5\nX-0.25\n");
+        assert_eq!(fixes_of(&RULE, "haas-mill", "G1 X.5 Y-.5\nX-0.25\n"), "G1 X.5 Y-.5\nX-.25\n");
     }
 }

@@ -1,14 +1,14 @@
 //! A `gcheck:` comment that cannot be read.
 
-use crate::meta::declare_rule;
-use crate::suppression::Suppressions;
+use crate::Suppressions;
+use crate::declare::declare_rule;
 use crate::{Finding, Report, Run};
 
 declare_rule! {
-    /// A `gcheck:` comment is not understood, so it silences nothing.
+    /// gcheck cannot read a `gcheck:` comment, so the comment silences nothing.
     ///
     /// ## Why it matters
-    /// Whoever wrote it believes that a finding is silenced.
+    /// Its author believes that a finding is silenced.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -19,10 +19,10 @@ declare_rule! {
     /// G999 (gcheck: ignore unknown-code - option fitted in 2024)
     /// ```
     rule "malformed-suppression" in "suppressions" {
-        summary: "gcheck comment is not understood",
+        summary: "gcheck comment cannot be read",
         severity: Warning,
         tier: Program,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Suppressions { check },
     }
@@ -34,7 +34,7 @@ fn check(suppressions: &Suppressions, report: &mut Report<'_>) {
             Finding::new(&META, malformed.range.clone(), malformed.message.clone())
                 .label("silences nothing")
                 .help("write `(gcheck: ignore RULE - reason)`; `gcheck rules` lists the rules")
-                .fix_if(malformed.meant.clone()),
+                .fix_if(malformed.fix.clone()),
         );
     }
 }

@@ -1,7 +1,7 @@
-//! A suppression that does not say why.
+//! A suppression without a reason.
 
-use crate::meta::declare_rule;
-use crate::suppression::Suppressions;
+use crate::Suppressions;
+use crate::declare::declare_rule;
 use crate::{Finding, Report, Run};
 
 declare_rule! {
@@ -31,7 +31,7 @@ fn check(suppressions: &Suppressions, report: &mut Report<'_>) {
     for suppression in suppressions.list.iter().filter(|s| !s.has_reason) {
         report.add(
             Finding::new(&META, suppression.range.clone(), "suppression gives no reason")
-                .help("add one behind a dash: `(gcheck: ignore RULE - reason)`"),
+                .help("add one after a dash: `(gcheck: ignore RULE - reason)`"),
         );
     }
 }

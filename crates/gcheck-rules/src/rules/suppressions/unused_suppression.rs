@@ -1,14 +1,14 @@
 //! A suppression that silences nothing.
 
-use crate::meta::declare_rule;
-use crate::suppression::{Suppression, Suppressions};
+use crate::declare::declare_rule;
 use crate::{Finding, Fix, Report, Run};
+use crate::{Suppression, Suppressions};
 
 declare_rule! {
     /// A suppression comment silences nothing.
     ///
     /// ## Why it matters
-    /// The mistake it was written for is gone, or the comment stands at the wrong line. A suppression that stays behind
+    /// The mistake that it was written for is gone, or the comment is on the wrong line. A suppression that remains
     /// hides the next mistake of its kind.
     ///
     /// ## Reported
@@ -25,7 +25,7 @@ declare_rule! {
         summary: "suppression silences nothing",
         severity: Warning,
         tier: Program,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Suppressions { check },
     }
@@ -41,7 +41,7 @@ fn finding(suppression: &Suppression) -> Finding {
     let rules = suppression.selectors.iter().map(|s| format!("`{s}`")).collect::<Vec<_>>().join(", ");
     Finding::new(&META, suppression.range.clone(), format!("no finding of {rules} is silenced here"))
         .label("silences nothing")
-        .note("a comment beside code speaks for its own line, a comment that stands alone for the line below")
+        .note("a comment beside code counts for its own line, a comment alone on its line for the line below")
         .help("remove the comment")
         .fix(Fix::safe("remove the comment", suppression.range.clone(), ""))
 }

@@ -2,11 +2,11 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A letter stands without the number that belongs to it.
+    /// A letter has no number after it.
     ///
     /// ## Why it matters
     /// The control refuses the block. On some controls the letter takes the number of the next word instead, and the machine moves
@@ -20,7 +20,7 @@ declare_rule! {
     /// G1 X[1.] Y F10
     /// ```
     /// ## Not reported
-    /// The value may be a variable or an expression, and blanks may stand before it.
+    /// The value may be a variable or an expression, with blanks before it.
     /// ```nc,quiet,haas-mill
     /// G1 X#101 Y[#102 * 2.] Z 1. F10.
     /// ```
@@ -44,7 +44,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             .label("a number or an expression must follow")
             .note("every word is an address and its value");
     if cx.slice(error.range.end..error.range.end + 1) == "(" {
-        return finding.help("write an expression in `[ ]`: what stands in parentheses is a comment");
+        return finding.help("write an expression in `[ ]`: text in parentheses is a comment");
     }
     finding.help(format!("add the number after `{letter}`, or remove the letter"))
 }
@@ -54,8 +54,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_letter_is_marked() {
@@ -88,12 +87,12 @@ mod tests {
     #[test]
     fn parentheses_are_no_brackets() {
         let program = "G1 X(#101 + 1.) F10.\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             address `X` has no value
               here: a number or an expression must follow
               note: every word is an address and its value
-              help: write an expression in `[ ]`: what stands in parentheses is a comment
+              help: write an expression in `[ ]`: text in parentheses is a comment
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

@@ -2,14 +2,14 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A block begins with a variable and assigns nothing to it.
+    /// A block begins with a variable and does not assign a value to it.
     ///
     /// ## Why it matters
-    /// The control refuses the block. The `=` was lost, or the address before the variable was.
+    /// The control refuses the block. Either the `=` is missing, or the address before the variable.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -38,7 +38,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let variable = cx.slice(error.range.clone()).trim_end();
-    Finding::new(&META, cx.in_file(error.range.clone()), format!("variable `{variable}` is assigned nothing"))
+    Finding::new(&META, cx.in_file(error.range.clone()), format!("variable `{variable}` gets no value"))
         .label("neither the value of an address nor followed by `=`")
         .help(format!("write `{variable}=` and its value, or the address before it"))
 }
@@ -57,11 +57,11 @@ mod tests {
             "haas-mill",
             "#100 5.\nG0 #5\n",
             &expect![[r#"
-            1 | #100 5.
-              | ^^^^ error[assignment-without-equals] variable `#100` is assigned nothing
-            2 | G0 #5
-              |    ^^ error[assignment-without-equals] variable `#5` is assigned nothing
-        "#]],
+                1 | #100 5.
+                  | ^^^^ error[assignment-without-equals] variable `#100` gets no value
+                2 | G0 #5
+                  |    ^^ error[assignment-without-equals] variable `#5` gets no value
+            "#]],
         );
     }
 
@@ -72,9 +72,9 @@ mod tests {
             "linuxcnc",
             "#<depth>\n",
             &expect![[r#"
-            1 | #<depth>
-              | ^^^^^^^^ error[assignment-without-equals] variable `#<depth>` is assigned nothing
-        "#]],
+                1 | #<depth>
+                  | ^^^^^^^^ error[assignment-without-equals] variable `#<depth>` gets no value
+            "#]],
         );
     }
 }

@@ -2,15 +2,15 @@
 
 use gcheck_program::{BlockFlags, Value, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A blank stands between the digits of a number, on a control that reads over blanks.
+    /// There is a blank between the digits of a number, on a control that ignores blanks.
     ///
     /// ## Why it matters
-    /// The two parts are one number. `G00 3.0` is `G003.0`, an arc, and `Y0 5.` is `Y05.`: most often the letter of the second
-    /// part is lost.
+    /// The control reads one number. `G00 3.0` is `G003.0`, an arc, and `Y0 5.` is `Y05.`: most often the letter of the
+    /// second number is missing.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -20,7 +20,7 @@ declare_rule! {
     /// G0 X0 Y0 0
     /// ```
     /// ## Not reported
-    /// A blank behind the letter or the sign:
+    /// A blank after the letter or the sign:
     /// ```nc,quiet,linuxcnc
     /// G 0 X 1.5 Y - 2
     /// ```
@@ -47,8 +47,8 @@ fn finding(cx: &BlockCx<'_>, word: &Word, text: &str, second: &str) -> Finding {
     let read: String = text.chars().filter(|c| !matches!(c, ' ' | '\t')).collect();
     Finding::new(&META, cx.range(word), format!("number with a blank inside (`{text}`)"))
         .label(format!("read as `{read}`"))
-        .note("this control reads over blanks: what stands on both sides is one number")
-        .help(format!("write the letter in front of `{second}`, or take the blank away"))
+        .note("this control ignores blanks: the digits on both sides are one number")
+        .help(format!("write the letter before `{second}`, or remove the blank"))
 }
 
 #[cfg(test)]
@@ -56,8 +56,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_word_is_marked() {
@@ -83,12 +82,12 @@ mod tests {
 
     #[test]
     fn words_say_how_it_is_read() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G00 3.0 Z3.0\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G00 3.0 Z3.0\n", &World::default());
         expect![[r#"
             number with a blank inside (`G00 3.0`)
               here: read as `G003.0`
-              note: this control reads over blanks: what stands on both sides is one number
-              help: write the letter in front of `3.0`, or take the blank away
+              note: this control ignores blanks: the digits on both sides are one number
+              help: write the letter before `3.0`, or remove the blank
         "#]]
         .assert_eq(&words(&found[0]));
     }

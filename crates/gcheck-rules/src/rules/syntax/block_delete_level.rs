@@ -1,18 +1,18 @@
-//! A block-delete sign in a form that the control does not have.
+//! A form of block delete that the control does not have.
 
 use std::ops::Range;
 
 use gcheck_controls::Confidence;
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run, limit};
 
 declare_rule! {
-    /// A block-delete sign carries a level (`/2`) or stands inside the block, and the control has no such form.
+    /// A block-delete sign has a level (`/2`) or is inside the block, and the control does not have this form.
     ///
     /// ## Why it matters
-    /// The control refuses the block, or skips at another switch or from another place than was meant.
+    /// The control refuses the block, or skips by the wrong switch or from the wrong place.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -32,7 +32,7 @@ declare_rule! {
         summary: "form of block delete that the control does not have",
         severity: Error,
         tier: Block,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::BLOCK_DELETE, check },
     }
@@ -78,8 +78,8 @@ fn confidence(cx: &BlockCx<'_>) -> Confidence {
 
 fn inside_finding(cx: &BlockCx<'_>, range: Range<u32>) -> Finding {
     Finding::new(&META, range, "block delete inside a block")
-        .label("something stands before the `/`")
-        .note("this control reads `/` at the head of a block only")
+        .label("there is text before the `/`")
+        .note("this control reads `/` only at the head of a block")
         .help("put `/` first, or write the skipped words in a block of their own")
         .at_most(limit(confidence(cx)))
 }
@@ -99,8 +99,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn levels_and_places() {
@@ -133,7 +132,7 @@ mod tests {
 
     #[test]
     fn words_tell_the_form() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "/2 G0 X1\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "/2 G0 X1\n", &World::default());
         expect![[r#"
             block delete with a level
               here: the digit names a switch

@@ -2,14 +2,14 @@
 
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// Brackets of an expression are nested deeper than the control takes.
+    /// Brackets of an expression are nested deeper than the control accepts.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm when it comes to the block.
+    /// The control stops with an alarm at the block.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -19,12 +19,12 @@ declare_rule! {
     /// ```nc,quiet,fanuc-mill
     /// #1=[1.+[2.+[3.+[4.+[#2]]]]]
     /// ```
-    /// A control with no known limit is not accused.
+    /// A control without a known limit is not judged.
     /// ```nc,quiet,linuxcnc
     /// #1=[1+[2+[3+[4+[5+[#2]]]]]]
     /// ```
     rule "bracket-nesting-limit" in "syntax" {
-        summary: "brackets nested deeper than the control takes",
+        summary: "brackets nested deeper than the control accepts",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -34,7 +34,7 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let Some(limit) = cx.control().limits().bracket_depth else { return };
-    // The bracket of a condition is the statement's, as far as is known.
+    // As far as is known, the bracket of a condition belongs to the statement.
     let statement = cx.statements().any(|s| !matches!(s.kind, gcheck_program::StatementKind::Assign { .. }));
     if cx.block().flags.contains(BlockFlags::ERROR) {
         return;
@@ -44,7 +44,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Place of the first bracket below `limit` levels of others, comments left out.
+/// Place of the first bracket inside `limit` others; comments do not count.
 fn first_too_deep(text: &str, limit: usize) -> Option<usize> {
     let mut depth = 0_usize;
     let mut in_comment = false;
@@ -70,8 +70,8 @@ fn finding(cx: &BlockCx<'_>, at: u32, limit: u8) -> Finding {
         format!("brackets are nested deeper than {limit} levels"),
     )
     .label("one level too many")
-    .note(format!("this control takes {limit} levels of brackets, those of functions included{source}"))
-    .help("compute it in steps: assign a part of it to a variable")
+    .note(format!("this control accepts {limit} levels of brackets, including those of functions{source}"))
+    .help("compute it in steps: assign an intermediate result to a variable")
 }
 
 #[cfg(test)]
@@ -79,8 +79,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_first_bracket_too_many_is_marked() {
@@ -104,13 +103,12 @@ mod tests {
 
     #[test]
     fn words_state_the_limit() {
-        let found =
-            findings(&Selection::only(&RULE), "fanuc-mill", "#1=SIN[[[[[[2.]]]]]]\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "#1=SIN[[[[[[2.]]]]]]\n", &World::default());
         expect![[r#"
             brackets are nested deeper than 5 levels
               here: one level too many
-              note: this control takes 5 levels of brackets, those of functions included  [16-18C-T p.307]
-              help: compute it in steps: assign a part of it to a variable
+              note: this control accepts 5 levels of brackets, including those of functions  [16-18C-T p.307]
+              help: compute it in steps: assign an intermediate result to a variable
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

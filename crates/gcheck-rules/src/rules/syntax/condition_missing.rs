@@ -2,7 +2,7 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -43,9 +43,9 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         cx.in_file(error.range.clone()),
         format!("`{keyword}` has no condition in brackets"),
     )
-    .label("`[` must follow");
+    .label("a a `[` must follow");
     if cx.slice(error.range.end..cx.block().range.end).trim_start().starts_with('(') {
-        return finding.note("what stands in parentheses is a comment").help("write the condition in `[ ]`");
+        return finding.note("text in parentheses is a comment").help("write the condition in `[ ]`");
     }
     finding.help("put the condition in `[ ]`")
 }

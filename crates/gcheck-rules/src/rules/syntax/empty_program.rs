@@ -1,13 +1,13 @@
-//! A program in which nothing is to be done.
+//! A program without a block.
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run, Severity};
 
 declare_rule! {
-    /// A file holds no block with a word or statement: it is empty, or only comments.
+    /// A file has no block with a word or statement: it is empty, or has only comments.
     ///
     /// ## Why it matters
-    /// The transfer or the post processor lost the program; some controls refuse to load such a file.
+    /// The transfer or the post-processor lost the program; some controls refuse to load such a file.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -44,14 +44,14 @@ fn finding(cx: &FileCx<'_>) -> Finding {
     let text = cx.slice(cx.region.clone());
     let start = text.len() - text.trim_start().len();
     let end = text.get(start..).and_then(|t| t.find(['\r', '\n'])).map_or(text.len(), |at| start + at);
-    // Notes may be meant.
+    // The file may be meant as notes.
     let (message, severity) = match text.trim() {
         "" => ("file is empty", Severity::Warning),
         _ => ("program has comments only", Severity::Info),
     };
     Finding::new(&META, start as u32..end.max(start) as u32, message)
         .label("no block with a word or statement from here to the end")
-        .help("write the program again from its source, or leave the file out of the check")
+        .help("write the program again from its source, or exclude the file from the check")
         .at_most(severity)
 }
 

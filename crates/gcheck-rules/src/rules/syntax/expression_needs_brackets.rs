@@ -2,20 +2,20 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// An operator stands in an expression that is not in brackets, where the control wants them.
+    /// An expression with an operator is not in brackets, and the control requires them.
     ///
     /// ## Why it matters
-    /// The control refuses the block, or takes the first value and leaves the rest.
+    /// The control refuses the block, or uses the first value and ignores the rest.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
     /// G1 X#101+2. F100.
     /// ```
-    /// Some controls want brackets in assignments too.
+    /// Some controls require brackets in assignments too.
     /// ```nc,reported,linuxcnc
     /// #101=#102+2
     /// ```
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "expression is not in brackets",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::NeedsBrackets, check },
     }
@@ -43,8 +43,8 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let before = cx.slice(cx.block().range.start..error.range.start);
     let written = cx.slice(error.range.clone());
     let finding = Finding::new(&META, range.clone(), "expression needs brackets")
-        .label("stands outside `[ ]`")
-        .note("an operator is read only between `[` and `]`");
+        .label("is outside `[ ]`")
+        .note("this control reads an operator only between `[` and `]`");
     if before.trim_end().ends_with('=') {
         return finding.help(format!("write `[{written}]`")).fix(Fix::risky(
             format!("write `[{written}]`"),
@@ -52,7 +52,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             format!("[{written}]"),
         ));
     }
-    finding.help("put the whole value after the address in `[ ]`")
+    finding.help("put the whole value of the address in `[ ]`")
 }
 
 #[cfg(test)]
@@ -60,8 +60,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn behind_an_address() {
@@ -94,7 +93,7 @@ mod tests {
     #[test]
     fn the_value_is_put_in_brackets() {
         let program = "#101 = #102 + 2 (A)\n";
-        let found = findings(&Selection::only(&RULE), "linuxcnc", program, &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
         expect![[r#"
             #101 = [#102 + 2] (A)
         "#]]

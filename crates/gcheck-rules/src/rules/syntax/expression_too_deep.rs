@@ -1,8 +1,8 @@
-//! An expression nested beyond all reason.
+//! An expression that is nested too deeply.
 
 use gcheck_syntax::{MAX_EXPRESSION_DEPTH, SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -36,7 +36,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "expression is nested too deeply")
         .label(format!("more than {MAX_EXPRESSION_DEPTH} levels"))
         .note("the rest of the block was not read")
-        .help("compute it in steps: assign parts of it to variables")
+        .help("compute it in steps: assign intermediate results to variables")
 }
 
 #[cfg(test)]
@@ -44,14 +44,13 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings};
+    use crate::testing::{World, check_rule, findings, only};
 
     #[test]
     fn only_the_level_too_many_is_marked() {
         let deep = |levels: usize| format!("#1={}2{}", "[".repeat(levels), "]".repeat(levels));
         for (levels, count) in [(64, 0), (65, 1), (300, 1)] {
-            let found = findings(&Selection::only(&RULE), "haas-mill", &deep(levels), &World::default());
+            let found = findings(&only(&RULE), "haas-mill", &deep(levels), &World::default());
             assert_eq!(found.len(), count, "{levels}");
         }
     }

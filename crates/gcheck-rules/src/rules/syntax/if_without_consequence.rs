@@ -1,8 +1,8 @@
-//! An `IF` that leads to nothing.
+//! An `IF` without `GOTO` or `THEN`.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -19,7 +19,7 @@ declare_rule! {
     /// IF [#1 GT 5.]
     /// ```
     /// ## Not reported
-    /// Some controls let `THEN` be left out before an assignment.
+    /// Some controls allow an assignment without `THEN`.
     /// ```nc,quiet,haas-mill
     /// IF [#1 GT 5.] GOTO 20
     /// IF [#1 GT 5.] THEN #1= 5.
@@ -41,7 +41,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "`IF` has neither `GOTO` nor `THEN`")
-        .label("what happens if this holds?")
+        .label("no action follows this condition")
         .help("add `GOTO` and a sequence number, or `THEN` and an assignment")
 }
 

@@ -1,19 +1,19 @@
-//! A letter O where a number has its zero.
+//! A letter O instead of a zero.
 
 use std::ops::Range;
 
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
-use crate::mistakes::letter_o;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
+use gcheck_lint::letter_o;
 
 declare_rule! {
-    /// The letter O stands where a number has a zero: `GO1` for `G01`, `X1O.` for `X10.`.
+    /// A number has the letter O instead of a zero: `GO1` for `G01`, `X1O.` for `X10.`.
     ///
     /// ## Why it matters
-    /// The control refuses the block, or reads the O as a program number. The two look alike on many screens, so the mistake
-    /// is hard to find by eye.
+    /// The control refuses the block, or reads the O as a program number. The two look alike on many screens, so the
+    /// mistake is hard to see.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -36,7 +36,7 @@ declare_rule! {
         summary: "letter O instead of a zero",
         severity: Error,
         tier: Block,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::ERROR.union(BlockFlags::PROGRAM_NUMBER), check },
     }
@@ -68,8 +68,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn wherever_a_number_has_its_zeros() {
@@ -114,7 +113,7 @@ mod tests {
     #[test]
     fn words_quote_the_number() {
         let program = "G01 X1O.5 Y1.\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", program, &World::default());
         expect![[r#"
             letter `O` instead of a zero in `X1O.5`
               here: this is the letter

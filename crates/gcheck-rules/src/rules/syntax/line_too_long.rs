@@ -2,14 +2,14 @@
 
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A line has more characters than the control takes.
+    /// A line has more characters than the control reads.
     ///
     /// ## Why it matters
-    /// The control refuses the line or cuts it off, comment or not.
+    /// The control refuses the line or cuts it off, even if it is a comment.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -19,7 +19,7 @@ declare_rule! {
     /// ```nc,quiet,linuxcnc
     /// (a comment of one line)
     /// ```
-    /// A control with no known limit is not accused.
+    /// A control without a known limit is not judged.
     /// ```nc,quiet,haas-mill
     /// (0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789 0123456789)
     /// ```
@@ -46,7 +46,7 @@ fn finding(cx: &BlockCx<'_>, limit: u32) -> Finding {
     Finding::new(
         &META,
         cx.in_file(block.start + kept..block.end),
-        format!("line has {} characters, {limit} are read", text.chars().count()),
+        format!("line has {} characters, the control reads {limit}", text.chars().count()),
     )
     .label("too much")
     .note(format!("a line has at most {limit} characters on this control, comments included{source}"))
@@ -56,14 +56,13 @@ fn finding(cx: &BlockCx<'_>, limit: u32) -> Finding {
 #[cfg(test)]
 mod tests {
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, findings};
+    use crate::testing::{World, findings, only};
 
     #[test]
     fn characters_count_and_not_bytes() {
         for (letter, count, reported) in [("a", 253, 0), ("a", 254, 1), ("ä", 253, 0), ("ä", 254, 1)] {
             let program = format!("({})\n", letter.repeat(count));
-            let found = findings(&Selection::only(&RULE), "linuxcnc", &program, &World::default());
+            let found = findings(&only(&RULE), "linuxcnc", &program, &World::default());
             assert_eq!(found.len(), reported, "{count} of {letter}");
         }
     }
@@ -71,9 +70,9 @@ mod tests {
     #[test]
     fn the_rest_of_the_line_is_marked() {
         let program = format!("({})\n", "a".repeat(300));
-        let found = findings(&Selection::only(&RULE), "linuxcnc", &program, &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", &program, &World::default());
         let places: Vec<_> = found.iter().map(|f| (f.range.start, f.range.end)).collect();
         assert_eq!(places, [(255, 302)]);
-        assert!(findings(&Selection::only(&RULE), "fanuc-mill", &program, &World::default()).is_empty());
+        assert!(findings(&only(&RULE), "fanuc-mill", &program, &World::default()).is_empty());
     }
 }

@@ -1,10 +1,10 @@
-//! Lower-case letters on a control that reads capitals only.
+//! Lower-case letters on a control that may read only capitals.
 
 use std::ops::Range;
 
 use gcheck_program::{BlockFlags, StatementKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{Edit, FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
@@ -14,7 +14,7 @@ declare_rule! {
     /// An older control refuses the block or does not load the program.
     ///
     /// ## Reported
-    /// Once a file.
+    /// Reported once per file.
     /// ```nc,reported,fanuc-mill
     /// g0 x1. y2.
     /// g1 z-1. f100.
@@ -31,7 +31,7 @@ declare_rule! {
         summary: "lower-case letters in code",
         severity: Info,
         tier: Program,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -45,15 +45,15 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Letters that one fix writes as capitals; of more, the rest is left to the next run.
+/// Letters that one fix writes as capitals; more are left to the next run.
 const MOST_LETTERS: usize = 10_000;
 
-/// All code in capitals. Blocks with a mistake in form are left alone: what is code in them is not certain.
+/// All code in capitals. Blocks with a syntax error do not change: it is not certain what is code in them.
 fn capitals(cx: &FileCx<'_>) -> Option<Fix> {
     let mut edits = Vec::new();
     cx.each_block(|block| {
         let flags = block.block().flags;
-        // What a block prints is text.
+        // Printed text is not code.
         let prints = block.statements().any(|statement| matches!(statement.kind, StatementKind::Print));
         if edits.len() >= MOST_LETTERS
             || !flags.contains(BlockFlags::LOWER_CASE)
@@ -102,8 +102,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn once_a_file_and_not_in_comments() {
@@ -121,7 +120,7 @@ mod tests {
     #[test]
     fn the_fix_leaves_comments_and_printed_text() {
         let program = "g0 x1. (start)\nDPRNT[abc#1[53]]\ng1 x#1 y[sin[#2]]\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             G0 X1. (start)
             DPRNT[abc#1[53]]

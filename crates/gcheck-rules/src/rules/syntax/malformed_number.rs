@@ -1,15 +1,15 @@
-//! A number with a part too many.
+//! A malformed number.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A number has a second decimal point, or another number is glued to a value.
+    /// A number has a second decimal point, or another number follows a value directly.
     ///
     /// ## Why it matters
-    /// The control refuses the block. Which of the two points was meant, it cannot know.
+    /// The control refuses the block. It cannot know which of the two points is right.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -29,7 +29,7 @@ declare_rule! {
         summary: "malformed number",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::MalformedNumber, check },
     }
@@ -51,20 +51,20 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             cx.in_file(start..error.range.end),
             format!("number `{number}{extra}` has two decimal points"),
         )
-        .label("which of them is meant?")
+        .label("only one of them can be right")
         .help("remove one of the points")
         .fix_if(with_one_point(cx, error, number, extra));
     }
     Finding::new(
         &META,
         cx.in_file(error.range.clone()),
-        format!("number `{extra}` is glued to what stands before it"),
+        format!("number `{extra}` directly follows another value"),
     )
     .label("belongs to no address")
     .help("add the letter before the number, or remove the number")
 }
 
-/// Two points side by side, or one more at the end: with either gone the number is the same.
+/// Two points side by side, or one more at the end: without either one the number is the same.
 fn with_one_point(cx: &BlockCx<'_>, error: &SyntaxError, number: &str, extra: &str) -> Option<Fix> {
     let is_doubled = number.ends_with('.') && extra.starts_with('.') || extra == ".";
     let rest = extra.strip_prefix('.').filter(|rest| is_doubled && !rest.contains('.'))?;
@@ -99,9 +99,9 @@ mod tests {
             "fanuc-mill",
             "G1 X[#1+1.]5 F10.\n",
             &expect![[r#"
-            1 | G1 X[#1+1.]5 F10.
-              |            ^ error[malformed-number] number `5` is glued to what stands before it
-        "#]],
+                1 | G1 X[#1+1.]5 F10.
+                  |            ^ error[malformed-number] number `5` directly follows another value
+            "#]],
         );
     }
 }

@@ -2,15 +2,15 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// An operator, a sign, a function or a bracket has nothing to work on.
+    /// An operator, a sign, a function or a bracket has no operand.
     ///
     /// ## Why it matters
-    /// The control cannot read the expression and refuses the block. Parentheses instead of brackets are the usual cause: what stands
-    /// in parentheses is a comment, so the control sees nothing there.
+    /// The control cannot read the expression and refuses the block. The usual cause is parentheses instead of
+    /// brackets: text in parentheses is a comment, so the control sees nothing there.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -39,16 +39,16 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let written = cx.slice(error.range.clone());
     let message = match written {
-        "[" => "nothing that can be read stands in the bracket".to_owned(),
+        "[" => "the bracket has no value inside".to_owned(),
         "" => "expression has no value here".to_owned(),
         _ if written.ends_with('=') => format!("assignment `{}` has no value", written.trim_end()),
-        _ => format!("`{}` has nothing to work on", written.trim_end()),
+        _ => format!("`{}` has no operand", written.trim_end()),
     };
     let finding = Finding::new(&META, cx.in_file(error.range.clone()), message)
-        .label("a number, a variable or `[` must follow");
+        .label("a number, a variable or a `[` must follow");
     let behind = cx.slice(error.range.end..cx.block().range.end);
     if behind.trim_start().starts_with('(') {
-        return finding.note("what stands in parentheses is a comment").help("write `[ ]` in expressions");
+        return finding.note("text in parentheses is a comment").help("write `[ ]` in expressions");
     }
     finding.help("complete the expression")
 }
@@ -58,8 +58,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn parentheses_are_comments() {
@@ -68,15 +67,15 @@ mod tests {
             "haas-mill",
             "#100=#1-(#2+1.)\n#101=ABS(#2)\n#102=\n#103=[]\n",
             &expect![[r#"
-            1 | #100=#1-(#2+1.)
-              |        ^ error[missing-operand] `-` has nothing to work on
-            2 | #101=ABS(#2)
-              |      ^^^ error[missing-operand] `ABS` has nothing to work on
-            3 | #102=
-              | ^^^^^ error[missing-operand] assignment `#102=` has no value
-            4 | #103=[]
-              |      ^ error[missing-operand] nothing that can be read stands in the bracket
-        "#]],
+                1 | #100=#1-(#2+1.)
+                  |        ^ error[missing-operand] `-` has no operand
+                2 | #101=ABS(#2)
+                  |      ^^^ error[missing-operand] `ABS` has no operand
+                3 | #102=
+                  | ^^^^^ error[missing-operand] assignment `#102=` has no value
+                4 | #103=[]
+                  |      ^ error[missing-operand] the bracket has no value inside
+            "#]],
         );
     }
 
@@ -87,9 +86,9 @@ mod tests {
             "linuxcnc",
             "G0 X[#<x> - <gap>]\n",
             &expect![[r#"
-            1 | G0 X[#<x> - <gap>]
-              |           ^ error[missing-operand] `-` has nothing to work on
-        "#]],
+                1 | G0 X[#<x> - <gap>]
+                  |           ^ error[missing-operand] `-` has no operand
+            "#]],
         );
     }
 
@@ -101,20 +100,20 @@ mod tests {
             "haas-mill",
             "#FIX[5.2]=1\n",
             &expect![[r#"
-            1 | #FIX[5.2]=1
-              | ^ error[missing-operand] `#` has nothing to work on
-        "#]],
+                1 | #FIX[5.2]=1
+                  | ^ error[missing-operand] `#` has no operand
+            "#]],
         );
     }
 
     #[test]
     fn words_name_the_remedy() {
         let program = "#101=ABS(#2)\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
-            `ABS` has nothing to work on
-              here: a number, a variable or `[` must follow
-              note: what stands in parentheses is a comment
+            `ABS` has no operand
+              here: a number, a variable or a `[` must follow
+              note: text in parentheses is a comment
               help: write `[ ]` in expressions
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

@@ -2,7 +2,7 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Edit, Finding, Fix, Report, Run, Severity};
 
 declare_rule! {
@@ -16,7 +16,7 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// (T2 DRILL (LONG) 8.5 MM)
     /// ```
-    /// Even with nothing behind it, where the control refuses it.
+    /// Even with nothing after it, if the control refuses it.
     /// ```nc,reported,linuxcnc
     /// (T2 DRILL (LONG)
     /// ```
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "parenthesis inside a comment",
         severity: Error,
         tier: Token,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::NestedComment, check },
     }
@@ -52,7 +52,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         "parenthesis inside a comment",
     )
     .label("comments do not nest")
-    .help("write the inner parentheses as `[ ]`, or leave them out")
+    .help("write the inner parentheses as `[ ]`, or remove them")
     .fix(brackets(comment, range.start, tail.is_empty()))
     .at_most(if refused || code { Severity::Error } else { Severity::Warning });
     let finding = if refused {
@@ -67,7 +67,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     finding
 }
 
-/// Inner parentheses become brackets; the comment then ends where it was meant to.
+/// Inner parentheses become brackets; then the comment ends at its last parenthesis.
 fn brackets(comment: &str, start: u32, same_end: bool) -> Fix {
     let last = comment.rfind(')');
     let inner = comment.char_indices().skip(1).filter_map(|(at, c)| match c {
@@ -77,7 +77,7 @@ fn brackets(comment: &str, start: u32, same_end: bool) -> Fix {
     });
     let edits = inner
         .map(|(at, text)| Edit { range: start + at as u32..start + at as u32 + 1, text: text.to_owned() });
-    // Where the comment ended early, text that was code becomes comment.
+    // If the comment ended early, text that was code becomes a comment.
     Fix { title: "write the inner parentheses as `[ ]`".to_owned(), safe: same_end, edits: edits.collect() }
 }
 
@@ -86,8 +86,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn what_follows_the_first_parenthesis_is_code() {
@@ -120,13 +119,13 @@ mod tests {
     #[test]
     fn words_tell_where_the_comment_ends() {
         let program = "(A (B) C)\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             parenthesis inside a comment
               here: comments do not nest
               there: read as code
               note: the comment ends at its first `)`
-              help: write the inner parentheses as `[ ]`, or leave them out
+              help: write the inner parentheses as `[ ]`, or remove them
               fix (unsafe): write the inner parentheses as `[ ]`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
@@ -135,7 +134,7 @@ mod tests {
     #[test]
     fn the_inner_parentheses_become_brackets() {
         let program = "(A (B) C)\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             (A [B] C)
         "#]]

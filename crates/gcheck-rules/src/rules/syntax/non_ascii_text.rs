@@ -4,16 +4,17 @@ use std::ops::Range;
 
 use gcheck_syntax::{SourceText, SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
-use crate::mistakes::foreign_characters;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
+use gcheck_lint::foreign_characters;
 
 declare_rule! {
-    /// A character stands in code that no control reads: a typographic minus, a non-breaking blank, an umlaut, a broken byte.
+    /// The code has a character that no control reads: a typographic minus, a non-breaking blank, an umlaut, a broken
+    /// byte.
     ///
     /// ## Why it matters
-    /// The control refuses the block, or loses the character on the way and reads something else. Such characters come from word
-    /// processors and web pages and often look like the right ones: `−` is no minus.
+    /// The control refuses the block, or the transfer drops the character and the control reads something else. Such
+    /// characters come from word processors and web pages and often look like the right ones: `−` is not a minus.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -31,7 +32,7 @@ declare_rule! {
         summary: "character outside ASCII in code",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::Unexpected, check },
     }
@@ -50,15 +51,15 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError, at: &Range<usize>) -> Finding 
     let range = cx.in_file(place);
     let first = written.chars().next().unwrap_or_default();
     let message = if first == SourceText::STAND_IN {
-        "byte that is no character stands in code".to_owned()
+        "byte that is not a character in code".to_owned()
     } else if first.is_whitespace() || first.is_control() || first == '\u{FEFF}' {
-        format!("blank that is no ASCII blank (U+{:04X}) stands in code", u32::from(first))
+        format!("blank that is not an ASCII blank (U+{:04X}) in code", u32::from(first))
     } else {
-        format!("character `{first}` (U+{:04X}) stands in code", u32::from(first))
+        format!("character `{first}` (U+{:04X}) in code", u32::from(first))
     };
     let finding = Finding::new(&META, range.clone(), message)
-        .label("only ASCII characters are code")
-        .note("outside comments a control reads letters, digits and the signs of its language");
+        .label("code has only ASCII characters")
+        .note("outside comments a control reads letters, digits and the symbols of its language");
     match ascii(first).filter(|_| written.chars().count() == 1) {
         Some(ascii) => {
             finding.help(format!("write `{ascii}`")).fix(Fix::risky(format!("write `{ascii}`"), range, ascii))
@@ -87,8 +88,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn a_typographic_minus() {
@@ -97,9 +97,9 @@ mod tests {
             "haas-mill",
             "G0 X\u{2212}1.\n",
             &expect![[r#"
-            1 | G0 X−1.
-              |     ^ error[non-ascii-text] character `−` (U+2212) stands in code
-        "#]],
+                1 | G0 X−1.
+                  |     ^ error[non-ascii-text] character `−` (U+2212) in code
+            "#]],
         );
     }
 
@@ -110,16 +110,16 @@ mod tests {
             "linuxcnc",
             "(\u{b5}) G0 X1 ; \u{b5}\nG0 X1 \u{bd}\n",
             &expect![[r#"
-            2 | G0 X1 ½
-              |       ^ error[non-ascii-text] character `½` (U+00BD) stands in code
-        "#]],
+                2 | G0 X1 ½
+                  |       ^ error[non-ascii-text] character `½` (U+00BD) in code
+            "#]],
         );
     }
 
     #[test]
     fn the_look_alike_is_replaced() {
         let program = "G0 X\u{2212}1.\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             G0 X-1.
         "#]]
@@ -129,13 +129,27 @@ mod tests {
     #[test]
     fn a_byte_that_is_no_character() {
         let source = gcheck_syntax::SourceText::from_bytes(b"G0 X1. \xB5\n(\xB5)\n".to_vec()).unwrap();
-        let found = findings(&Selection::only(&RULE), "haas-mill", source.text(), &World::default());
+        let found = findings(&only(&RULE), "haas-mill", source.text(), &World::default());
         expect![[r#"
-            byte that is no character stands in code
-              here: only ASCII characters are code
-              note: outside comments a control reads letters, digits and the signs of its language
+            byte that is not a character in code
+              here: code has only ASCII characters
+              note: outside comments a control reads letters, digits and the symbols of its language
               help: remove it, or put it in a comment
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
+    }
+
+    #[test]
+    fn the_end_mark_of_dos_counts_in_code_only() {
+        check_rule(&RULE, "fanuc-mill", "G0 X1.\n\u{1a}", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "G0 X1.\u{1a}\n",
+            &expect![[r#"
+            1 | G0 X1.
+              |       ^ error[non-ascii-text] byte that is not a character in code
+        "#]],
+        );
     }
 }

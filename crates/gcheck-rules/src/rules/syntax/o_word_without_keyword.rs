@@ -1,8 +1,8 @@
-//! An O-word that says nothing.
+//! An O-word without a keyword.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, Severity};
 
 declare_rule! {
@@ -37,7 +37,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let alone = cx.slice(error.range.end..cx.block().range.end).trim_start().trim_end_matches(')');
     let finding = Finding::new(&META, cx.in_file(error.range.clone()), format!("`{name}` has no keyword"))
         .label("`sub`, `call`, `if` or the like must follow")
-        .help(format!("write what `{name}` is to do, for example `{name} call`"));
+        .help(format!("write the keyword for `{name}`, for example `{name} call`"));
     // Alone in its block it may be the head of a subprogram.
     if alone.is_empty() || alone.starts_with(['(', ';']) {
         return finding.at_most(Severity::Warning);

@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use gcheck_program::{BlockFlags, StatementKind, Value};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// Two signs stand in front of a value: `Z--1.`.
+    /// A value has two signs before it: `Z--1.`.
     ///
     /// ## Why it matters
-    /// Where a control takes it, two minus signs are a plus, and the tool goes the other way. Others stop with an alarm.
+    /// On a control that accepts it, two minus signs are a plus, and the tool moves the other way. Others stop with an
+    /// alarm.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -21,12 +22,12 @@ declare_rule! {
     /// #100=--5.
     /// ```
     /// ## Not reported
-    /// A sign in front of a bracket or variable, and one behind an operator:
+    /// A sign before a bracket or variable, and one after an operator:
     /// ```nc,quiet,linuxcnc
     /// G1 Z-[-5] X-#1 Y[3--2] F100
     /// ```
     rule "sign-given-twice" in "syntax" {
-        summary: "two signs in front of a value",
+        summary: "two signs before a value",
         severity: Warning,
         tier: Block,
         since: "0.1.0",
@@ -50,7 +51,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// Signs in front of a value, blanks between them or not.
+/// Signs before a value, with or without blanks between them.
 fn signs(value: &str) -> usize {
     let is_front = |c: &char| matches!(c, '+' | '-' | ' ' | '\t');
     value.chars().take_while(is_front).filter(|c| matches!(c, '+' | '-')).count()
@@ -60,10 +61,10 @@ fn finding(cx: &BlockCx<'_>, range: Range<u32>, value: &str) -> Finding {
     let value = value.trim();
     let minus = value.chars().take_while(|c| !c.is_ascii_digit()).filter(|c| *c == '-').count();
     let read = if minus % 2 == 0 { "plus" } else { "minus" };
-    Finding::new(&META, cx.in_file(range), format!("two signs in front of a value (`{value}`)"))
-        .label(format!("{read}, where the control takes it"))
+    Finding::new(&META, cx.in_file(range), format!("two signs before a value (`{value}`)"))
+        .label(format!("{read}, if the control accepts it"))
         .note("two minus signs make a plus; some controls stop with an alarm")
-        .help("keep the sign that is meant")
+        .help("keep the right sign")
 }
 
 #[cfg(test)]
@@ -71,8 +72,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_word_is_marked() {
@@ -82,25 +82,25 @@ mod tests {
             "G1 X--1. Y+-2. Z- -#1 F10.\n#1= - -3.\nX-[-1.]\n",
             &expect![[r#"
             1 | G1 X--1. Y+-2. Z- -#1 F10.
-              |    ^^^^^ warning[sign-given-twice] two signs in front of a value (`--1.`)
+              |    ^^^^^ warning[sign-given-twice] two signs before a value (`--1.`)
             1 | G1 X--1. Y+-2. Z- -#1 F10.
-              |          ^^^^^ warning[sign-given-twice] two signs in front of a value (`+-2.`)
+              |          ^^^^^ warning[sign-given-twice] two signs before a value (`+-2.`)
             1 | G1 X--1. Y+-2. Z- -#1 F10.
-              |                ^^^^^^ warning[sign-given-twice] two signs in front of a value (`- -#1`)
+              |                ^^^^^^ warning[sign-given-twice] two signs before a value (`- -#1`)
             2 | #1= - -3.
-              | ^^^^^^^^^ warning[sign-given-twice] two signs in front of a value (`- -3.`)
+              | ^^^^^^^^^ warning[sign-given-twice] two signs before a value (`- -3.`)
         "#]],
         );
     }
 
     #[test]
     fn words_say_which_way_it_goes() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G1 Z--5 F100\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G1 Z--5 F100\n", &World::default());
         expect![[r#"
-            two signs in front of a value (`--5`)
-              here: plus, where the control takes it
+            two signs before a value (`--5`)
+              here: plus, if the control accepts it
               note: two minus signs make a plus; some controls stop with an alarm
-              help: keep the sign that is meant
+              help: keep the right sign
         "#]]
         .assert_eq(&words(&found[0]));
     }

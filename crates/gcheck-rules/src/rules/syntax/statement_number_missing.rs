@@ -2,15 +2,15 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// `GOTO`, `DO` or `END` is not followed by its number.
     ///
     /// ## Why it matters
-    /// The control refuses the block. After `GOTO` stands the bare number, without `N`; after `DO` and `END` the same digit joins the
-    /// two ends of a loop.
+    /// The control refuses the block. `GOTO` takes the number without `N`; `DO` and `END` of one loop have the same
+    /// digit.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "`GOTO`, `DO` or `END` without its number",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::MissingNumber, check },
     }
@@ -66,8 +66,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn the_keyword_is_marked() {
@@ -102,7 +101,7 @@ mod tests {
     #[test]
     fn a_label_becomes_its_number() {
         let program = "GOTO N10\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", program, &World::default());
         expect![[r#"
             GOTO 10
         "#]]

@@ -1,8 +1,8 @@
-//! A form of text that this control does not have.
+//! A statement of another control.
 
 use gcheck_syntax::{ForeignForm, SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -48,22 +48,22 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError, form: ForeignForm) -> Finding 
     let o_words = cx.control().syntax().o_words;
     let (message, help) = match form {
         ForeignForm::OWord => (
-            format!("O-word `{written}` is no statement of this control"),
+            format!("O-word `{written}` is not a statement of this control"),
             "call a program with `M98` or `G65`",
         ),
         ForeignForm::MacroStatement if o_words => (
-            format!("`{written}` without an O number is no statement of this control"),
+            format!("`{written}` without an O number is not a statement of this control"),
             "use O-words: `o100 if [...]`, `o100 while [...]`",
         ),
         ForeignForm::MacroStatement => {
-            (format!("`{written}` is no statement of this control"), "write it without macro statements")
+            (format!("`{written}` is not a statement of this control"), "write it without macro statements")
         }
         ForeignForm::NamedParameter => {
             (format!("named parameter `{written}` on a control without names"), "use a numbered variable")
         }
         ForeignForm::PowerOperator => (
             format!("operator `{written}` does not exist on this control"),
-            "multiply, or use `POW` where there is one",
+            "multiply, or use `POW` if the control has it",
         ),
     };
     Finding::new(&META, cx.in_file(error.range.clone()), message)
@@ -77,8 +77,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_form_is_named() {
@@ -87,13 +86,13 @@ mod tests {
             "haas-mill",
             "o100 call [1]\n#<depth>=2.\n#1=#2**2\n",
             &expect![[r#"
-            1 | o100 call [1]
-              | ^^^^^^^^^ error[statement-of-another-control] O-word `o100 call` is no statement of this control
-            2 | #<depth>=2.
-              | ^^^^^^^^ error[statement-of-another-control] named parameter `#<depth>` on a control without names
-            3 | #1=#2**2
-              |      ^^ error[statement-of-another-control] operator `**` does not exist on this control
-        "#]],
+                1 | o100 call [1]
+                  | ^^^^^^^^^ error[statement-of-another-control] O-word `o100 call` is not a statement of this control
+                2 | #<depth>=2.
+                  | ^^^^^^^^ error[statement-of-another-control] named parameter `#<depth>` on a control without names
+                3 | #1=#2**2
+                  |      ^^ error[statement-of-another-control] operator `**` does not exist on this control
+            "#]],
         );
     }
 
@@ -104,18 +103,18 @@ mod tests {
             "linuxcnc",
             "IF [#1 GT 5] GOTO 20\n",
             &expect![[r#"
-            1 | IF [#1 GT 5] GOTO 20
-              | ^^ error[statement-of-another-control] `IF` without an O number is no statement of this control
-        "#]],
+                1 | IF [#1 GT 5] GOTO 20
+                  | ^^ error[statement-of-another-control] `IF` without an O number is not a statement of this control
+            "#]],
         );
     }
 
     #[test]
     fn words_name_the_control() {
         let program = "GOTO 20\n";
-        let found = findings(&Selection::only(&RULE), "linuxcnc", program, &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
         expect![[r#"
-            `GOTO` without an O number is no statement of this control
+            `GOTO` without an O number is not a statement of this control
               here: language of another control
               note: the program is checked for LinuxCNC
               help: use O-words: `o100 if [...]`, `o100 while [...]`

@@ -2,14 +2,14 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A `]` stands where no `[` is open.
+    /// There is a `]` while no `[` is open.
     ///
     /// ## Why it matters
-    /// The control refuses the block. Often a `]` too many cut an expression short.
+    /// The control refuses the block. Often an extra `]` ends an expression too early.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -26,7 +26,7 @@ declare_rule! {
         summary: "`]` without `[`",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::StrayBracket, check },
     }
@@ -39,7 +39,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "bracket `]` closes nothing")
         .label("every `[` before it is closed already")
-        .help("remove the `]`, or add the `[` where the expression begins")
+        .help("remove the `]`, or add a `[` where the expression begins")
         .fix(Fix::risky("remove the `]`", cx.in_file(error.range.clone()), ""))
 }
 

@@ -1,15 +1,15 @@
-//! A keyword where none can stand.
+//! A keyword in the wrong place.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A word of the macro language stands where it has no meaning.
+    /// A word of the macro language is in a place where it has no meaning.
     ///
     /// ## Why it matters
-    /// The control refuses the block. `ELSE` and `ENDIF` are the usual ones: many controls have no such statements.
+    /// The control refuses the block. Usually it is `ELSE` or `ENDIF`: many controls do not have these statements.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -26,7 +26,7 @@ declare_rule! {
     /// o100 endif
     /// ```
     rule "stray-keyword" in "syntax" {
-        summary: "keyword where none can stand",
+        summary: "keyword in the wrong place",
         severity: Error,
         tier: Token,
         since: "0.1.0",
@@ -40,16 +40,13 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let keyword = cx.slice(error.range.clone());
-    let finding = Finding::new(
-        &META,
-        cx.in_file(error.range.clone()),
-        format!("keyword `{keyword}` cannot stand here"),
-    );
+    let finding =
+        Finding::new(&META, cx.in_file(error.range.clone()), format!("keyword `{keyword}` cannot be here"));
     let branch = ["ELSE", "ELSEIF", "ENDIF"].iter().any(|k| k.eq_ignore_ascii_case(keyword));
     match (branch, cx.control().syntax().o_words) {
         (true, false) => finding
-            .label("this control has no such statement")
-            .note("`IF` decides about its own block only")
+            .label("this control does not have this statement")
+            .note("`IF` controls only its own block")
             .help("jump over the blocks with `IF [...] GOTO`"),
         (true, true) => finding
             .label("no O number before it")
@@ -65,8 +62,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_branch_of_another_language() {
@@ -75,9 +71,9 @@ mod tests {
             "haas-mill",
             "ELSE\n",
             &expect![[r#"
-            1 | ELSE
-              | ^^^^ error[stray-keyword] keyword `ELSE` cannot stand here
-        "#]],
+                1 | ELSE
+                  | ^^^^ error[stray-keyword] keyword `ELSE` cannot be here
+            "#]],
         );
     }
 
@@ -88,18 +84,18 @@ mod tests {
             "linuxcnc",
             "o1 if [#1 GT 5]\nendif\n",
             &expect![[r#"
-            2 | endif
-              | ^^^^^ error[stray-keyword] keyword `endif` cannot stand here
-        "#]],
+                2 | endif
+                  | ^^^^^ error[stray-keyword] keyword `endif` cannot be here
+            "#]],
         );
     }
 
     #[test]
     fn words_depend_on_the_control() {
         let program = "endif\n";
-        let found = findings(&Selection::only(&RULE), "linuxcnc", program, &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
         expect![[r#"
-            keyword `endif` cannot stand here
+            keyword `endif` cannot be here
               here: no O number before it
               help: write the O number of its `IF` before `endif`
         "#]]

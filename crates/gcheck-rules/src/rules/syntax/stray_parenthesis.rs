@@ -2,21 +2,21 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A `)` stands where no comment is open.
+    /// There is a `)` while no comment is open.
     ///
     /// ## Why it matters
-    /// The control refuses the block. Often the `(` was lost, and the words in front of the `)` were meant as comment: they are read
-    /// as code.
+    /// The control refuses the block. Often the `(` is missing, and the control reads the words before the `)` as code,
+    /// not as a comment.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// G0 X1. START)
     /// ```
-    /// Parentheses are no brackets: what a machinist's calculator accepts is a comment here.
+    /// Parentheses are not brackets: an expression in parentheses is a comment here.
     /// ```nc,reported,linuxcnc
     /// G0 X1 )
     /// ```
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "`)` without `(`",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::StrayParenthesis, check },
     }
@@ -41,7 +41,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "`)` closes no comment")
         .label("no `(` before it")
-        .note("a comment stands between `(` and `)` on one line")
+        .note("a comment is between `(` and `)` on one line")
         .help("add the `(` where the comment begins, or remove the `)`")
         .fix(Fix::risky("remove the `)`", cx.in_file(cx.with_blanks_before(error.range.clone())), ""))
 }

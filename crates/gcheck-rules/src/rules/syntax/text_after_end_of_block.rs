@@ -1,16 +1,16 @@
-//! Text behind the end-of-block character.
+//! Text after the end-of-block character.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// Text that is no code stands behind a `;`.
+    /// There is text that is not code after a `;`.
     ///
     /// ## Why it matters
-    /// On this control `;` ends a block and what follows is the next block. A remark there is read as code: the control refuses it,
-    /// or acts on what happens to be a word.
+    /// On this control `;` ends a block, and the text after it is the next block. The control reads a remark there as
+    /// code: it refuses it, or executes what happens to be a word.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -20,15 +20,15 @@ declare_rule! {
     /// ```nc,quiet,haas-mill
     /// G0 X1. ; (move to start)
     /// ```
-    /// Where `;` begins a comment, anything may follow.
+    /// If `;` begins a comment, any text may follow.
     /// ```nc,quiet,linuxcnc
     /// G0 X1 ; move to start
     /// ```
     rule "text-after-end-of-block" in "syntax" {
-        summary: "text behind the end-of-block character",
+        summary: "text after the end-of-block character",
         severity: Warning,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::TextAfterEndOfBlock, check },
     }
@@ -42,7 +42,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     let text = cx.slice(error.range.clone()).trim_end();
     let start = error.range.start;
     let range = cx.in_file(start..start + text.len() as u32);
-    let finding = Finding::new(&META, range.clone(), "remark behind `;` is read as code")
+    let finding = Finding::new(&META, range.clone(), "remark after `;` is read as code")
         .label("a block of its own on this control")
         .note("`;` is the end-of-block character here, not the beginning of a comment")
         .help("put the remark in parentheses");
@@ -57,8 +57,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn the_remark_is_marked() {
@@ -68,7 +67,7 @@ mod tests {
             "G0 X1. ; move to start\nG0 X1. ; (move)\nG0 X1. ; G1 F5.\n",
             &expect![[r#"
             1 | G0 X1. ; move to start
-              |          ^^^^^^^^^^^^^ warning[text-after-end-of-block] remark behind `;` is read as code
+              |          ^^^^^^^^^^^^^ warning[text-after-end-of-block] remark after `;` is read as code
         "#]],
         );
     }
@@ -81,7 +80,7 @@ mod tests {
     #[test]
     fn the_remark_becomes_a_comment() {
         let program = "G0 X1. ; move to start\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             G0 X1. ; (move to start)
         "#]]

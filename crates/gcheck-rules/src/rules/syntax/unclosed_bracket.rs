@@ -2,7 +2,7 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
@@ -37,9 +37,9 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "bracket `[` is not closed")
-        .label("no `]` for this one")
+        .label("there is no `]` for this bracket")
         .note("an expression ends with its block")
-        .help("add the `]` where the expression ends")
+        .help("add a `]` where the expression ends")
 }
 
 #[cfg(test)]

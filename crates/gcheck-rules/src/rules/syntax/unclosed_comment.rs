@@ -2,15 +2,15 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A comment is opened with `(` and not closed on its line.
+    /// A comment begins with `(` and does not end on its line.
     ///
     /// ## Why it matters
-    /// The control either refuses the block or takes the rest of the line as comment, code included. A comment never runs
-    /// on to the next line.
+    /// The control either refuses the block or takes the rest of the line as a comment, including code. A comment never
+    /// continues on the next line.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -24,7 +24,7 @@ declare_rule! {
         summary: "comment is not closed",
         severity: Error,
         tier: Token,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::UnclosedComment, check },
     }
@@ -42,7 +42,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         .label("no `)` on this line")
         .note("a comment ends with its line; what follows on the next line is code")
         .help("close the comment with `)`")
-        // The comment's words are lost to the control already, so closing it at the line end moves nothing.
+        // The control already ignores the words of the comment, so closing it at the line end changes no motion.
         .fix(Fix::safe("close the comment at the end of the line", end..end, ")"))
 }
 

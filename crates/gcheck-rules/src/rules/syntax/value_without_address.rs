@@ -2,11 +2,12 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::program_numbers::is_number_with_zero;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A number stands without the letter that says what it is.
+    /// A number has no letter before it.
     ///
     /// ## Why it matters
     /// The control refuses the block.
@@ -20,7 +21,7 @@ declare_rule! {
     /// G1 X1. 2. F10.
     /// ```
     /// ## Not reported
-    /// Where a control allows blanks inside numbers, the two parts are one number.
+    /// If a control allows blanks inside numbers, both sides are one number.
     /// ```nc,quiet,linuxcnc
     /// G1 X1. 25 F10
     /// ```
@@ -34,7 +35,7 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
-    if !super::zero_for_letter_o::is_program_number(cx, error) {
+    if !is_number_with_zero(cx, error) {
         report.add(finding(cx, error));
     }
 }

@@ -2,14 +2,14 @@
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
     /// A `WHILE` with its condition is not followed by `DO` and a number.
     ///
     /// ## Why it matters
-    /// The control refuses the block. A zero typed for the letter O makes a `D` word of it: `D01` is no `DO1`.
+    /// The control refuses the block. A zero instead of the letter O makes it a `D` word: `D01` is not `DO1`.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -30,7 +30,7 @@ declare_rule! {
         summary: "`WHILE` without `DO`",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::WhileWithoutDo, check },
     }
@@ -50,9 +50,9 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
         return finding
             .also(cx.in_file(zero..zero + 1), "this is a zero")
             .help("write the letter O in `DO`")
-            .fix(Fix::risky("write the letter O for the zero", cx.in_file(zero..zero + 1), "O"));
+            .fix(Fix::risky("replace the zero by the letter O", cx.in_file(zero..zero + 1), "O"));
     }
-    finding.help("add `DO1` behind the condition")
+    finding.help("add `DO1` after the condition")
 }
 
 #[cfg(test)]
@@ -60,8 +60,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn the_condition_is_marked() {
@@ -79,7 +78,7 @@ mod tests {
     #[test]
     fn a_zero_for_the_letter() {
         let program = "WHILE [#1 LT 5.] D01\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             WHILE [#1 LT 5.] DO1
         "#]]
@@ -89,13 +88,13 @@ mod tests {
     #[test]
     fn words_point_at_the_zero() {
         let program = "WHILE[#1LT5.]D01\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             `WHILE` has no `DO`
               here: `DO` and a number must follow
               there: this is a zero
               help: write the letter O in `DO`
-              fix (unsafe): write the letter O for the zero
+              fix (unsafe): replace the zero by the letter O
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());
     }

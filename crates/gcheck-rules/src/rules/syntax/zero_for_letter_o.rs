@@ -1,12 +1,13 @@
-//! A zero where the program number has its letter O.
+//! A zero instead of the letter O of a program number.
 
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::program_numbers::is_number_with_zero;
 use crate::{BlockCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// A block begins with a number of four digits or more whose first is a zero: `01234` for `O1234`.
+    /// A block begins with a zero and four digits or more: `01234` for `O1234`.
     ///
     /// ## Why it matters
     /// The control does not find the program under its number, or refuses to load it.
@@ -29,28 +30,16 @@ declare_rule! {
         summary: "zero instead of the letter O of a program number",
         severity: Error,
         tier: Token,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Token { on: |kind| kind == SyntaxErrorKind::ValueWithoutAddress, check },
     }
 }
 
 fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
-    if is_program_number(cx, error) {
+    if is_number_with_zero(cx, error) {
         report.add(finding(cx, error));
     }
-}
-
-/// Does a number without address look like a program number with a zero for its letter?
-pub(super) fn is_program_number(cx: &BlockCx<'_>, error: &SyntaxError) -> bool {
-    let number = cx.slice(error.range.clone());
-    let before = cx.slice(cx.block().range.start..error.range.start);
-    cx.control().syntax().program_number
-        && (4..=9).contains(&number.len())
-        && number.starts_with('0')
-        && number.bytes().all(|b| b.is_ascii_digit())
-        && before.trim_matches([' ', '\t', '%', '\u{FEFF}']).is_empty()
-        && cx.words().is_empty()
 }
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
@@ -72,8 +61,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed};
+    use crate::testing::{World, check_rule, findings, fixed, only};
 
     #[test]
     fn at_the_head_of_a_program() {
@@ -96,7 +84,7 @@ mod tests {
     #[test]
     fn the_zero_becomes_the_letter() {
         let program = "00020\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-lathe", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", program, &World::default());
         expect![[r#"
             O0020
         "#]]

@@ -3,20 +3,21 @@
 use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
-use super::super::spindle::spindle_stopped_while_cutting::is_cut;
-use crate::coolant::CoolantWatch;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::with_tool_change;
+use crate::facts::coolant::CoolantWatch;
+use crate::facts::cutting::is_cut;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// One tool cuts with the coolant off, and its work ends by switching it off (`M9`), while all other tools of the program
-    /// cut with coolant.
+    /// One tool cuts with the coolant off, and its section ends by switching it off (`M9`), while all other tools of
+    /// the program cut with coolant.
     ///
-    /// A tool that cuts dry and says nothing of coolant is left to `tool-cuts-dry`.
+    /// For a tool that cuts dry without any coolant code, see `tool-cuts-dry`.
     ///
     /// ## Why it matters
-    /// Who wrote the `M9` meant the tool to have coolant. A forgotten `M8` burns the tool, or leaves chips in the hole.
+    /// The `M9` shows that the tool should have coolant. A forgotten `M8` burns the tool, or leaves chips in the hole.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -58,17 +59,17 @@ declare_rule! {
 #[derive(Clone, Default, PartialEq)]
 struct CoolantForgotten {
     coolant: CoolantWatch,
-    /// The first cut of the tool at work, if it was dry and coolant was not spoken of since.
+    /// The first cut of the present tool, if it was dry and no coolant code followed.
     dry: Option<Finding>,
     /// Tools that cut with coolant.
     wet: usize,
-    /// Tools that cut dry and say nothing of coolant.
+    /// Tools that cut dry without any coolant code.
     silent: usize,
-    /// What is to be said of the first tool that switches off what was not on.
+    /// The finding of the first tool that switches off coolant that was not on.
     odd: Option<Finding>,
     /// How many there are.
     odd_ones: usize,
-    /// It is the tool at work.
+    /// It is the present tool.
     is_last: bool,
 }
 
@@ -99,7 +100,8 @@ impl PathRule for CoolantForgotten {
                     self.odd_ones += 1;
                     self.is_last = true;
                     self.odd = self.odd.take().or(Some(
-                        finding.also(cx.effect_range(is_off), "what is switched off here was not on"),
+                        finding
+                            .also(cx.effect_range(is_off), "the coolant that this switches off was not on"),
                     ));
                 }
             }
@@ -119,17 +121,21 @@ impl PathRule for CoolantForgotten {
             self.wet += 1;
             return;
         }
-        let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
-        let off = cx.cancel_of(Effect::CoolantOff).unwrap_or_default();
+        let on = cx
+            .name_of_effect(Effect::FloodOn)
+            .or_else(|| cx.name_of_effect(Effect::MistOn))
+            .unwrap_or_default();
+        let off = cx.name_of_effect(Effect::CoolantOff).unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}` before its `{off}`)");
-        let finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
-            "switch the coolant on with `{on}`, or take the `{off}` out where the tool cuts dry"
-        ));
-        self.dry = Some(cx.with_tool_change(finding));
+        let finding = cx
+            .finding(&META, cx.range(), message)
+            .label("its first cut")
+            .help(format!("switch the coolant on with `{on}`, or remove the `{off}` if the tool cuts dry"));
+        self.dry = Some(with_tool_change(cx, finding));
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
-        // Many programs switch everything off at their end, whatever was on: there one other tool is no evidence.
+        // Many programs switch everything off at their end, whatever was on: there one other tool is not evidence.
         let enough = if self.is_last { 2 } else { 1 };
         let is_alone = self.odd_ones == 1 && self.silent == 0 && self.dry.is_none();
         if let Some(finding) = self.odd.take().filter(|_| is_alone && self.wet >= enough) {
@@ -149,7 +155,7 @@ mod tests {
     use super::RULE;
     use crate::testing::check_rule;
 
-    /// A program of tools, each with what stands before and behind its cut.
+    /// A program of tools, each with what is before and after its cut.
     fn program(tools: &[(&str, &str)]) -> String {
         let tool = |(number, (before, behind)): (usize, &(&str, &str))| {
             format!("T{} M6\nS1000 M3\n{before}\nG1 X{number}. F100.\n{behind}\n", number + 1)

@@ -3,16 +3,16 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Axis, Event, Fact, Role, TravelKind};
 
-use super::super::spindle::spindle_stopped_while_cutting::is_cut;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool has worked with its length in effect, the length is cancelled (`G49`), and the tool goes on to cut along Z.
+    /// A tool has worked with its length in effect, the length is cancelled (`G49`), and then the tool cuts along Z.
     ///
     /// ## Why it matters
-    /// From there the control counts Z for the spindle's nose: the tool goes deeper by its own length.
+    /// From there Z is the position of the spindle nose: the tool goes deeper by its own length.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -57,7 +57,7 @@ declare_rule! {
 struct LengthCancelledBeforeCut {
     /// The tool change whose tool has cut with its length in effect.
     worked: Option<At>,
-    /// The block whose cancelling was told of.
+    /// The cancelling block that was reported.
     told: Option<At>,
 }
 
@@ -92,16 +92,16 @@ impl PathRule for LengthCancelledBeforeCut {
                 }
                 self.told = Some(cancelled);
                 let off = cx.code_name(Role::Length).unwrap_or_default();
-                let on = cx.cancel_of(Effect::LengthPlus).unwrap_or_default();
+                let on = cx.name_of_effect(Effect::LengthPlus).unwrap_or_default();
                 let finding = cx
                     .finding(
                         &META,
                         cx.letter_range('Z'),
                         format!("the tool cuts after its length was cancelled (`{off}`)"),
                     )
-                    .label("counts for the spindle's nose, the tool is longer by its length")
+                    .label("moves the spindle nose to this Z: the tool goes deeper by its length")
                     .help(format!(
-                        "give the length again before (`{on} H…`), or cancel it only when the tool goes away"
+                        "give the length again before this (`{on} H…`), or cancel it only when the tool moves away"
                     ));
                 report.add(cx.resting_on(finding, fact, &format!("`{off}`")));
             }
@@ -110,7 +110,7 @@ impl PathRule for LengthCancelledBeforeCut {
     }
 }
 
-/// A feed move to below the zero of the part: where the tool comes from is not known behind a cancelled length.
+/// A feed move to below the zero of the part: after a cancelled length the tool's start is unknown.
 fn goes_into_the_part(event: &Event) -> bool {
     match event {
         Event::Travel(travel) => travel.kind == TravelKind::Feed && travel.to.raw(Axis::Z) < 0.0,

@@ -3,18 +3,18 @@
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 
-use crate::boundary::is_before;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
-use crate::schemes::{Pairs, whole};
+use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
+use crate::facts::offset_schemes::{Pairs, whole};
 use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool works with the length offset that, by the scheme of the program's other tools, belongs to another tool: the others
-    /// take `H` equal to `T`, or `T` and a fixed number more, and this one does not.
+    /// A tool works with a length offset that, by the scheme of the program's other tools, belongs to another tool: the
+    /// others use `H` equal to `T`, or `T` plus a fixed number, and this one does not.
     ///
     /// ## Why it matters
-    /// A tool with the length of another one cuts air, or dives into the part or the fixture by the difference.
+    /// A tool with the length of another one cuts air, or cuts into the part or the fixture by the difference.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -36,7 +36,7 @@ declare_rule! {
     /// G1 Z0.
     /// M30
     /// ```
-    /// A second offset of the same tool is meant.
+    /// A second offset of the same tool is deliberate.
     /// ```nc,quiet,haas-mill
     /// T1 M6
     /// G43 H1 Z1.
@@ -52,7 +52,7 @@ declare_rule! {
         summary: "length offset of another tool",
         severity: Warning,
         tier: Path,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::CUTS.union(Watch::FINISH),
@@ -92,7 +92,7 @@ impl PathRule for LengthOffsetOfAnotherTool {
             let message = format!("tool {tool} works with length offset {offset}{word}");
             let change = changed.filter(|_| !by_t).and_then(|at| Some((at, cx.range_of(at)?)));
             match (given, change) {
-                // Given for the tool before, and never since.
+                // Given for the tool before, and not given again.
                 (Some((at, given)), Some((change, range))) if is_before(at, change) => {
                     let finding = cx
                         .finding(&META, cx.range(), message)
@@ -122,15 +122,15 @@ impl PathRule for LengthOffsetOfAnotherTool {
                 finding
                     .label(scheme.label("length offset"))
                     .note(scheme.note("length offset", 'H'))
-                    .help(format!("use offset {}, or tell why not in a suppression", scheme.expected)),
+                    .help(format!("use offset {}, or say why not in a suppression", scheme.expected)),
             );
         }
         let strangers = if by_t { self.pairs.take_strangers() } else { Vec::new() };
         for (finding, tool) in strangers {
             report.add(
                 finding
-                    .label("the number of another station")
-                    .help(format!("use offset {tool}, or tell why not in a suppression"))
+                    .label("that is that is the number of another station")
+                    .help(format!("use offset {tool}, or say why not in a suppression"))
                     .at_most(Severity::Info),
             );
         }
@@ -142,8 +142,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_offset_that_breaks_the_scheme_is_marked() {
@@ -273,7 +272,7 @@ mod tests {
     #[test]
     fn what_it_says() {
         let found = findings(
-            &Selection::only(&RULE),
+            &only(&RULE),
             "haas-mill",
             "T1 M6\nG43 H1 Z1.\nG1 Z0. F5.\nT2 M6\nG43 H1 Z1.\nG1 Z0.\nM30\n",
             &World::default(),
@@ -283,7 +282,7 @@ mod tests {
               here: the length offset of tool 1
               there: tool 2 comes into the spindle here
               note: the program's other tool has the length offset of the tool's own number (H = T)
-              help: use offset 2, or tell why not in a suppression
+              help: use offset 2, or say why not in a suppression
               fix (unsafe): write `H2`
         "#]]
         .assert_eq(&found.iter().map(words).collect::<String>());

@@ -3,14 +3,14 @@
 use gcheck_controls::Effect;
 use gcheck_program::BlockFlags;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
     /// A block moves Z with tool length compensation and offset number zero: `G43 H0 Z1.`.
     ///
     /// ## Why it matters
-    /// Offset zero is no length: the spindle's nose goes where the tool's tip should. On some controls `H0` even ends the
+    /// Offset zero has no length: the spindle nose goes where the tool tip should. On some controls `H0` even ends the
     /// compensation.
     ///
     /// ## Reported
@@ -20,7 +20,7 @@ declare_rule! {
     /// M30
     /// ```
     /// ## Not reported
-    /// Alone in its block it is a way to end the compensation.
+    /// Alone in its block it ends the compensation.
     /// ```nc,quiet,haas-mill
     /// T1 M6
     /// G43 H1 Z1.
@@ -40,7 +40,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let is_length = |effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus);
     let Some((_, code)) = cx.codes().find(|(_, code)| is_length(code.effect())) else { return };
     let Some(word) = cx.word('H').filter(|word| word.number() == Some(0.0)) else { return };
-    // Where it means the tool in the spindle it is a length.
+    // If it means the tool in the spindle, it has a length.
     let is_of_the_tool = cx.control().semantics().tools.length_from_tool;
     if is_of_the_tool || cx.word('Z').is_none() || !cx.words_are_plain() {
         return;
@@ -52,7 +52,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             cx.range(word),
             format!("tool length compensation with offset zero (`{name} {}`)", cx.text(word)),
         )
-        .label("offset zero is no length")
+        .label("offset zero has no length")
         .help("give the number of the tool's length offset"),
     );
 }

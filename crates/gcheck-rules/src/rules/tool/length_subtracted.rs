@@ -1,15 +1,15 @@
-//! A tool length that is subtracted where others are added.
+//! A tool length that is subtracted while others are added.
 
 use gcheck_controls::Effect;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Fix, Report, Run};
 
 declare_rule! {
-    /// One tool takes its length with the code that subtracts it (`G44`), while others of the program add theirs (`G43`).
+    /// One tool uses the code that subtracts its length (`G44`), while others of the program add theirs (`G43`).
     ///
     /// ## Why it matters
-    /// Offsets are measured for one of the two. With the other the tool goes too deep by twice its offset.
+    /// Offsets are measured for one of the two codes. With the other one the tool goes too deep by twice its offset.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -32,10 +32,10 @@ declare_rule! {
     /// M30
     /// ```
     rule "length-subtracted" in "tool" {
-        summary: "tool length subtracted where others are added",
+        summary: "tool length subtracted while others are added",
         severity: Warning,
         tier: Program,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
@@ -57,7 +57,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
             .label("the offset counts against the tool")
             .also(added.clone(), format!("here it is added (`{plus}`)"))
             .help(format!(
-                "write `{plus}`, or tell in a suppression why this offset is measured the other way"
+                "write `{plus}`, or say in a suppression why this offset is measured the other way"
             ))
             .fix_if(Some(Fix::risky(format!("write `{plus}`"), range.clone(), plus.to_string()))),
     );

@@ -1,21 +1,22 @@
-//! A tool that is called and never put in the spindle.
+//! A tool that is called and never changed in.
 
 use std::ops::Range;
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, At, Domain, Ending, Event, Fact};
 
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool is called (`T`), another one is called after it or the program ends, and no tool change (`M6`) came between.
+    /// A tool is called (`T`), and then another one is called or the program ends, without a tool change (`M6`) in
+    /// between.
     ///
     /// ## Why it matters
-    /// What follows the `T` is cut with the tool that was in the spindle before. The tool that the first block of the program
-    /// needs may be called at its end: so the next part begins sooner.
+    /// The blocks after the `T` cut with the tool that was in the spindle before. The last call of a program may
+    /// prepare the first tool of the next part.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -48,14 +49,14 @@ declare_rule! {
     }
 }
 
-/// A call that no tool change has answered.
+/// A call without a tool change so far.
 #[derive(Clone, PartialEq)]
 struct Call {
     at: At,
     tool: u32,
     range: Range<u32>,
     finding: Finding,
-    /// Where its length came into effect, with another tool in the spindle.
+    /// The place where its length came into effect, with another tool in the spindle.
     length: Option<Range<u32>>,
 }
 
@@ -88,7 +89,7 @@ impl PathRule for ToolCalledNotChanged {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        if cx.boundary() == Some(Boundary::ProgramEnd) {
+        if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.end(cx, report);
         }
     }
@@ -116,9 +117,9 @@ impl PathRule for ToolCalledNotChanged {
                         .finding(
                             &META,
                             range.clone(),
-                            format!("tool {tool} is called and never put in the spindle (`T{tool}`)"),
+                            format!("tool {tool} is called and never changed in (`T{tool}`)"),
                         )
-                        .help("change the tool with `M6`, or take the call out");
+                        .help("change the tool with `M6`, or remove the call");
                     self.called =
                         Some(Call { at: cx.origin().at, tool: *tool, range, finding, length: None });
                 }
@@ -139,7 +140,7 @@ impl PathRule for ToolCalledNotChanged {
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if cx.ends_at_tape_mark(ending) {
+        if ends_at_tape_mark(cx, ending) {
             self.end(cx, report);
         }
     }
@@ -157,11 +158,11 @@ impl ToolCalledNotChanged {
     }
 }
 
-/// A tool change in a program that is not shown here changes the tool all the same.
+/// A tool change in a program that is not shown here changes the tool too.
 fn is_in_spindle(cx: &PathCx<'_>, tool: u32) -> bool {
     let in_spindle = Abstract::known(cx.state().tool());
     in_spindle == Some(f64::from(tool))
-        || in_spindle.is_none() && (cx.trace().set_by(Fact::Tool).is_some() || cx.is_behind_unknown_program())
+        || in_spindle.is_none() && (cx.trace().set_by(Fact::Tool).is_some() || cx.is_after_unknown_program())
 }
 
 #[cfg(test)]
@@ -178,11 +179,11 @@ mod tests {
             "fanuc-mill",
             "T1 M6\nT5\nG1 X1. F10.\nT7\nM6\nT4\nG1 X2.\nM30\n",
             &expect![[r#"
-            2 | T5
-              | ^^ info[tool-called-not-changed] tool 5 is called and never put in the spindle (`T5`)
-            6 | T4
-              | ^^ info[tool-called-not-changed] tool 4 is called and never put in the spindle (`T4`)
-        "#]],
+                2 | T5
+                  | ^^ info[tool-called-not-changed] tool 5 is called and never changed in (`T5`)
+                6 | T4
+                  | ^^ info[tool-called-not-changed] tool 4 is called and never changed in (`T4`)
+            "#]],
         );
     }
 
@@ -193,9 +194,9 @@ mod tests {
             "haas-mill",
             "T2 M6\nT3\nG43 H3 Z1.\nG1 X1. F10.\nM30\n",
             &expect![[r#"
-            2 | T3
-              | ^^ warning[tool-called-not-changed] tool 3 is called and never put in the spindle (`T3`)
-        "#]],
+                2 | T3
+                  | ^^ warning[tool-called-not-changed] tool 3 is called and never changed in (`T3`)
+            "#]],
         );
     }
 

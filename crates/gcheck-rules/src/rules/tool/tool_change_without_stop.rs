@@ -3,17 +3,17 @@
 use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
-use crate::boundary::Boundary;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::{Boundary, boundary, boundary_range};
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A tool has cut, and the next one comes without an optional stop (`M1`) or a stop (`M0`) between them.
     ///
     /// ## Why it matters
-    /// Between two tools the operator looks at the part, clears chips, and starts again after a broken tool. The optional stop
-    /// is where a control lets that happen, and where block search goes to.
+    /// Between two tools the operator looks at the part, clears chips, and restarts after a broken tool. The optional
+    /// stop makes that possible, and block search leads there.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -42,7 +42,7 @@ declare_rule! {
         tier: Path,
         recommended: false,
         sets: [RestartSafe],
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::CUTS),
@@ -69,14 +69,14 @@ impl PathRule for ToolChangeWithoutStop {
         if cx.has_effect(stops) {
             self.has_cut = false;
         }
-        if cx.boundary() != Some(Boundary::ToolChange) || !std::mem::replace(&mut self.has_cut, false) {
+        if boundary(cx) != Some(Boundary::ToolChange) || !std::mem::replace(&mut self.has_cut, false) {
             return;
         }
-        let Some(stop) = cx.cancel_of(Effect::OptionalStop) else { return };
+        let Some(stop) = cx.name_of_effect(Effect::OptionalStop) else { return };
         report.add(
             cx.finding(
                 &META,
-                cx.boundary_range(Boundary::ToolChange),
+                boundary_range(cx, Boundary::ToolChange),
                 format!("tool change without an optional stop before it (`{stop}`)"),
             )
             .label("the tool before has cut, and the machine does not stop")

@@ -3,17 +3,17 @@
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Fact};
 
-use crate::boundary::is_before;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
 use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// A tool change (`M6`) with no tool called (`T`) in its block or before it, or none since the last change.
+    /// A tool change (`M6`) without a tool call (`T`) in its block, before it, or since the last change.
     ///
     /// ## Why it matters
-    /// The control takes the tool that the last program, or the operator, called, or stops with an alarm; behind another
-    /// change the tool in the spindle stays, and works with the next one's speeds and length.
+    /// The control takes the tool that the last program, or the operator, called, or stops with an alarm; after another
+    /// change the tool in the spindle remains, and works with the speeds and length of the next one.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -75,13 +75,13 @@ impl PathRule for ToolChangeWithoutT {
         let called = cx.trace().set_by(Fact::Selected);
         if cx.origin().letters.contains(Letter::of('T'))
             || cx.is_called_only()
-            || cx.is_behind_unknown_program()
+            || cx.is_after_unknown_program()
         {
             return;
         }
         let range = cx.effect_range(|effect| effect == Effect::ToolChange);
         if let (Some(called), Some(last)) = (called, last) {
-            // A loop brings the change of its last turn along.
+            // In a loop, the change of the last iteration counts.
             if is_before(last, cx.origin().at) && (called == last || is_before(called, last)) {
                 report.add(
                     cx.finding(
@@ -90,7 +90,7 @@ impl PathRule for ToolChangeWithoutT {
                         "tool change, and no tool was called since the last one (`M6` without `T`)",
                     )
                     .label("the tool in the spindle stays there")
-                    .help("name the tool: `T2 M6`"),
+                    .help("give the tool number: `T2 M6`"),
                 );
             }
             return;
@@ -102,7 +102,7 @@ impl PathRule for ToolChangeWithoutT {
             cx.finding(&META, range, "tool change, and no tool was called (`M6` without `T`)")
                 .label("takes the tool that was called before the program, if any")
                 .assuming("no tool is called when the program starts")
-                .help("name the tool: `T1 M6`"),
+                .help("give the tool number: `T1 M6`"),
         );
     }
 }

@@ -5,11 +5,11 @@ use std::ops::Range;
 use gcheck_controls::Effect;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// The comment in the block of a tool change names another tool number than the block calls: `T3 M6 (T5 1/4 DRILL)`.
+    /// The comment in the block of a tool change has another tool number than the block: `T3 M6 (T5 1/4 DRILL)`.
     ///
     /// ## Why it matters
     /// One of the two was changed and the other forgotten. The operator loads tools by the comments, the control by the code.
@@ -45,7 +45,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
     let Some(called) = word.integer() else { return };
     let tool = |number: u32| if tools.offset_in_t && number >= 100 { number / 100 } else { number };
-    // A comment that begins with a tool number names its tool; what it says further on may be about any.
+    // A comment that begins with a tool number names its tool; the rest of it may be about any tool.
     let text = cx.block_text();
     let Some((named, range)) = named_tool(text) else { return };
     if tool(called) != 0 && tool(named) != tool(called) && named != called {
@@ -54,7 +54,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// The tool number that the first comment begins with, and where it stands.
+/// The tool number at the beginning of the first comment, and its place.
 fn named_tool(text: &str) -> Option<(u32, Range<usize>)> {
     let open = text.find(['(', ';'])? + 1;
     let comment = text.get(open..)?;
@@ -82,7 +82,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, comment: Range<u32>) -> Finding {
     Finding::new(&META, comment, format!("the comment names `{named}`, the block calls `{called}`"))
         .label("another tool than the code calls")
         .also(cx.range(word), "the tool that comes")
-        .help("correct the one that is wrong")
+        .help("correct the wrong one")
 }
 
 #[cfg(test)]

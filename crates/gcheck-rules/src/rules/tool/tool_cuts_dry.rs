@@ -1,19 +1,20 @@
-//! A tool without coolant among tools that have it.
+//! A tool that cuts without coolant while others have it.
 
 use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
-use super::super::spindle::spindle_stopped_while_cutting::is_cut;
-use crate::coolant::CoolantWatch;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::with_tool_change;
+use crate::facts::coolant::CoolantWatch;
+use crate::facts::cutting::is_cut;
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A tool cuts with the coolant off, while most tools of the program have it on.
     ///
     /// ## Why it matters
-    /// A forgotten `M8` burns the tool, or leaves chips in the hole. Where dry cutting is meant, all is well: the rule is for
+    /// A forgotten `M8` burns the tool, or leaves chips in the hole. Dry cutting may be deliberate: the rule is for
     /// shops that say so in a comment.
     ///
     /// ## Reported
@@ -44,7 +45,7 @@ declare_rule! {
     /// M30
     /// ```
     rule "tool-cuts-dry" in "tool" {
-        summary: "tool cuts without coolant where others have it",
+        summary: "tool cuts without coolant while others have it",
         severity: Info,
         tier: Path,
         recommended: false,
@@ -87,12 +88,15 @@ impl PathRule for ToolCutsDry {
             self.wet += 1;
             return;
         }
-        let on = cx.cancel_of(Effect::FloodOn).or_else(|| cx.cancel_of(Effect::MistOn)).unwrap_or_default();
+        let on = cx
+            .name_of_effect(Effect::FloodOn)
+            .or_else(|| cx.name_of_effect(Effect::MistOn))
+            .unwrap_or_default();
         let message = format!("the tool cuts with the coolant off (no `{on}`)");
         let finding = cx.finding(&META, cx.range(), message).label("its first cut").help(format!(
             "switch the coolant on with `{on}`, or say in a suppression why the tool cuts dry"
         ));
-        self.dry.push(cx.with_tool_change(finding));
+        self.dry.push(with_tool_change(cx, finding));
     }
 
     fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {

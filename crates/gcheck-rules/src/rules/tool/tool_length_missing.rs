@@ -3,18 +3,19 @@
 use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Role};
 
-use crate::boundary::is_before;
-use crate::five_axis::is_along_tool;
-use crate::memory::{Remembers, remembers};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::boundary::is_before;
+use crate::facts::five_axis::is_along_tool;
+use crate::facts::probing::is_near;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
-    /// After a tool change a block moves along Z in work coordinates with no tool length compensation in effect, with an offset
-    /// number of zero, or with the length of the tool before.
+    /// After a tool change a block moves along Z in work coordinates without tool length compensation, with offset
+    /// number zero, or with the length of the tool before.
     ///
     /// ## Why it matters
-    /// The control takes the spindle's nose for the tool's tip and drives the tool into the part by its whole length.
+    /// The control takes the spindle nose for the tool tip and drives the tool into the part by its whole length.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -38,7 +39,7 @@ declare_rule! {
     /// G43 H1 Z.1
     /// M30
     /// ```
-    /// Lengths posted into the path need no other:
+    /// Lengths that are posted into the path need no compensation:
     /// ```nc,quiet,haas-mill
     /// T1 M6
     /// G0 G90 G54 X0. Y0. Z1. A0. B0.
@@ -61,7 +62,7 @@ declare_rule! {
 struct ToolLengthMissing {
     /// The tool change whose tool has not worked yet.
     changed: Option<At>,
-    /// A program that never compensates is told once.
+    /// A program that never compensates is reported once.
     is_done: bool,
 }
 
@@ -89,14 +90,14 @@ impl ToolLengthMissing {
     fn judge(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let rules = cx.model.semantics().tools;
         let Some(at) = self.changed else { return };
-        // Lengths that are posted into the path need none: what the control adds is a difference.
+        // Lengths that are posted into the path need no compensation: the control adds only a difference.
         if cx.file_uses(is_along_tool) {
             return;
         }
         if self.is_done || rules.change_by_t || rules.offset_in_t || needs_no_length(cx) {
             return;
         }
-        // The tool's first work: told here, or not at all.
+        // The tool's first work: reported here, or not at all.
         self.changed = None;
         let is_off = |code| matches!(cx.model.effect(code), Effect::LengthOff | Effect::None);
         let Some(code) = cx.state().mode(Role::Length).only() else { return };
@@ -113,15 +114,15 @@ impl ToolLengthMissing {
                 Effect::LengthPlus | Effect::LengthMinus | Effect::LengthFromBlock | Effect::ToolCentrePoint
             )
         };
-        let Some(on) = cx.scene.control().codes().find(|code| compensates(code.effect())) else { return };
+        let Some(on) = cx.control().codes().find(|code| compensates(code.effect())) else { return };
         let on = on.number().to_string();
-        // A work offset is measured with the length off, and the probe goes to its place without it.
+        // A work offset is measured with the length off, and the probe moves to its place without it.
         if cx.file_uses(|effect| matches!(effect, Effect::ProbeOffset | Effect::ProbeCentre)) {
             return;
         }
         let is_ever_used = cx.file_uses(compensates);
-        // A tool that is about to touch off finds its own zero. Where no offset is written, what it finds is measured with
-        // the spindle's nose, and the other tools go there with their tips.
+        // A tool that is about to touch off finds its own zero. If no offset is written, the result is the position of
+        // the spindle nose, and the other tools move there with their tips.
         let touches = |effect| matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
         let keeps = |effect| {
             matches!(
@@ -129,7 +130,7 @@ impl ToolLengthMissing {
                 Effect::WriteOffsets | Effect::SetPosition | Effect::LocalShift | Effect::LengthFromBlock
             )
         };
-        let is_touching = cx.is_near(touches);
+        let is_touching = is_near(cx, touches);
         if is_touching && (!is_ever_used || cx.file_uses(keeps)) {
             return;
         }
@@ -144,7 +145,7 @@ impl ToolLengthMissing {
                 cx.letter_range('Z'),
                 format!("the tool {what} without its length (no `{on}` since the tool change)"),
             )
-            .label("the control takes the spindle's nose for the tool's tip");
+            .label("the control takes the spindle nose for the tool tip");
         if let Some(range) = cx.find_word(at, |word| cx.model.effect(word.code) == Effect::ToolChange) {
             finding = finding.also(range, "tool changed here");
         }
@@ -178,9 +179,9 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'
     let given = cx.find_word(set, is_h);
     let number = Abstract::known(cx.state().h());
     let is_zero = number == Some(0.0);
-    // Where it never comes, the tool works with the other one's offset: that is told by the numbers.
-    let is_followed_by_its_own = cx.is_near(|effect| effect == Effect::LengthPlus);
-    // In a block that moves Z as well it is told without regard to the tool.
+    // If it never comes, the tool works with the offset of the other one: the rules on offset numbers report that.
+    let is_followed_by_its_own = is_near(cx, |effect| effect == Effect::LengthPlus);
+    // In a block that also moves Z, another rule reports it for any tool.
     let is_alone = cx.find_word(set, |word| word.letter == Letter::of('Z')).is_none();
     if is_zero && is_alone && !cx.model.semantics().tools.length_from_tool && !is_before(set, at) {
         let finding = cx
@@ -189,7 +190,7 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'
                 given.unwrap_or_else(|| cx.letter_range('Z')),
                 "the tool has no length (offset number zero, `H0`)",
             )
-            .label("the control takes the spindle's nose for the tool's tip");
+            .label("the control takes the spindle nose for the tool tip");
         report.add(finding.help(format!("give the offset of the tool: `{name} H1 Z…`")));
     } else if is_before(set, at) && !is_zero && is_followed_by_its_own {
         let mut finding = cx
@@ -200,7 +201,7 @@ fn judge_what_is_on(cx: &PathCx<'_>, at: At, code: CodeIx, report: &mut Report<'
                     "the tool moves with the length of the tool before (no `{name}` since the tool change)"
                 ),
             )
-            .label("the tip is off by the difference of the two lengths");
+            .label("the tip is off by the difference between the two lengths");
         if let Some(given) = given {
             finding = finding.also(given, "the length comes from here");
         }

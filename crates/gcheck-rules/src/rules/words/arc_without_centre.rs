@@ -1,18 +1,18 @@
-//! An arc with an end point and neither centre nor radius.
+//! An arc without centre or radius.
 
 use gcheck_controls::{Code, LetterSet, Motion};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::contract::{choice, letters_of};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::{choice, letters_of};
 use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// An arc names its end point, but neither its centre nor its radius.
+    /// An arc gives its end point, but neither its centre nor its radius.
     ///
     /// ## Why it matters
-    /// The control does not know the arc. It stops with an alarm, or moves in a straight line through the part; where a setting
-    /// decides between the two and nobody told it, this is a warning.
+    /// The arc is not defined. The control stops with an alarm, or moves in a straight line through the part; if a
+    /// setting decides between the two and is not configured, this is a warning.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -37,7 +37,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (word, code) in cx.codes().filter(|(_, code)| code.motion() == Motion::Arc) {
         for items in &code.entry().one_of {
             let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(letters_of(item)));
-            // Another code of the block may take the axes for itself.
+            // Another code of the block may use the axis words.
             if !cx.block().letters.intersects(letters)
                 && let Some(end) = cx.words().iter().find(|w| is_end_point(cx, code, w))
                 && cx.words_are_plain()
@@ -58,12 +58,12 @@ fn finding(cx: &BlockCx<'_>, word: &Word, end: &Word, code: Code<'_>, letters: L
     let finding =
         Finding::new(&META, cx.range(word), format!("arc without centre or radius: `{}`", cx.text(word)))
             .label(format!("needs {}", choice(letters)))
-            .also(cx.range(end), "the end point alone does not make an arc")
+            .also(cx.range(end), "an end point alone does not define an arc")
             .note(format!("`{}` needs {} in its block  [{}]", entry.code, choice(letters), entry.source))
-            .help("add the centre or the radius, or write the straight move as a straight move")
+            .help("add the centre or the radius, or write a straight move (`G1`)")
             .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)));
     match cx.control().semantics().arcs.straight_setting.as_deref() {
-        Some(setting) if cx.scene.setting(setting).is_none_or(|(value, _)| value != "alarm") => finding
+        Some(setting) if cx.environment.setting(setting).is_none_or(|(value, _)| value != "alarm") => finding
             .note(format!("setting {setting} decides: a straight line, or an alarm"))
             .at_most(Severity::Warning),
         _ => finding,
@@ -75,8 +75,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, check_rule_in, findings, words};
+    use crate::testing::{World, check_rule, check_rule_in, findings, only, words};
 
     #[test]
     fn the_code_is_marked() {
@@ -122,7 +121,7 @@ mod tests {
 
     #[test]
     fn words_list_the_choice() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G2 X10. Y5. F100.\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G2 X10. Y5. F100.\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("here: needs `I`, `J`, `K` or `R`"), "{text}");
     }

@@ -1,24 +1,24 @@
-//! An axis that is told where to go and how far in one block.
+//! An axis with its position and its increment in one block.
 
 use gcheck_controls::{Letter, Motion};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// One axis stands in a block with two addresses: the one of its position (`X`) and the one of its increments (`U`).
+    /// One axis is in a block with two addresses: its position (`X`) and its increment (`U`).
     ///
     /// ## Why it matters
-    /// Only one of them can be where the tool goes. Most controls take the last one without a word, so that half of what was
-    /// written is lost; often a word is left from another block, or an end of line is missing.
+    /// Only one of them can count. Most controls silently use the last one, so the other is lost; often a word is left
+    /// from another block, or an end of line is missing.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-lathe
     /// G1 X20. Z-5. U0.5 F0.2
     /// ```
     /// ## Not reported
-    /// Two axes, one in each way:
+    /// Two axes, one with each address:
     /// ```nc,quiet,fanuc-lathe
     /// G1 X20. W-5. F0.2
     /// ```
@@ -36,7 +36,7 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    // Codes that are no moves to a point have uses of their own for either word.
+    // Codes that do not move to a point have other uses for both words.
     let moves = |motion: Motion| {
         matches!(motion, Motion::Rapid | Motion::Feed | Motion::Arc | Motion::Thread | Motion::Cycle)
     };
@@ -74,8 +74,8 @@ fn finding(cx: &BlockCx<'_>, axis: &Word, increment: &Word) -> Finding {
     )
     .label(is(last))
     .also(cx.range(first), is(first))
-    .note("only one of the two counts, on most controls the last")
-    .help(format!("keep the one that is meant: `{}` or `{}`", cx.text(first), cx.text(last)))
+    .note("only one of the two counts, on most controls the last one one")
+    .help(format!("keep the right one: `{}` or `{}`", cx.text(first), cx.text(last)))
     .at_most(limit(semantics.confidence))
 }
 
@@ -84,8 +84,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn every_axis_and_every_kind_of_motion() {
@@ -121,14 +120,13 @@ mod tests {
 
     #[test]
     fn words_say_which_is_which() {
-        let found =
-            findings(&Selection::only(&RULE), "fanuc-lathe", "G1 X20. U0.5 F0.2\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-lathe", "G1 X20. U0.5 F0.2\n", &World::default());
         expect![[r#"
             `X` and `U` move one axis in one block
               here: `U0.5` says how far X goes
               there: `X20.` says where X goes
-              note: only one of the two counts, on most controls the last
-              help: keep the one that is meant: `X20.` or `U0.5`
+              note: only one of the two counts, on most controls the last one one
+              help: keep the right one: `X20.` or `U0.5`
         "#]]
         .assert_eq(&words(&found[0]));
     }

@@ -4,16 +4,16 @@ use gcheck_controls::{Code, Letter};
 use gcheck_engine::{Fault, FrameKind};
 use gcheck_program::Value;
 
-use crate::meta::declare_rule;
-use crate::usage::is_called_from_elsewhere;
+use crate::declare::declare_rule;
+use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
-    /// A word's value is computed, and comes to one that the code cannot use: a fraction or a negative number where a
-    /// count stands, a feed or speed below zero.
+    /// A word's value is computed, and the code cannot use it: a fraction or a negative number for a count, a feed or
+    /// speed below zero.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm at the block, or reads another value than meant.
+    /// The control stops with an alarm at the block, or uses a wrong value.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -55,18 +55,18 @@ impl PathRule for ComputedValueOutOfRange {
         if is_main && is_called_from_elsewhere(cx.survey) {
             return;
         }
-        // A number as it stands is judged without executing the block.
+        // Other rules judge a written number without executing the block.
         let range = cx
             .find_word(cx.origin().at, |word| word.letter == *letter && matches!(word.value, Value::Expr(_)));
         let Some(range) = range else { return };
         let name = char::from(letter.ascii());
         let mut finding = cx
             .finding(&META, range, format!("computed value of `{name}` cannot be used here"))
-            .label("comes to a fraction, or out of the range of its code")
-            .help("check what the value is computed from");
-        // What the range of a word rests on, limits what may be said of a value beyond it.
+            .label("is a fraction, or outside the range of its code")
+            .help("check the expression of the value");
+        // A value outside a range is as certain as the source of the range.
         let codes = cx.codes();
-        let entries = codes.iter().filter_map(|code| cx.scene.control().code_at(*code)).map(Code::entry);
+        let entries = codes.iter().filter_map(|code| cx.control().code_at(*code)).map(Code::entry);
         let confidence = entries
             .flat_map(|entry| entry.words.iter().map(move |word| (entry, word)))
             .filter(|(_, word)| Letter::parse(&word.letter) == Some(*letter))
@@ -75,7 +75,7 @@ impl PathRule for ComputedValueOutOfRange {
         if let Some(confidence) = confidence {
             finding = finding.at_most(limit(confidence));
         }
-        if cx.scene.control_is_guessed {
+        if cx.environment.control_is_guessed {
             finding = finding.at_most(Severity::Warning);
         }
         report.add(finding);

@@ -3,14 +3,14 @@
 use gcheck_controls::WordKind;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
 
 declare_rule! {
     /// A word that takes a whole number is written with a decimal point.
     ///
     /// ## Why it matters
-    /// Tool, offset, program and repeat numbers are counts. A control that wants whole numbers stops with an alarm.
+    /// Tool, offset, program and repeat numbers are counts. A control that requires whole numbers stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -28,7 +28,7 @@ declare_rule! {
         summary: "decimal point on an address that takes whole numbers",
         severity: Error,
         tier: Block,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::POINT_ON_INTEGER, check },
     }
@@ -42,7 +42,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let general = cx.control().letter(word.letter);
         if let Some(facts) = cx.facts(word)
             && is_whole(facts.kind)
-            // What a word means that no code of the block reads is not known here.
+            // The meaning of a word that no code of the block reads is unknown here.
             && (facts.code.is_some() || general.is_some_and(|entry| entry.free))
         {
             report.add(finding(cx, word, &facts));
@@ -56,7 +56,7 @@ fn is_whole(kind: WordKind) -> bool {
 
 fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let text = cx.text(word);
-    // That an address is whole everywhere is better known than what it means with one code.
+    // That an address is whole everywhere is more certain than its meaning with one code.
     let general =
         cx.control().letter(word.letter).filter(|entry| is_whole(entry.kind)).map(|entry| entry.confidence);
     let confidence = general.map_or(facts.confidence, |general| general.max(facts.confidence));
@@ -69,7 +69,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
                 (number * 1000.0).round()
             )
         }
-        _ => "write the number without decimal point".to_owned(),
+        _ => "write the number without a decimal point".to_owned(),
     };
     let finding = Finding::new(&META, cx.range(word), format!("decimal point on a whole number: `{text}`"))
         .label(facts.is)
@@ -84,7 +84,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     }
 }
 
-/// The word without point, if only zeros follow it.
+/// The word without its point, if only zeros follow the point.
 fn whole(text: &str) -> Option<&str> {
     let (whole, decimals) = text.split_once('.')?;
     (whole.ends_with(|c: char| c.is_ascii_digit()) && decimals.bytes().all(|b| b == b'0')).then_some(whole)
@@ -95,8 +95,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, fixed, words};
+    use crate::testing::{World, check_rule, findings, fixed, only, words};
 
     #[test]
     fn counts_are_whole() {
@@ -122,7 +121,7 @@ mod tests {
     #[test]
     fn the_fix_takes_the_point_away() {
         let program = "G43 H01. Z50.\n";
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", program, &World::default());
         expect![[r#"
             G43 H01 Z50.
         "#]]

@@ -1,10 +1,11 @@
-//! A dwell whose time stands in a word that the control does not read it from.
+//! A dwell time in a word from which this control does not read it.
 
-use gcheck_controls::{Code, Confidence, DwellWord, Effect, Letter, LetterSet};
+use gcheck_controls::{Code, Confidence, DwellWord, Letter};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::contract::choice;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::dwell::{time_in_other_word, time_words};
+use crate::facts::word_sets::choice;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
@@ -29,7 +30,7 @@ declare_rule! {
     /// G4 U0.5
     /// ```
     rule "dwell-time-in-other-word" in "words" {
-        summary: "dwell time in a word that this control does not read it from",
+        summary: "dwell time in a word from which this control does not read it",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -37,48 +38,17 @@ declare_rule! {
     }
 }
 
-/// Words that hold the time of a dwell on one control or another.
-const TIMES: LetterSet = LetterSet::of("PXU");
-
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     for (_, code) in cx.codes() {
-        if let Some(word) = time_elsewhere(cx, code) {
+        if let Some(word) = time_in_other_word(cx, code) {
             report.add(finding(cx, code, word));
         }
     }
 }
 
-/// The word that is meant as the time of a dwell, where the control reads none of the block's words as that.
-pub(super) fn time_elsewhere<'a>(cx: &BlockCx<'a>, code: Code<'_>) -> Option<&'a Word> {
-    if code.effect() != Effect::Dwell || !cx.words_are_plain() {
-        return None;
-    }
-    // Another code of the block may read the word: a move, a work offset.
-    let is_alone = cx.codes().all(|(_, other)| other.number() == code.number());
-    let times = own_times(cx);
-    if !is_alone || times.is_empty() || cx.block().letters.intersects(times) {
-        return None;
-    }
-    // `G4 X2. Y3.` is more likely a move that lost its code.
-    let mut axes = cx.words().iter().filter(|word| cx.control().axes().contains(word.letter));
-    axes.next();
-    if axes.next().is_some() {
-        return None;
-    }
-    cx.first_of(TIMES.without(times))
-}
-
-fn own_times(cx: &BlockCx<'_>) -> LetterSet {
-    let letters = cx.control().semantics().dwell.keys().filter_map(|letter| Letter::parse(letter));
-    letters.fold(LetterSet::EMPTY, |mut set, letter| {
-        set.insert(letter);
-        set
-    })
-}
-
 fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let entry = code.entry();
-    let times = own_times(cx);
+    let times = time_words(cx);
     let of_times =
         |w: &&gcheck_controls::WordEntry| Letter::parse(&w.letter).is_some_and(|l| times.contains(l));
     let confidence = entry.words.iter().filter(of_times).filter_map(|w| w.confidence).min();
@@ -88,9 +58,9 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     Finding::new(
         &META,
         cx.range(word),
-        format!("`{}` is no dwell time on this control (`{}`)", cx.text(word), cx.written(code)),
+        format!("`{}` is not a dwell time on this control (`{}`)", cx.text(word), cx.written(code)),
     )
-    .label("other controls read a time here")
+    .label("only only other controls read a time here")
     .note(format!(
         "`{}` ({}) reads its time from {own}, {units}  [{}]",
         entry.code, entry.title, entry.source
@@ -112,8 +82,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_word_is_marked() {
@@ -123,9 +92,9 @@ mod tests {
             "G4 X2.\nG04 U#1\nG4 P1. X2.\nG4\nG1 G4 X5. F100.\nG4 X1. Y2.\n",
             &expect![[r#"
                 1 | G4 X2.
-                  |    ^^^ error[dwell-time-in-other-word] `X2.` is no dwell time on this control (`G4`)
+                  |    ^^^ error[dwell-time-in-other-word] `X2.` is not a dwell time on this control (`G4`)
                 2 | G04 U#1
-                  |     ^^^ error[dwell-time-in-other-word] `U#1` is no dwell time on this control (`G04`)
+                  |     ^^^ error[dwell-time-in-other-word] `U#1` is not a dwell time on this control (`G04`)
             "#]],
         );
     }
@@ -138,9 +107,9 @@ mod tests {
             "G4 X2.\nG4 X2\n",
             &expect![[r#"
             1 | G4 X2.
-              |    ^^^ warning[dwell-time-in-other-word] `X2.` is no dwell time on this control (`G4`)
+              |    ^^^ warning[dwell-time-in-other-word] `X2.` is not a dwell time on this control (`G4`)
             2 | G4 X2
-              |    ^^ warning[dwell-time-in-other-word] `X2` is no dwell time on this control (`G4`)
+              |    ^^ warning[dwell-time-in-other-word] `X2` is not a dwell time on this control (`G4`)
         "#]],
         );
         check_rule(&RULE, "fanuc-lathe", "G4 X2.\nG4 U2.\nG4 P2000\n", &expect![[""]]);
@@ -148,10 +117,10 @@ mod tests {
 
     #[test]
     fn words_say_where_the_time_belongs() {
-        let found = findings(&Selection::only(&RULE), "haas-lathe", "G4 U2.\n", &World::default());
+        let found = findings(&only(&RULE), "haas-lathe", "G4 U2.\n", &World::default());
         expect![[r#"
-            `U2.` is no dwell time on this control (`G4`)
-              here: other controls read a time here
+            `U2.` is not a dwell time on this control (`G4`)
+              here: only only other controls read a time here
               note: `G4` (dwell) reads its time from `P`, in seconds with a decimal point, in milliseconds without  [TABLE; HM17 p.258; AP25]
               help: give the time in `P`; `U` is an axis word
         "#]].assert_eq(&found.iter().map(words).collect::<String>());

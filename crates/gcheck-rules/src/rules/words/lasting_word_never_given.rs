@@ -1,17 +1,18 @@
-//! A code that relies on an earlier value which nothing gave.
+//! A code that relies on a word that no earlier block gives.
 
-use gcheck_controls::{Code, Ends, Letter};
-use gcheck_program::{EndMark, NeverGiven, OKeyword, Survey};
+use gcheck_controls::{Code, Letter};
+use gcheck_program::NeverGiven;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::usage::may_be_called;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// A code needs a word that may stand in an earlier block, and no block before it has the word.
+    /// A code needs a word that may be in an earlier block, and no earlier block has the word.
     ///
     /// ## Why it matters
-    /// The control takes whatever the last program left behind: another tool's length, another hole's peck. On an empty
-    /// control it alarms.
+    /// The control uses whatever the last program left: another tool's length, another hole's peck. After power-on it
+    /// stops with an alarm.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -28,7 +29,7 @@ declare_rule! {
     /// G43 Z1.
     /// M30
     /// ```
-    /// The words that a subprogram relies on are given by its caller.
+    /// The caller gives the words that a subprogram relies on.
     /// ```nc,quiet,fanuc-mill
     /// O100
     /// G83 Z-20. R2. F100.
@@ -57,19 +58,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     }
 }
 
-/// May the program be called by one that is not in the file? It takes its caller's words with it, so that the text alone says
-/// nothing. Behind the main program of the file, that is the caller.
-pub(in crate::rules) fn may_be_called(survey: &Survey) -> bool {
-    let second = survey.programs.get(1).map_or(0, |second| second.range.start);
-    let is_of_main =
-        |end: &EndMark| end.range.start < second && end.ends == Ends::Program && !end.conditional;
-    let returns = |end: &EndMark| end.ends == Ends::Subprogram && (second == 0 || end.range.start < second);
-    survey.ends.iter().any(returns)
-        || second > 0 && !survey.ends.iter().any(is_of_main)
-        || survey.o_words.iter().any(|word| word.keyword == OKeyword::Sub)
-}
-
-/// Told where it is missed first; what comes later misses the same.
+/// Reported where it is first missing; later blocks miss the same word.
 fn is_first(cx: &FileCx<'_>, missing: &NeverGiven) -> bool {
     let same = |other: &&NeverGiven| other.code == missing.code && other.letter == missing.letter;
     cx.survey.never_given.iter().find(same) == Some(missing)
@@ -85,7 +74,7 @@ fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
         missing.range.clone(),
         format!("`{written}` without `{letter}`, which no earlier block gives"),
     )
-    .label(format!("takes {is} from what was active before the program"))
+    .label(format!("takes {is} from before the program"))
     .note(format!("`{}` ({}) uses the last `{letter}`  [{}]", entry.code, entry.title, entry.source))
     .help(format!("add `{letter}` to the block"))
 }

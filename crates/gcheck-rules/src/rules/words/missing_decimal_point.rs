@@ -1,46 +1,46 @@
-//! A value without decimal point where the control counts least increments.
+//! A value without a decimal point where the control counts least increments.
 
 use gcheck_controls::{Code, Letter, LetterEntry, Motion, Unpointed, WordKind};
 use gcheck_program::Word;
 
-use crate::meta::declare_rule;
-use crate::{BlockCx, Edit, FileCx, Finding, Fix, Report, Run, Scene, Severity, limit};
+use crate::declare::declare_rule;
+use crate::{BlockCx, Edit, Environment, FileCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// A length, angle or feed has no decimal point, and the control counts such numbers in its smallest steps.
+    /// A length, angle or feed has no decimal point, and the control counts such numbers in least increments.
     ///
     /// ## Why it matters
-    /// `X10` is then a hundredth of a millimetre, or a thousandth of an inch, and not ten. The tool rapids to the wrong
-    /// place, or feeds a thousand times too slow. A control can be set to read `X10` as ten; the finding says which setting
-    /// it takes for granted. One finding names all such words of a block. When much of a program is written like that, the
-    /// shop runs its controls that way, and there is one finding for the file. Values that only make sense in smallest steps,
-    /// `Z0040000` or `U250` in a roughing cycle, are left alone.
+    /// `X10` is then a hundredth of a millimetre, or a thousandth of an inch, and not ten. The tool moves to the wrong
+    /// place at rapid, or feeds a thousand times too slow. A control can be set to read `X10` as ten; the finding names
+    /// the setting that it assumes. One finding names all such words of a block. If much of a program is written like
+    /// this, the shop's controls are probably set that way, and there is one finding for the file. Values that only
+    /// make sense in least increments, `Z0040000` or `U250` in a roughing cycle, are not reported.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
     /// G1 X10 Y2.5 F100.
     /// ```
     /// ## Not reported
-    /// Nothing is nothing, with or without a point.
+    /// Zero is zero, with or without a point.
     /// ```nc,quiet,haas-mill
     /// G0 X0 Y0
     /// G1 X10. Y2.5 F100.
     /// ```
-    /// A control that reads numbers as they are written:
+    /// A control that reads numbers without a point as whole units:
     /// ```nc,quiet,linuxcnc
     /// G1 X10 F100
     /// ```
     rule "missing-decimal-point" in "words" {
-        summary: "no decimal point where the control counts smallest steps",
+        summary: "no decimal point where the control counts least increments",
         severity: Warning,
         tier: Program,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Program { check },
     }
 }
 
-/// Blocks without point from which a file may count as written without points throughout.
+/// With so many blocks without a point, a file may count as written without points throughout.
 const HABIT: usize = 10;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
@@ -51,7 +51,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     for block in &cx.survey.unpointed {
         cx.reread(block.clone(), |block| count += usize::from(!scaled(block).is_empty()));
     }
-    // A slip happens here and there; a quarter of all blocks is no slip.
+    // Single blocks may be slips; a quarter of all blocks is not a slip.
     let is_habit = count >= HABIT && count * 4 > cx.survey.pointed;
     let mut is_told = false;
     for block in &cx.survey.unpointed {
@@ -87,11 +87,11 @@ fn is_scaled(cx: &BlockCx<'_>, word: &Word) -> bool {
         && matches!(facts.kind, WordKind::Length | WordKind::Angle | WordKind::Feed)
         && (facts.code.is_some() || means_one_thing(cx, word.letter, entry))
         && !is_deliberate(word, facts.code, entry)
-        && !matches!(setting(&cx.scene, entry), Setting::AsWritten)
+        && !matches!(setting(&cx.environment, entry), Setting::AsWritten)
 }
 
-/// Is the value one that nobody would write for whole units? `Z+0040000`, and `U250` for a quarter of a millimetre in a
-/// roughing cycle, are meant in smallest steps.
+/// Is the value implausible in whole units? `Z+0040000`, and `U250` for a quarter of a millimetre in a roughing cycle,
+/// are in least increments.
 fn is_deliberate(word: &Word, code: Option<Code<'_>>, entry: &LetterEntry) -> bool {
     let (digits, value) = (word.shape.whole_digits, word.number().unwrap_or_default().abs());
     let is_padded = digits >= 4 && value < 10_f64.powi(i32::from(digits) - 1);
@@ -111,9 +111,9 @@ fn means_one_thing(cx: &BlockCx<'_>, letter: Letter, entry: &LetterEntry) -> boo
     entry.axis || words.all(|w| matches!(w.kind, WordKind::Length | WordKind::Angle | WordKind::Feed))
 }
 
-/// What a setting says about numbers without point.
+/// What a setting says about numbers without a point.
 enum Setting {
-    /// They count as they stand.
+    /// They count whole units.
     AsWritten,
     /// They count least increments; the assumption that this rests on.
     Assumed(String),
@@ -121,17 +121,18 @@ enum Setting {
     Certain,
 }
 
-fn setting(scene: &Scene<'_>, entry: &LetterEntry) -> Setting {
-    let numbers = scene.control().numbers();
+fn setting(environment: &Environment<'_>, entry: &LetterEntry) -> Setting {
+    let numbers = environment.control().numbers();
     let name = entry.scale_setting.as_deref().or(numbers.unpointed_setting.as_deref());
     // The data writes the name as people say it: "Setting 162".
     let number = name.and_then(|name| name.rsplit(' ').next()).unwrap_or_default();
-    let as_written = scene.control().setting(number).and_then(|s| s.as_written.as_deref());
-    match scene.setting(number) {
+    let as_written = environment.control().setting(number).and_then(|s| s.as_written.as_deref());
+    match environment.setting(number) {
         Some((value, _)) if as_written.is_some_and(|w| w.eq_ignore_ascii_case(value)) => Setting::AsWritten,
         Some((_, Some(assumption))) => Setting::Assumed(assumption),
         None if numbers.unpointed == Unpointed::ByParameter => Setting::Assumed(
-            "numbers without decimal point count smallest steps; a parameter may say otherwise".to_owned(),
+            "numbers without a decimal point count least increments; a parameter may say otherwise"
+                .to_owned(),
         ),
         Some((_, None)) | None => Setting::Certain,
     }
@@ -148,7 +149,7 @@ fn finding(cx: &BlockCx<'_>, words: &[&Word]) -> Finding {
     let mut finding = Finding::new(&META, cx.range(word), format!("decimal point missing: {named}"))
         .label(format!("counts {}", value(cx, word)))
         .note(format!(
-            "a number without decimal point counts smallest steps on this control  [{}]",
+            "a number without a decimal point counts least increments on this control  [{}]",
             numbers.source
         ))
         .help("write the decimal point")
@@ -159,7 +160,7 @@ fn finding(cx: &BlockCx<'_>, words: &[&Word]) -> Finding {
     }
     for word in words {
         if let Some(entry) = cx.control().letter(word.letter)
-            && let Setting::Assumed(assumption) = setting(&cx.scene, entry)
+            && let Setting::Assumed(assumption) = setting(&cx.environment, entry)
             && !finding.assumptions.contains(&assumption)
         {
             finding = finding.assuming(assumption);
@@ -169,20 +170,18 @@ fn finding(cx: &BlockCx<'_>, words: &[&Word]) -> Finding {
         let end = cx.range(word).end;
         Edit { range: end..end, text: ".".to_owned() }
     };
-    let title = format!("write a decimal point behind {named}");
+    let title = format!("write a decimal point after {named}");
     finding.fix(Fix { title, safe: false, edits: words.iter().map(insert).collect() })
 }
 
-/// The finding of a block, made to speak for the whole file.
+/// The finding of a block, reworded for the whole file.
 fn of_file(mut finding: Finding, count: usize) -> Finding {
     finding.message = format!("decimal points missing in {count} blocks of the program");
     finding.label = format!("the first of them; here a number {}", finding.label);
     finding.labels.clear();
     finding.fixes.clear();
-    finding.help = Some(
-        "tell the configuration that the control reads such numbers as written, or write the points"
-            .to_owned(),
-    );
+    finding.help =
+        Some("configure that the control reads such numbers as whole units, or write the points".to_owned());
     finding
 }
 
@@ -193,7 +192,11 @@ fn value(cx: &BlockCx<'_>, word: &Word) -> String {
     match cx.facts(word).map(|facts| facts.kind) {
         Some(WordKind::Angle) => format!("{:.3} degrees", number * numbers.least_angle),
         Some(WordKind::Feed) => {
-            format!("{:.4} inch or {:.3} mm a minute", number * numbers.least_inch, number * numbers.least_mm)
+            format!(
+                "{:.4} inch or {:.3} mm per minute",
+                number * numbers.least_inch,
+                number * numbers.least_mm
+            )
         }
         _ => format!("{:.4} inch or {:.3} mm", number * numbers.least_inch, number * numbers.least_mm),
     }
@@ -204,8 +207,8 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::{World, check_rule, check_rule_in, findings, fixed, words};
-    use crate::{MachineFacts, Selection};
+    use crate::MachineFacts;
+    use crate::testing::{World, check_rule, check_rule_in, findings, fixed, only, words};
 
     #[test]
     fn one_finding_a_block_names_all_words() {
@@ -229,7 +232,7 @@ mod tests {
             ..MachineFacts::default()
         };
         let world = World { machine, ..World::default() };
-        // Setting 162 does not speak of R.
+        // Setting 162 does not apply to R.
         check_rule_in(
             &RULE,
             "haas-mill",
@@ -263,14 +266,14 @@ mod tests {
     #[test]
     fn a_program_without_points_gets_one_finding() {
         let program = "G1 X1\n".repeat(12);
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", &program, &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", &program, &World::default());
         assert_eq!(found.len(), 1);
         expect![[r#"
             decimal points missing in 12 blocks of the program
               here: the first of them; here a number counts 0.0001 inch or 0.001 mm
-              note: a number without decimal point counts smallest steps on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
+              note: a number without a decimal point counts least increments on this control  [general knowledge; increment system IS-B with parameter 3401#0 = 0]
               assuming: setting 3401#0 (numbers without decimal point) is least increment
-              help: tell the configuration that the control reads such numbers as written, or write the points
+              help: configure that the control reads such numbers as whole units, or write the points
         "#]]
         .assert_eq(&words(&found[0]));
     }
@@ -278,7 +281,7 @@ mod tests {
     #[test]
     fn the_fix_writes_all_points() {
         let program = "N10 G1 X10 Y-2 F100\n";
-        let found = findings(&Selection::only(&RULE), "haas-mill", program, &World::default());
+        let found = findings(&only(&RULE), "haas-mill", program, &World::default());
         expect![[r#"
             N10 G1 X10. Y-2. F100.
         "#]]

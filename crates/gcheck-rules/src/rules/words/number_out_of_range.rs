@@ -3,7 +3,7 @@
 use gcheck_controls::{Code, WordEntry, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
 
 declare_rule! {
@@ -42,14 +42,14 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
     for word in cx.words() {
         let Some(value) = word.number() else { continue };
-        // Program and sequence numbers belong to the program's structure.
+        // Other rules judge program and sequence numbers.
         if matches!(word.letter.ascii(), b'N' | b'O') {
             continue;
         }
         let Some(facts) = cx.facts(word) else { continue };
         let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
         let high = facts.max.is_some_and(|max| value > max);
-        // A minus sign where none is taken is another rule's.
+        // Another rule reports a minus sign that is not accepted.
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
             report.add(finding(cx, word, &facts, high));
@@ -85,8 +85,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_code_of_the_block_gives_the_range() {
@@ -116,7 +115,7 @@ mod tests {
 
     #[test]
     fn words_name_the_range() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G154 P120\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G154 P120\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("`P` for `G154` takes 1 to 99"), "{text}");
     }

@@ -1,18 +1,18 @@
-//! A code without a word that it cannot do without.
+//! A code without a word that it needs.
 
 use gcheck_controls::{Code, Confidence, Letter, Need, WordEntry};
 use gcheck_program::{BlockFlags, Word};
 
-use super::dwell_time_in_other_word::time_elsewhere;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::dwell::time_in_other_word;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A code stands in a block without a word that it needs there every time.
+    /// A code is in a block without a word that it needs every time.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm, or takes zero for the missing value. Words that stay in effect from earlier blocks
-    /// are not meant here.
+    /// The control stops with an alarm, or uses zero for the missing value. This rule does not cover words that last
+    /// from earlier blocks.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -49,8 +49,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             }
             let stands =
                 Letter::parse(&needed.letter).is_none_or(|letter| cx.block().letters.contains(letter));
-            // A time in a word of another control is reported as that.
-            let is_elsewhere = !stands && time_elsewhere(cx, code).is_some();
+            // Another rule reports a time in a word of another control.
+            let is_elsewhere = !stands && time_in_other_word(cx, code).is_some();
             if !stands && !is_elsewhere && is_certain(cx, word, code) {
                 report.add(finding(cx, word, code, needed, with));
             }
@@ -69,12 +69,12 @@ fn beside<'a>(cx: &BlockCx<'a>, needed: &'a WordEntry) -> Option<&'a str> {
     needed.required_with.iter().find(stands).map(String::as_str)
 }
 
-/// Nothing hides the word: no mistake in form, and the code is no argument of a macro.
+/// Nothing hides the word: no syntax error, and the code is not an argument of a macro.
 fn is_certain(cx: &BlockCx<'_>, word: &Word, code: Code<'_>) -> bool {
     !cx.block().flags.contains(BlockFlags::ERROR)
         && !code.is_user()
         && (code.entry().any_words || !cx.words_may_be_arguments())
-        // Of one code written twice, the first speaks.
+        // If one code is written twice, the first one is reported.
         && cx.words().iter().find(|w| w.code == word.code).is_some_and(|w| w.range() == word.range())
 }
 
@@ -97,8 +97,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_code_is_marked() {
@@ -139,14 +138,14 @@ mod tests {
                   | ^^^ error[required-word-missing] `G10` without `P`
             "#]],
         );
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G10 L2 X0 Y0\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("needs `P` in its block with `L2`"), "{text}");
     }
 
     #[test]
     fn words_say_what_is_missing() {
-        let found = findings(&Selection::only(&RULE), "haas-mill", "G154\n", &World::default());
+        let found = findings(&only(&RULE), "haas-mill", "G154\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("here: needs `P`: "), "{text}");
         assert!(text.contains("help: add `P` to the block"), "{text}");

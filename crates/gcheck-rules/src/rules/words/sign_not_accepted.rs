@@ -1,15 +1,15 @@
-//! A minus sign on a word that takes none.
+//! A minus sign on a word that does not accept one.
 
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run, WordFacts, limit};
 
 declare_rule! {
-    /// A word that takes no minus sign has one.
+    /// A word has a minus sign that it does not accept.
     ///
     /// ## Why it matters
-    /// Feeds, speeds, tools and offsets count from zero. The control stops with an alarm, or reads the value as another one.
+    /// Feeds, speeds, tools and offsets count from zero. The control stops with an alarm, or uses another value.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -24,10 +24,10 @@ declare_rule! {
     /// G65 P9010 F-1. H-2.
     /// ```
     rule "sign-not-accepted" in "words" {
-        summary: "minus sign on a word that takes none",
+        summary: "minus sign on a word that does not accept one",
         severity: Error,
         tier: Block,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::NEGATIVE, check },
     }
@@ -51,14 +51,14 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     Finding::new(&META, cx.range(word), format!("minus sign on `{}`", cx.text(word)))
         .label(facts.is)
-        .note(format!("`{}` takes no minus sign  [{}]", word.letter, facts.source))
-        .help("take the sign away, or correct the address")
+        .note(format!("`{}` does not accept a minus sign  [{}]", word.letter, facts.source))
+        .help("remove the sign, or correct the address")
         .fix_if(unsigned(cx, word))
-        // The sign is a matter of the address, whatever code reads it.
+        // The address alone decides about the sign, whatever code reads it.
         .at_most(limit(cx.control().letter(word.letter).map_or(facts.confidence, |entry| entry.confidence)))
 }
 
-/// The word without its sign: a number as it stands, no expression.
+/// The word without its sign: a written number, not an expression.
 fn unsigned(cx: &BlockCx<'_>, word: &Word) -> Option<Fix> {
     let text = cx.text(word);
     let (letter, number) = text.split_once('-')?;
@@ -72,8 +72,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn feeds_and_tools_count_from_zero() {
@@ -97,8 +96,8 @@ mod tests {
 
     #[test]
     fn words_name_the_address() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G1 X1. F-100.\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G1 X1. F-100.\n", &World::default());
         let text = words(&found[0]);
-        assert!(text.contains("note: `F` takes no minus sign"), "{text}");
+        assert!(text.contains("note: `F` does not accept a minus sign"), "{text}");
     }
 }

@@ -1,12 +1,12 @@
-//! A number with more digits than the control takes.
+//! A number with more digits than the control accepts.
 
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, FileCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A number has more digits than the control takes, both sides of the decimal point together.
+    /// A number has more digits than the control accepts, before and after the decimal point together.
     ///
     /// ## Why it matters
     /// The control stops with an alarm, or drops digits. Post-processors that write six decimals cause it.
@@ -24,7 +24,7 @@ declare_rule! {
     /// G1 X123.4567891 F100.
     /// ```
     rule "too-many-digits" in "words" {
-        summary: "number has more digits than the control takes",
+        summary: "number has more digits than the control accepts",
         severity: Error,
         tier: Program,
         since: "0.1.0",
@@ -32,7 +32,7 @@ declare_rule! {
     }
 }
 
-/// Blocks that are reported one by one; of more, the first speaks for all.
+/// Blocks that are reported one by one; of more, only the first is reported.
 const FEW: usize = 5;
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
@@ -72,7 +72,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, max: u8, blocks: usize) -> Finding {
     Finding::new(&META, cx.range(word), format!("number with {digits} digits: `{text}`{many}"))
         .label(format!("{digits} digits, {max} at most"))
         .note(format!(
-            "this control takes {max} digits, both sides of the decimal point together  [{}]",
+            "this control accepts {max} digits, before and after the decimal point together  [{}]",
             numbers.source
         ))
         .help("round the number to the resolution of the machine")
@@ -84,8 +84,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn one_finding_a_block() {
@@ -102,12 +101,7 @@ mod tests {
 
     #[test]
     fn a_whole_file_of_them_gets_one_finding() {
-        let found = findings(
-            &Selection::only(&RULE),
-            "fanuc-mill",
-            &"G1 X123.4567891\n".repeat(9),
-            &World::default(),
-        );
+        let found = findings(&only(&RULE), "fanuc-mill", &"G1 X123.4567891\n".repeat(9), &World::default());
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].message, "number with 10 digits: `X123.4567891`, and more in 8 blocks");
     }
@@ -119,12 +113,7 @@ mod tests {
 
     #[test]
     fn words_name_the_limit() {
-        let found = findings(
-            &Selection::only(&RULE),
-            "fanuc-mill",
-            "G1 X123.4567891 Y123.4567891\n",
-            &World::default(),
-        );
+        let found = findings(&only(&RULE), "fanuc-mill", "G1 X123.4567891 Y123.4567891\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("here: 10 digits, 8 at most"), "{text}");
     }

@@ -1,16 +1,17 @@
-//! An M code that only the machine builder can explain.
+//! An M code of the machine builder that is not declared.
 
 use gcheck_controls::CodeNumber;
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Report, Run};
 
 declare_rule! {
-    /// An M code is not in the control's list, and the machine builder adds M codes of his own to this control.
+    /// An M code is not in the control's list, and machine builders add their own M codes to this control.
     ///
     /// ## Why it matters
-    /// Nothing can be checked about a code of unknown meaning: whether it stops the spindle, opens a door or waits. Declared
-    /// in the configuration, it has a name in hovers and listings, and this rule is quiet. Each code is reported once a file.
+    /// gcheck cannot check a code of unknown meaning: it may stop the spindle, open a door or wait. If the
+    /// configuration declares it, it has a name in hovers and listings, and this rule does not report it. Each code is
+    /// reported once per file.
     ///
     /// ## Reported
     /// ```nc,reported,fanuc-mill
@@ -21,7 +22,7 @@ declare_rule! {
     /// M8
     /// G65 P9010 M244.
     /// ```
-    /// A control whose M codes are all known: there `unknown-code` speaks.
+    /// On a control whose M codes are all known, `unknown-code` reports them.
     /// ```nc,quiet,linuxcnc
     /// M244
     /// ```
@@ -55,7 +56,7 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
 fn finding(number: CodeNumber, range: std::ops::Range<u32>) -> Finding {
     Finding::new(&META, range, format!("M code `{number}` is not declared"))
         .label("a code of the machine builder, if the machine has it")
-        .note("machine builders add M codes of their own to this control; the machine's manual lists them")
+        .note("machine builders add their own M codes to this control; the machine's manual lists them")
         .help(format!("declare `{number}` under `[codes]` in the configuration"))
 }
 
@@ -64,8 +65,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_code_is_reported_once() {
@@ -90,11 +90,11 @@ mod tests {
 
     #[test]
     fn words_are_for_the_machinist() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "M244\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "M244\n", &World::default());
         expect![[r#"
             M code `M244` is not declared
               here: a code of the machine builder, if the machine has it
-              note: machine builders add M codes of their own to this control; the machine's manual lists them
+              note: machine builders add their own M codes to this control; the machine's manual lists them
               help: declare `M244` under `[codes]` in the configuration
         "#]]
         .assert_eq(&words(&found[0]));

@@ -2,14 +2,14 @@
 
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
     /// A word has an address that the control does not have.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm. The program may be written for another control, or the letter is a slip of the finger.
+    /// The control stops with an alarm. The program may be written for another control, or the letter is mistyped.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -47,7 +47,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     Finding::new(&META, cx.range(word), format!("unknown address `{letter}`"))
         .label("no such address")
         .note(format!("{} has no address `{letter}`", cx.control().title()))
-        .help("correct the letter, or write what this control has for it")
+        .help("correct the letter, or use the equivalent of this control")
         .at_most(limit(cx.control().numbers().confidence))
 }
 
@@ -56,8 +56,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn corner_words_are_not_everywhere() {
@@ -87,7 +86,7 @@ mod tests {
 
     #[test]
     fn words_name_the_control() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G1 X10. ,R2. F100.\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G1 X10. ,R2. F100.\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("note: LinuxCNC has no address `,R`"), "{text}");
     }

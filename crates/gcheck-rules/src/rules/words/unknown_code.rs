@@ -3,21 +3,21 @@
 use gcheck_controls::{CodeNumber, Confidence, Letter, load, names};
 use gcheck_program::{BlockFlags, Value, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A G or M code is not in the control's list.
     ///
     /// ## Why it matters
-    /// The control stops with an alarm at the block. Most often the program was posted for another control, and then codes
-    /// that both have may mean different things as well.
+    /// The control stops with an alarm at the block. Most often the program was posted for another control, and then
+    /// codes that both controls have may differ in meaning too.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
     /// G154 P2
     /// ```
-    /// A number that can be no code at all:
+    /// A number that cannot be a code:
     /// ```nc,reported,haas-mill
     /// G54.25
     /// ```
@@ -25,7 +25,7 @@ declare_rule! {
     /// ```nc,quiet,haas-mill
     /// G154 P2
     /// ```
-    /// M codes where the machine builder adds his own; `undeclared-m-code` lists them.
+    /// M codes on a control to which machine builders add their own; see `undeclared-m-code`.
     /// ```nc,quiet,fanuc-mill
     /// M244
     /// ```
@@ -70,7 +70,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     let finding = finding
         .note(format!("{} has no `{number}`  [{}]", control.title(), list.source))
         .at_most(limit(if is_g { list.g_codes } else { list.m_codes }));
-    let finding = if cx.scene.control_is_guessed {
+    let finding = if cx.environment.control_is_guessed {
         finding
             .assuming(format!("the program is written for {}", control.title()))
             .at_most(limit(Confidence::Assumed))
@@ -88,11 +88,11 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     match elsewhere.first() {
         Some((title, meaning)) => finding
             .label(format!("on {title}: {meaning}"))
-            .help("write what this control has for it, or choose the control that the program is written for")
-            .note(format!("a code of the shop's own can be declared under `[codes]`: `{number}`")),
-        None => finding
-            .label("no such code")
-            .help(format!("correct the code, or declare `{number}` under `[codes]` if it is the shop's own")),
+            .help("use the equivalent of this control, or choose the control that the program is written for")
+            .note(format!("if it is a code of your shop, declare it under `[codes]`: `{number}`")),
+        None => finding.label("no such code").help(format!(
+            "correct the code, or declare `{number}` under `[codes]` if it is a code of your shop"
+        )),
     }
 }
 
@@ -106,7 +106,7 @@ fn elsewhere(cx: &BlockCx<'_>, number: CodeNumber) -> Vec<(String, String)> {
         Some((control.machine() != cx.control().machine(), control.title().to_owned(), meaning))
     });
     let mut known: Vec<_> = known.collect();
-    // A code of the same kind of machine explains more.
+    // A code of the same kind of machine is a better hint.
     known.sort_by_key(|(other_machine, ..)| *other_machine);
     known.into_iter().map(|(_, title, meaning)| (title, meaning)).collect()
 }
@@ -117,8 +117,7 @@ mod tests {
     use gcheck_controls::{CodeNumber, UserCode};
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn each_unknown_code_is_marked() {
@@ -187,13 +186,13 @@ mod tests {
 
     #[test]
     fn the_control_that_has_the_code_is_named() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G154 P2\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G154 P2\n", &World::default());
         expect![[r#"
             unknown code `G154`
               here: on Haas mill (classic control and NGC): extra work offsets P1 to P99
               note: LinuxCNC has no `G154`  [LCNC-SRC; RS274-2.9]
-              note: a code of the shop's own can be declared under `[codes]`: `G154`
-              help: write what this control has for it, or choose the control that the program is written for
+              note: if it is a code of your shop, declare it under `[codes]`: `G154`
+              help: use the equivalent of this control, or choose the control that the program is written for
         "#]]
         .assert_eq(&words(&found[0]));
     }

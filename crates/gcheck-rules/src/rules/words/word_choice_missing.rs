@@ -3,15 +3,15 @@
 use gcheck_controls::{Code, LetterSet, Motion};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::contract::{choice, letters_of};
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::{choice, letters_of};
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A code needs at least one of several words, and none of them stands in the block.
+    /// A code needs at least one of several words, and the block has none of them.
     ///
     /// ## Why it matters
-    /// The control does not know what to do with the code and stops with an alarm. For arcs, see `arc-without-centre`.
+    /// The control cannot execute the code and stops with an alarm. For arcs, see `arc-without-centre`.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -65,8 +65,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_probe_needs_a_direction() {
@@ -98,7 +97,7 @@ mod tests {
 
     #[test]
     fn words_list_the_choice() {
-        let found = findings(&Selection::only(&RULE), "fanuc-mill", "M98 L2\n", &World::default());
+        let found = findings(&only(&RULE), "fanuc-mill", "M98 L2\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("here: needs `P` or `Q`"), "{text}");
     }

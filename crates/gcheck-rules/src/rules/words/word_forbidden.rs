@@ -1,13 +1,13 @@
-//! A word that must not stand beside a code.
+//! A word that is not allowed with a code.
 
 use gcheck_controls::{Code, Letter};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// A word stands in a block with a code that does not bear it, though another code could use it.
+    /// A word shares a block with a code that does not allow it, although another code could use it.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the block.
@@ -21,7 +21,7 @@ declare_rule! {
     /// G33 Z-10. K1.5
     /// ```
     rule "word-forbidden" in "words" {
-        summary: "word that must not stand beside a code",
+        summary: "word that is not allowed with a code",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -45,7 +45,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
     let entry = code.entry();
     let written = cx.written(code);
     Finding::new(&META, cx.range(word), format!("`{}` in a block with `{written}`", cx.text(word)))
-        .label(format!("`{written}` does not bear `{}`", word.letter))
+        .label(format!("`{written}` does not allow `{}` in its block", word.letter))
         .note(format!(
             "`{}` ({}) must not share its block with `{}`  [{}]",
             entry.code, entry.title, word.letter, entry.source
@@ -59,8 +59,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_word_is_marked() {
@@ -92,9 +91,8 @@ mod tests {
 
     #[test]
     fn words_name_the_code() {
-        let found =
-            findings(&Selection::only(&RULE), "linuxcnc", "G33 Z-10. K1.5 F100.\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G33 Z-10. K1.5 F100.\n", &World::default());
         let text = words(&found[0]);
-        assert!(text.contains("here: `G33` does not bear `F`"), "{text}");
+        assert!(text.contains("here: `G33` does not allow `F` in its block"), "{text}");
     }
 }

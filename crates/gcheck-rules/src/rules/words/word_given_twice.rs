@@ -1,36 +1,36 @@
-//! An address that stands twice in a block.
+//! An address twice in a block.
 
 use gcheck_controls::{Handling, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Fix, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// An address stands twice in one block.
+    /// One block has the same address twice.
     ///
     /// ## Why it matters
-    /// Only one value can count. Some controls refuse the block, others take the last value without a word, so half of what
-    /// the programmer wrote is lost. Often an end of line is missing.
+    /// Only one value can count. Some controls refuse the block, others silently use the last value, so the other one
+    /// is lost. Often an end of line is missing.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
     /// G1 X1. Y2. X3. F100.
     /// ```
-    /// The same value twice is mended by taking the second away.
+    /// If the value is the same twice, the fix removes the second word.
     /// ```nc,reported,fanuc-mill
     /// G1 X1. Y2. X1. F100.
     /// ```
     /// ## Not reported
-    /// Arguments of a macro: a second `I` has a meaning of its own.
+    /// Arguments of a macro: a second `I` is another argument.
     /// ```nc,quiet,fanuc-mill
     /// G65 P9010 I1. J2. I3. J4.
     /// ```
     rule "word-given-twice" in "words" {
-        summary: "address stands twice in a block",
+        summary: "address twice in a block",
         severity: Error,
         tier: Block,
-        mends: Safely,
+        fixable: Safely,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::REPEATED, check },
     }
@@ -42,7 +42,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
     let mut seen = LetterSet::EMPTY;
     for word in cx.words() {
-        // A sequence number at the head and the number of a parameter behind a code are two things.
+        // A sequence number at the head and a parameter number after a code are two things.
         let is_datum = cx.codes().any(|(_, code)| code.reads().contains(word.letter));
         let is_label = cx.words().first().is_some_and(|first| first.letter == word.letter)
             && is_datum
@@ -64,18 +64,17 @@ fn finding(cx: &BlockCx<'_>, first: &Word, second: &Word) -> Finding {
     let (does, severity) = match rules.word_twice {
         Handling::Refused => ("refuses the block", Severity::Error),
         Handling::LastWins | Handling::Ignored | Handling::Accepted => {
-            ("takes the last one", Severity::Warning)
+            ("uses the last one", Severity::Warning)
         }
     };
-    // With one value for both, nothing is lost with the second.
+    // If both have one value, removing the second loses nothing.
     let is_same = first.number().is_some() && cx.text(first).eq_ignore_ascii_case(cx.text(second));
-    let fix = is_same.then(|| {
-        Fix::safe(format!("take the second `{}` away", cx.text(second)), cx.with_blanks(second), "")
-    });
+    let fix = is_same
+        .then(|| Fix::safe(format!("remove the second `{}`", cx.text(second)), cx.with_blanks(second), ""));
     Finding::new(&META, cx.range(second), format!("two `{letter}` words in one block"))
         .label(format!("`{letter}` again"))
-        .also(cx.range(first), format!("`{letter}` stands here already"))
-        .note(format!("an address may stand once in a block; this control {does}  [{}]", rules.source))
+        .also(cx.range(first), format!("`{letter}` is already here"))
+        .note(format!("an address may be in a block once; this control {does}  [{}]", rules.source))
         .help("keep one of the two, or begin a new block before the second")
         .fix_if(fix)
         .at_most(severity)
@@ -87,8 +86,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn the_second_word_is_marked() {
@@ -118,12 +116,12 @@ mod tests {
 
     #[test]
     fn words_say_which_control_does_what() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G1 X1. X3. F100.\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G1 X1. X3. F100.\n", &World::default());
         expect![[r#"
             two `X` words in one block
               here: `X` again
-              there: `X` stands here already
-              note: an address may stand once in a block; this control refuses the block  [LCNC-SRC; RS274-2.9]
+              there: `X` is already here
+              note: an address may be in a block once; this control refuses the block  [LCNC-SRC; RS274-2.9]
               help: keep one of the two, or begin a new block before the second
         "#]]
         .assert_eq(&words(&found[0]));

@@ -1,17 +1,18 @@
-//! A word that nothing reads.
+//! A word that no code reads.
 
-use gcheck_controls::{Code, Control, GroupIx, Handling, LetterSet, Motion};
+use gcheck_controls::{Handling, LetterSet};
 use gcheck_program::{BlockFlags, Word};
 
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::read_by_modes;
 use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
-    /// A word stands in a block whose codes do not read it, and nothing that may be in effect reads it either.
+    /// No code of the block reads this word, and no mode that may be in effect reads it either.
     ///
     /// ## Why it matters
-    /// Some controls refuse such a block. Others pass over the word: a dwell that does not dwell, an offset that is not taken.
-    /// Where it depends on the modes whether the word is read, `word-passed-over` knows more.
+    /// Some controls refuse such a block. Others ignore the word: a dwell does not dwell, an offset has no effect. If
+    /// the modes decide whether the word is read, see `word-passed-over`.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -29,7 +30,7 @@ declare_rule! {
         summary: "word that no code reads",
         severity: Error,
         tier: Block,
-        mends: OnRequest,
+        fixable: OnRequest,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::UNREAD_WORD, check },
     }
@@ -60,37 +61,21 @@ fn in_effect(cx: &BlockCx<'_>) -> LetterSet {
     read_by_modes(cx.control(), || cx.codes().map(|(_, code)| code))
 }
 
-/// Addresses that some mode reads which may be on beside the codes of a block.
-pub(super) fn read_by_modes<'c, I: Iterator<Item = Code<'c>>>(
-    control: &Control,
-    codes: impl Fn() -> I,
-) -> LetterSet {
-    let moves = |code: Code<'_>| code.motion() != Motion::None;
-    let here = |group: GroupIx| codes().any(|code| code.group_ix() == group);
-    // A motion or a cycle of this block takes the place of the one in effect, and so does a code that takes the axes.
-    let replaced = codes().any(|code| code.entry().takes_axes || code.group().modal && moves(code));
-    let refuses = control.block_rules().unread_word == Handling::Refused;
-    let lasting = control.codes().filter(|code| code.group().modal && !here(code.group_ix()));
-    // Where unread words are refused, a word is for a code of its own block or for the motion in effect.
-    let readers = lasting.filter(|code| if moves(*code) { !replaced } else { !refuses });
-    readers.fold(LetterSet::EMPTY, |set, code| set.or(code.reads()))
-}
-
 fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     let rules = cx.control().block_rules();
     let letter = word.letter;
     let (does, severity) = match rules.unread_word {
         Handling::Refused => ("refuses a block with such a word", Severity::Error),
         Handling::Ignored | Handling::LastWins | Handling::Accepted => {
-            ("passes over such a word", Severity::Info)
+            ("ignores such a word", Severity::Info)
         }
     };
     let general = cx.control().letter(letter).map_or("", |entry| entry.is.as_str());
     Finding::new(&META, cx.range(word), format!("no code of the block reads `{}`", cx.text(word)))
         .label(general)
         .note(format!("this control {does}  [{}]", rules.source))
-        .help(format!("take `{letter}` away, or add the code that it belongs to"))
-        .fix(cx.taking_away(word))
+        .help(format!("remove `{letter}`, or add the code that it belongs to"))
+        .fix(cx.removal_of(word))
         .at_most(severity)
         .at_most(limit(rules.confidence))
 }
@@ -100,8 +85,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_motion_of_the_block_settles_what_is_read() {
@@ -128,7 +112,7 @@ mod tests {
 
     #[test]
     fn words_say_what_the_control_does() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G0 X1. H2\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G0 X1. H2\n", &World::default());
         let text = words(&found[0]);
         assert!(text.contains("note: this control refuses a block with such a word"), "{text}");
     }

@@ -1,21 +1,21 @@
-//! A word that the control passes over, because nothing in effect reads it.
+//! A word that the control ignores, because no active mode reads it.
 
 use gcheck_controls::{Code, CodeIx, Effect, Handling, Letter, LetterSet, Motion};
 use gcheck_engine::Role;
 use gcheck_program::BlockFlags;
 
-use super::word_not_read::read_by_modes;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::read_by_modes;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
 
 declare_rule! {
-    /// A word stands in a block where neither a code of the block nor the motion in effect reads it.
+    /// Neither a code of the block nor the motion in effect reads this word.
     ///
     /// ## Why it matters
-    /// The control passes over it without a word. Most often it is left from another block: a `Q` behind the end of a peck
-    /// cycle, a `P` without its dwell. What it was meant for does not happen.
+    /// The control silently ignores it. Most often the word is left from another block: a `Q` after the end of a peck
+    /// cycle, a `P` without its dwell. Its intended effect does not happen.
     ///
-    /// What no mode of the control would read is told by `word-not-read`, and so is what a control refuses.
+    /// `word-not-read` reports a word that no mode of the control reads, and one that the control refuses.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -47,9 +47,9 @@ struct WordPassedOver;
 
 impl PathRule for WordPassedOver {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        let control = program.scene.control();
+        let control = program.environment.control();
         let survey = program.survey;
-        // A macro that is called for every block takes any word.
+        // A macro that is called for every block accepts any word.
         let is_plain = |code: Option<Code<'_>>| code.is_some_and(|code| !code.is_user() && !takes_all(code));
         control.block_rules().unread_word != Handling::Refused
             && !survey.has_computed_codes
@@ -64,7 +64,7 @@ impl PathRule for WordPassedOver {
             return;
         }
         let Some(unread) = unread(cx).filter(|unread| !unread.is_empty()) else { return };
-        let control = cx.scene.control();
+        let control = cx.control();
         for letter in unread.iter() {
             let Some(entry) = control.letter(letter) else { continue };
             let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { continue };
@@ -72,8 +72,8 @@ impl PathRule for WordPassedOver {
             report.add(
                 cx.finding(&META, range, format!("nothing reads `{letter}` in this block"))
                     .label(entry.is.as_str())
-                    .note(format!("this control passes over a word that no code reads  [{}]", rules.source))
-                    .help(format!("take `{letter}` away, or add the code that it belongs to"))
+                    .note(format!("this control ignores a word that no code reads  [{}]", rules.source))
+                    .help(format!("remove `{letter}`, or add the code that it belongs to"))
                     .at_most(limit(rules.confidence)),
             );
         }
@@ -82,12 +82,12 @@ impl PathRule for WordPassedOver {
 
 /// Addresses of the block that nothing reads; `None` where that is not known.
 fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
-    let control = cx.scene.control();
+    let control = cx.control();
     let mut read = LetterSet::EMPTY;
     let mut replaced = false;
     for ix in cx.codes().iter() {
         let code = control.code_at(*ix)?;
-        // Words of M codes are the builder's.
+        // The machine builder decides about words of M codes.
         if code.number().letter() == b'M' || code.entry().any_words {
             return None;
         }
@@ -97,7 +97,7 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
     if !replaced {
         read = read.or(of_motion(cx)?);
     }
-    // What a compensation took with its code, it may take again in later blocks: its vector.
+    // A compensation may read the words of its code again in later blocks: its vector.
     let lasting =
         |code: &Code<'_>| matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length));
     for code in cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number)).filter(lasting) {
@@ -112,9 +112,9 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
     Some(cx.origin().letters.and(by_modes).without(read).iter().filter(is_bound).collect())
 }
 
-/// Addresses that the motion or the cycle in effect reads; `None` where it may be any.
+/// Addresses that the motion or the cycle in effect reads; `None` if it may be any.
 fn of_motion(cx: &PathCx<'_>) -> Option<LetterSet> {
-    let control = cx.scene.control();
+    let control = cx.control();
     let cycle = cx.state().active_cycle(cx.model)?;
     let motion = cx.state().mode(Role::Motion).only()?;
     let reads = |ix: CodeIx| match control.code_at(ix) {
@@ -125,7 +125,7 @@ fn of_motion(cx: &PathCx<'_>) -> Option<LetterSet> {
     Some(reads(cycle)?.or(reads(motion)?))
 }
 
-/// Does the code, once it is on, take words of any block?
+/// Does the code, while it is active, read words of any block?
 fn takes_all(code: Code<'_>) -> bool {
     code.effect() == Effect::MacroModal || code.group().modal && code.entry().any_words
 }

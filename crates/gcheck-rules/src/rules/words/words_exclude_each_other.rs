@@ -1,17 +1,17 @@
-//! Words that a code does not take together.
+//! Words that a code does not accept together.
 
 use gcheck_controls::Code;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::contract::letters_of;
-use crate::meta::declare_rule;
+use crate::declare::declare_rule;
+use crate::facts::word_sets::letters_of;
 use crate::{BlockCx, Finding, Report, Run, limit};
 
 declare_rule! {
-    /// Two words of a block say the same thing in different ways, and the code takes only one of them.
+    /// Two words of a block give the same thing in different ways, and the code accepts only one of them.
     ///
     /// ## Why it matters
-    /// A radius and a centre may contradict each other. The control stops with an alarm, or follows one of the two.
+    /// A radius and a centre may contradict each other. The control stops with an alarm, or uses one of the two.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -22,7 +22,7 @@ declare_rule! {
     /// G2 X10. Y0. I5. J0. F100.
     /// ```
     rule "words-exclude-each-other" in "words" {
-        summary: "words that a code does not take together",
+        summary: "words that a code does not accept together",
         severity: Error,
         tier: Block,
         since: "0.1.0",
@@ -53,7 +53,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
         .label(meaning(code, second))
         .also(cx.range(first), meaning(code, first))
         .note(format!(
-            "`{}` ({}) takes `{a}` or `{b}`, not both  [{}]",
+            "`{}` ({}) accepts `{a}` or `{b}`, not both  [{}]",
             entry.code, entry.title, entry.source
         ))
         .help(format!("keep `{a}` or `{b}`"))
@@ -72,8 +72,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::Selection;
-    use crate::testing::{World, check_rule, findings, words};
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn radius_and_centre() {
@@ -120,8 +119,8 @@ mod tests {
 
     #[test]
     fn words_name_both() {
-        let found = findings(&Selection::only(&RULE), "linuxcnc", "G2 X10. I5. R5.\n", &World::default());
+        let found = findings(&only(&RULE), "linuxcnc", "G2 X10. I5. R5.\n", &World::default());
         let text = words(&found[0]);
-        assert!(text.contains("takes `I` or `R`, not both"), "{text}");
+        assert!(text.contains("accepts `I` or `R`, not both"), "{text}");
     }
 }

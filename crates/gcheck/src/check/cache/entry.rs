@@ -7,8 +7,8 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::sync::Arc;
 
+use gcheck_diagnostics::{Certainty, Edit, Finding, Fix, Label, RuleMeta, Severity, StatedAssumption};
 use gcheck_report::{ControlChoice, ControlSource};
-use gcheck_rules::{Certainty, Described, Edit, Finding, Fix, Label, RuleMeta, Severity};
 use serde::{Deserialize, Serialize};
 
 use super::questions::Asked;
@@ -23,7 +23,7 @@ pub(in crate::check) struct Verdict {
     pub(in crate::check) lines: usize,
     pub(in crate::check) suppressed: usize,
     pub(in crate::check) out_of_fuel: bool,
-    pub(in crate::check) assumptions: Vec<Described>,
+    pub(in crate::check) assumptions: Vec<StatedAssumption>,
 }
 
 /// A verdict, and what it rests on besides what its key says.
@@ -215,7 +215,7 @@ impl Reader<'_> {
             assumptions: entry
                 .assumptions
                 .iter()
-                .map(|(text, pin)| Some(Described { text: self.get(*text)?, pin: self.maybe(*pin)? }))
+                .map(|(text, pin)| Some(StatedAssumption { text: self.get(*text)?, pin: self.maybe(*pin)? }))
                 .collect::<Option<_>>()?,
         })
     }
@@ -244,7 +244,7 @@ impl Reader<'_> {
         if let Some(rule) = self.rules.get(&place) {
             return Some(rule);
         }
-        let rule = gcheck_rules::by_id(self.texts.get(place as usize)?)?.meta;
+        let rule = gcheck_rules::RULES.by_id(self.texts.get(place as usize)?)?.meta;
         self.rules.insert(place, rule);
         Some(rule)
     }

@@ -4,7 +4,7 @@
 
 use std::fmt;
 
-use gcheck_rules::Execution;
+use gcheck_lint::Execution;
 use gcheck_syntax::SourceText;
 use twox_hash::XxHash3_128;
 

@@ -7,7 +7,7 @@ use std::cell::RefCell;
 use std::collections::BTreeMap;
 
 use gcheck_engine::SourceFile;
-use gcheck_rules::Programs;
+use gcheck_lint::Programs;
 use serde::{Deserialize, Serialize};
 use twox_hash::XxHash3_128;
 

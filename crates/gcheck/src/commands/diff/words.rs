@@ -10,9 +10,16 @@ use gcheck_engine::{Axis, Model, Position, Spindle, Units};
 use gcheck_toolpath::{Aspect, Difference, Differences, Driven, Feed, Parting, Place, Stand, Value};
 use serde_json::{Value as Json, json};
 
-use super::Stopped;
+use crate::Problem;
 use crate::execution::Prepared;
 use crate::reading;
+
+/// Why a run did not come to its end.
+#[derive(Debug, Clone)]
+pub(super) struct Stopped {
+    pub(super) message: String,
+    pub(super) problem: Problem,
+}
 
 /// Version of the JSON's shape.
 const VERSION: u32 = 1;
@@ -135,7 +142,7 @@ impl Sides<'_> {
         let mut words: Vec<String> = Vec::new();
         for axis in Axis::ALL {
             if let Some(value) = point.get(axis) {
-                // Axes that the machine may not have stand at zero.
+                // Axes that the machine may not have are at zero.
                 if value.abs() > 0.0 || matches!(axis, Axis::X | Axis::Y | Axis::Z) {
                     words.push(format!(
                         "{}{}",
@@ -180,7 +187,7 @@ impl Sides<'_> {
                     Some(Spindle::Clockwise) => "clockwise",
                     Some(Spindle::CounterClockwise) => "counter-clockwise",
                     Some(Spindle::Stopped) => return "spindle stopped".to_owned(),
-                    None => "spindle not told",
+                    None => "spindle unknown",
                 };
                 let unit = if *is_surface { "m/min" } else { "rpm" };
                 let speed = speed.map_or_else(
@@ -193,7 +200,7 @@ impl Sides<'_> {
             Value::WorkOffset(None) => "work offset unknown".to_owned(),
             Value::WorkOffset(Some(work)) => self.control(side).map_or_else(
                 || work.to_string(),
-                |control| gcheck_rules::work_offset_name(*work, &Model::new(control)),
+                |control| gcheck_lint::work_offset_name(*work, &Model::new(control)),
             ),
             Value::Length(Some(0)) => "no tool length".to_owned(),
             Value::Length(length) => number(*length, 'H'),

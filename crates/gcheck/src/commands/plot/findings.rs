@@ -4,9 +4,9 @@
 
 use std::sync::Arc;
 
+use gcheck_lint::{Environment, Execution, Job, check};
 use gcheck_program::Dialect;
 use gcheck_report::{ControlSource, LineIndex};
-use gcheck_rules::{Execution, Job, Scene, check};
 use gcheck_toolpath::plot::Finding;
 
 use crate::args::{Global, PlotOptions};
@@ -63,7 +63,7 @@ pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) ->
     let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;
     let outcome = check(&Job {
         source: &prepared.source,
-        scene: Scene {
+        environment: Environment {
             dialect: &dialect,
             machine: &machine,
             programs: &programs,

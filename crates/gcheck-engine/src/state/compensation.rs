@@ -1,0 +1,129 @@
+//! Cutter compensation that is on, with the moves that it holds back.
+//!
+//! Knows: whether a path is compensated, and where its offset path has got to. Must not know: how the offset path is computed
+//! (`gcheck-geometry`), which codes switch it, tools.
+
+use std::rc::Rc;
+
+use gcheck_geometry::{Compensator, Plane};
+
+use crate::event::Event;
+use crate::lattice::{Joinable, Lattice, Perhaps};
+use crate::origin::Origin;
+use crate::position::Position;
+use crate::tracked::{Tracked, part};
+
+part! {
+    /// Whether the axes run beside the programmed path.
+    #[derive(Debug, Clone, Default)]
+    pub(crate) struct CompensationState {
+        /// It is on.
+        pub(crate) on: Tracked<Perhaps<Course>>,
+        /// It is switched off, until the move that leaves its path.
+        pub(crate) left: Tracked<Perhaps<Rc<Compensation>>>,
+    }
+}
+
+impl CompensationState {
+    /// The path that is followed, taken out; it is to be put back.
+    pub(crate) fn take_followed(&mut self) -> Option<Rc<Compensation>> {
+        match &*self.on {
+            Perhaps::Yes(Course::Followed(_)) => match self.on.take() {
+                Perhaps::Yes(Course::Followed(compensation)) => Some(compensation),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Goes on along a path.
+    pub(crate) fn follow_path(&mut self, compensation: Rc<Compensation>) {
+        self.on.put(Perhaps::Yes(Course::Followed(compensation)));
+    }
+
+    /// Its path is not followed from here on. What is off stays off.
+    pub(crate) fn lose_path(&mut self) {
+        if matches!(*self.on, Perhaps::Yes(_)) {
+            self.on.put(Perhaps::Yes(Course::Unknown));
+        }
+    }
+
+    /// Is a path followed?
+    #[inline]
+    pub(crate) fn is_followed(&self) -> bool {
+        matches!(*self.on, Perhaps::Yes(Course::Followed(_)))
+    }
+
+    /// What was on may be on along a path that nobody knows; what was off is left off.
+    pub(crate) fn forget(&mut self) {
+        let (on, left) = (self.on.or_other(), self.left.or_other());
+        self.on.put(on);
+        self.left.put(left);
+    }
+
+    /// Is it certainly off, and its path left?
+    pub(crate) fn is_off(&self) -> bool {
+        self.on.is_no() && self.left.is_no()
+    }
+}
+
+/// The path beside the programmed one.
+#[derive(Debug, Clone)]
+pub(crate) enum Course {
+    /// This one.
+    Followed(Rc<Compensation>),
+    /// Nobody knows: the tool's size or the start is not known, or two paths became one.
+    Unknown,
+}
+
+impl Joinable for Course {
+    fn joined(&self, other: &Self, _: bool) -> Option<Self> {
+        Some(if self.is_same(other) { self.clone() } else { Self::Unknown })
+    }
+
+    fn stands_for(&self, inner: &Self) -> bool {
+        matches!(self, Self::Unknown) || self.is_same(inner)
+    }
+
+    fn is_same(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Unknown, Self::Unknown) => true,
+            (Self::Followed(a), Self::Followed(b)) => a.is_same(b),
+            _ => false,
+        }
+    }
+}
+
+/// A path being compensated.
+#[derive(Debug, Clone)]
+pub(crate) struct Compensation {
+    pub(crate) compensator: Compensator<Programmed, (Origin, Event)>,
+    pub(crate) plane: Plane,
+    /// The last point given out, all axes.
+    pub(crate) at: Position,
+}
+
+/// What a programmed move carries through the compensation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Programmed {
+    pub(crate) origin: Origin,
+    pub(crate) target: Position,
+}
+
+/// What one path holds back says nothing of another.
+impl Joinable for Rc<Compensation> {
+    fn joined(&self, other: &Self, _: bool) -> Option<Self> {
+        self.is_same(other).then(|| Self::clone(self))
+    }
+
+    fn stands_for(&self, inner: &Self) -> bool {
+        self.is_same(inner)
+    }
+
+    /// An event held back with a number that nobody knows makes two of them differ: that is safe to say.
+    fn is_same(&self, other: &Self) -> bool {
+        let Compensation { compensator, plane, at } = &**self;
+        Self::ptr_eq(self, other)
+            || *plane == other.plane && at.same(&other.at) && *compensator == other.compensator
+    }
+}

@@ -1,0 +1,190 @@
+//! What a rule of the token or block tier sees: one block with its control.
+//!
+//! Knows: how to ask the block table and the knowledge base together. Must not know: how rules are chosen, other blocks.
+
+use std::ops::Range;
+
+use gcheck_controls::{Code, Confidence, Control, Letter, LetterEntry, WordEntry, WordKind};
+use gcheck_program::{Block, BlockIx, BlockTable, Expr, Value, Word};
+
+use crate::Environment;
+
+/// Words of one block that rules look at.
+///
+/// Rules may compare every word with every other. There are 32 addresses, so a block with more words than this repeats them
+/// all and is reported for that; a line of a million characters must not cost a million squared.
+pub(crate) const MAX_WORDS: usize = 256;
+
+/// One block, as a rule of the token or block tier sees it.
+pub struct BlockCx<'a> {
+    /// Control, machine, other programs.
+    pub environment: Environment<'a>,
+    pub(crate) table: &'a BlockTable,
+    pub(crate) ix: BlockIx,
+    pub(crate) block: &'a Block,
+    /// Text of the chunk.
+    pub(crate) text: &'a str,
+    /// Offset of the chunk in the file.
+    pub(crate) base: u32,
+}
+
+/// What a word means in its block: the entry of the code that reads it, or the general one of its address.
+#[derive(Debug, Clone, Copy)]
+pub struct WordFacts<'a> {
+    /// Meaning in a few words.
+    pub is: &'a str,
+    /// Kind of value.
+    pub kind: WordKind,
+    /// Smallest value.
+    pub min: Option<f64>,
+    /// Largest value.
+    pub max: Option<f64>,
+    /// The value must be greater than this.
+    pub above: Option<f64>,
+    /// A minus sign is accepted.
+    pub negative: bool,
+    /// The code that reads the word; `None` when the general entry of the address applies.
+    pub code: Option<Code<'a>>,
+    /// How sure these facts are.
+    pub confidence: Confidence,
+    /// How sure `min`, `max` and `above` are.
+    pub range_confidence: Confidence,
+    /// Where they are written: manual and page.
+    pub source: &'a str,
+}
+
+impl<'a> BlockCx<'a> {
+    /// The control.
+    pub fn control(&self) -> &'a Control {
+        self.environment.control()
+    }
+
+    /// The block.
+    pub fn block(&self) -> &'a Block {
+        self.block
+    }
+
+    /// The chunk's table.
+    pub fn table(&self) -> &'a BlockTable {
+        self.table
+    }
+
+    /// The block's words in text order, statements not included; the first 256 of them, which is more
+    /// than a block can use.
+    pub fn words(&self) -> &'a [Word] {
+        let words = self.table.words(self.block);
+        words.get(..MAX_WORDS).unwrap_or(words)
+    }
+
+    /// The first word with an address.
+    pub fn word(&self, letter: char) -> Option<&'a Word> {
+        let letter = Letter::of(letter);
+        self.words().iter().find(|w| w.letter == letter)
+    }
+
+    /// The block's `G` and `M` words that name codes of the control, with the codes.
+    pub fn codes(&self) -> impl Iterator<Item = (&'a Word, Code<'a>)> + use<'a> {
+        let control = self.control();
+        self.words().iter().filter_map(move |word| Some((word, control.code_at(word.code)?)))
+    }
+
+    /// The block's statements in text order.
+    pub fn statements(&self) -> impl Iterator<Item = &'a gcheck_program::Statement> + use<'a> {
+        self.table.statements(self.ix)
+    }
+
+    /// The block's expressions: of its words, then of its statements.
+    pub fn expressions(&self) -> impl Iterator<Item = &'a Expr> + use<'a> {
+        let table = self.table;
+        let of_words = self.words().iter().filter_map(|word| match word.value {
+            Value::Expr(expr) => Some(expr),
+            Value::Number(_) | Value::Missing => None,
+        });
+        of_words.chain(self.statements().flat_map(|s| s.kind.expressions())).map(|ix| table.expr(ix))
+    }
+
+    /// Bytes of the chunk as bytes of the file.
+    pub fn in_file(&self, range: Range<u32>) -> Range<u32> {
+        range.start + self.base..range.end + self.base
+    }
+
+    /// A word's bytes of the file.
+    pub fn range(&self, word: &Word) -> Range<u32> {
+        self.in_file(word.range())
+    }
+
+    /// The block's bytes of the file.
+    pub fn block_range(&self) -> Range<u32> {
+        self.in_file(self.block.range.clone())
+    }
+
+    /// Text of the chunk's bytes.
+    pub fn slice(&self, range: Range<u32>) -> &'a str {
+        self.text.get(range.start as usize..range.end as usize).unwrap_or_default()
+    }
+
+    /// A word as written.
+    pub fn text(&self, word: &Word) -> &'a str {
+        self.slice(word.range())
+    }
+
+    /// The block as written, without its end of line.
+    pub fn block_text(&self) -> &'a str {
+        self.slice(self.block.range.clone())
+    }
+
+    /// What a word means: asked first of the codes in its block, then of its address.
+    ///
+    /// `None` for `G` and `M` words, for addresses the control does not have, and where a code of the block may read
+    /// anything (a macro call), so that its words mean what the macro says.
+    pub fn facts(&self, word: &Word) -> Option<WordFacts<'a>> {
+        if matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner() {
+            return None;
+        }
+        let general = self.control().letter(word.letter);
+        let mut anything = false;
+        for (_, code) in self.codes() {
+            if code.reads().contains(word.letter) {
+                let entry =
+                    code.entry().words.iter().find(|w| Letter::parse(&w.letter) == Some(word.letter))?;
+                return Some(of_code(code, entry, general));
+            }
+            anything |= code.entry().any_words;
+        }
+        if anything && !general.is_some_and(|g| matches!(g.kind, WordKind::Label) && g.free) {
+            return None;
+        }
+        general.map(of_letter)
+    }
+}
+
+fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterEntry>) -> WordFacts<'a> {
+    let confidence = entry.confidence.unwrap_or(code.entry().confidence);
+    WordFacts {
+        is: &entry.is,
+        kind: entry.kind,
+        min: entry.min,
+        max: entry.max,
+        above: entry.above,
+        negative: general.is_none_or(|g| g.negative),
+        code: Some(code),
+        confidence,
+        range_confidence: entry.range_confidence.unwrap_or(confidence),
+        source: &code.entry().source,
+    }
+}
+
+fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
+    WordFacts {
+        is: &entry.is,
+        kind: entry.kind,
+        min: entry.min,
+        max: entry.max,
+        above: None,
+        negative: entry.negative,
+        code: None,
+        confidence: entry.confidence,
+        range_confidence: entry.confidence,
+        source: &entry.source,
+    }
+}

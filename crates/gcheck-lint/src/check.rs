@@ -1,0 +1,456 @@
+//! Running the selected rules over one file.
+//!
+//! Knows: chunks, tiers, suppressions, the order of findings. Must not know: any rule. Memory stays bounded: a chunk's table
+//! is dropped before the next is made, and findings beyond [`MAX_FINDINGS`] are counted, not kept.
+
+use std::collections::BTreeSet;
+use std::ops::Range;
+
+use gcheck_controls::{Control, Ends};
+use gcheck_diagnostics::{Finding, RuleMeta, Severity};
+use gcheck_engine::{Assumption, Model, Options, Program, flow};
+use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
+use gcheck_syntax::SourceText;
+
+use crate::environment::ProgramLibrary;
+use crate::watchers::Watchers;
+use crate::{
+    BlockCx, Environment, FileCx, ProgramText, Report, RuleEntry, RuleTable, Run, Selection, Suppressions,
+    syntax_errors,
+};
+
+/// Findings of one file that are kept; the rest are counted by rule.
+pub const MAX_FINDINGS: usize = 10_000;
+
+/// What is to be checked, and how.
+pub struct Job<'a> {
+    /// The file.
+    pub source: &'a SourceText,
+    /// Control, machine, other programs.
+    pub environment: Environment<'a>,
+    /// The rules that run.
+    pub selection: &'a Selection,
+    /// Whether comments may silence rules.
+    pub suppressions: bool,
+    /// How paths are analysed.
+    pub execution: Execution,
+}
+
+/// How the paths of a program are analysed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Execution {
+    /// Blocks that may be executed.
+    pub fuel: u64,
+    /// The switch of block delete; `None` analyses every position.
+    pub block_skip: Option<bool>,
+}
+
+impl Default for Execution {
+    fn default() -> Self {
+        Self { fuel: 50_000_000, block_skip: None }
+    }
+}
+
+/// What the findings of a file take as given: settings, offsets and modes that were not configured.
+pub type Assumptions = BTreeSet<Assumption>;
+
+/// What came out of a file.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Findings in text order.
+    pub findings: Vec<Finding>,
+    /// Findings beyond the limit, by rule and severity.
+    pub omitted: Vec<(&'static RuleMeta, Severity, usize)>,
+    /// Findings silenced by comments.
+    pub suppressed: usize,
+    /// Lines of the file.
+    pub lines: usize,
+    /// What the analysis of paths took as given.
+    pub assumptions: Assumptions,
+    /// The analysis of paths ended before it had seen all.
+    pub out_of_fuel: bool,
+}
+
+/// Findings that were counted and not kept, by rule and severity.
+#[derive(Debug, Clone, Default)]
+pub struct Omitted(Vec<(&'static RuleMeta, Severity, usize)>);
+
+impl Omitted {
+    pub(crate) fn add(&mut self, rule: &'static RuleMeta, severity: Severity, more: usize) {
+        let same = |(other, of, _): &&mut (&'static RuleMeta, Severity, usize)| {
+            std::ptr::eq(*other, rule) && *of == severity
+        };
+        match self.0.iter_mut().find(same) {
+            Some((_, _, count)) => *count += more,
+            None => self.0.push((rule, severity, more)),
+        }
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = (&'static RuleMeta, Severity, usize)> {
+        self.0.iter().copied()
+    }
+}
+
+/// The selected rules, arranged by when they run.
+pub(crate) struct Plan {
+    table: RuleTable,
+    token: Vec<(&'static RuleEntry, Option<Severity>)>,
+    block: Vec<(&'static RuleEntry, Option<Severity>, BlockFlags)>,
+    program: Vec<(&'static RuleEntry, Option<Severity>)>,
+    pub(crate) path: Vec<(&'static RuleEntry, Option<Severity>)>,
+    suppressions: Vec<(&'static RuleEntry, Option<Severity>)>,
+    /// Blocks without any of these flags need no rule.
+    trigger: BlockFlags,
+}
+
+impl Plan {
+    pub(crate) fn new(selection: &Selection) -> Self {
+        let mut plan = Self {
+            table: selection.table(),
+            token: Vec::new(),
+            block: Vec::new(),
+            program: Vec::new(),
+            path: Vec::new(),
+            suppressions: Vec::new(),
+            trigger: BlockFlags::ERROR,
+        };
+        for (rule, severity) in selection.rules() {
+            match rule.run {
+                Run::Token { .. } => plan.token.push((rule, severity)),
+                Run::Block { trigger, .. } => {
+                    plan.trigger |= trigger;
+                    plan.block.push((rule, severity, trigger));
+                }
+                Run::Program { .. } => plan.program.push((rule, severity)),
+                Run::Path { .. } => plan.path.push((rule, severity)),
+                Run::Suppressions { .. } => plan.suppressions.push((rule, severity)),
+            }
+        }
+        plan
+    }
+
+    /// The same without rules about suppressions.
+    pub(crate) fn without_suppressions(self) -> Self {
+        Self { suppressions: Vec::new(), ..self }
+    }
+
+    /// The user chose the severity of the rule's findings.
+    fn is_overridden(&self, rule: &'static RuleMeta) -> bool {
+        let pairs = self.token.iter().chain(&self.program).chain(&self.path).map(|(r, s)| (r, s));
+        let mut pairs = pairs.chain(self.block.iter().map(|(r, s, _)| (r, s)));
+        pairs.any(|(r, severity)| std::ptr::eq(r.meta, rule) && severity.is_some())
+    }
+}
+
+/// Keeps findings up to the limit.
+pub(crate) struct Collector<'c> {
+    control: &'c Control,
+    findings: Vec<Finding>,
+    omitted: Omitted,
+}
+
+impl<'c> Collector<'c> {
+    pub(crate) fn new(control: &'c Control) -> Self {
+        Self { control, findings: Vec::new(), omitted: Omitted::default() }
+    }
+
+    /// What is kept and counted so far.
+    pub(crate) fn mark(&self) -> (usize, Omitted) {
+        (self.findings.len(), self.omitted.clone())
+    }
+
+    /// Forgets what was added since the mark.
+    pub(crate) fn rewind(&mut self, (kept, omitted): &(usize, Omitted)) {
+        self.findings.truncate(*kept);
+        self.omitted.clone_from(omitted);
+    }
+
+    pub(crate) fn into_parts(self) -> (Vec<Finding>, Omitted) {
+        (self.findings, self.omitted)
+    }
+
+    pub(crate) fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
+        // Only what is certainly a mistake predicts an alarm.
+        if finding.alarm.is_none() && finding.severity == Severity::Error {
+            finding.alarm = self
+                .control
+                .alarm(finding.rule.id)
+                .map(|a| a.number.clone().unwrap_or_else(|| a.text.clone()));
+        }
+        if let Some(severity) = severity {
+            finding.severity = severity;
+        }
+        self.keep(finding);
+    }
+
+    /// Adds a finding that has its severity and alarm.
+    pub(crate) fn keep(&mut self, finding: Finding) {
+        if self.is_full() {
+            self.omit(finding.rule, finding.severity, 1);
+        } else {
+            self.findings.push(finding);
+        }
+    }
+
+    /// Are further findings only counted?
+    pub(crate) fn is_full(&self) -> bool {
+        self.findings.len() >= MAX_FINDINGS
+    }
+
+    pub(crate) fn omit(&mut self, rule: &'static RuleMeta, severity: Severity, count: usize) {
+        self.omitted.add(rule, severity, count);
+    }
+
+    /// A finding in text that no run reads is not an error, unless the user configured the rule's severity.
+    fn soften(&mut self, plan: &Plan, unread_from: u32) {
+        for finding in &mut self.findings {
+            if finding.range.start < unread_from
+                || finding.severity != Severity::Error
+                || plan.is_overridden(finding.rule)
+            {
+                continue;
+            }
+            finding.severity = Severity::Warning;
+            finding.alarm = None;
+            finding.notes.push("it is after the end of the program, and is never executed".to_owned());
+        }
+    }
+}
+
+/// Checks one file.
+pub fn check(job: &Job<'_>) -> Outcome {
+    let plan = Plan::new(job.selection);
+    let text = job.source.text();
+    let region = code_region(text);
+    let region = region.start as u32..region.end as u32;
+    let mut collector = Collector::new(job.environment.control());
+    let mut survey = Survey::default();
+    let mut directives = Vec::new();
+    let (mut lines, mut seen) = (0, 0);
+    let loaded = Loaded::new(text, job.environment.dialect, |base, table, chunk| {
+        // Here its text is in the processor's cache.
+        lines += count_lines(chunk.as_bytes());
+        seen += chunk.len();
+        survey.add(table, base, region.end, job.environment.dialect);
+        // Comments after the part that the control reads silence nothing, wherever the chunk ends.
+        let read = table.directives().iter().filter(|r| r.start + base < region.end);
+        directives.extend(read.map(|r| r.start + base..r.end + base));
+        check_blocks(job.environment, &plan, region.end, base, table, chunk, &mut collector);
+    });
+    lines += count_lines(text.as_bytes().get(seen..).unwrap_or_default());
+    let text = ProgramText::whole(text);
+    check_file(job.environment, &plan, &text, region, &survey, &mut collector);
+    let (assumptions, out_of_fuel) = check_paths(job, &plan, loaded, &survey, &mut collector);
+    let ends = FileNotes { suppressions: job.suppressions, directives: &directives, lines };
+    let mut outcome = conclude(&plan, &text, &survey, collector, &ends);
+    outcome.assumptions = assumptions;
+    outcome.out_of_fuel = out_of_fuel;
+    outcome
+}
+
+/// The rules of the program tier.
+pub(crate) fn check_file(
+    environment: Environment<'_>,
+    plan: &Plan,
+    text: &ProgramText<'_>,
+    region: Range<u32>,
+    survey: &Survey,
+    collector: &mut Collector<'_>,
+) {
+    let cx = FileCx::new(environment, text, region, survey);
+    for (rule, severity) in &plan.program {
+        if let Run::Program { check } = rule.run {
+            check(&cx, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+        }
+    }
+}
+
+/// What is known of a file besides its findings.
+pub(crate) struct FileNotes<'r> {
+    /// Whether comments may silence rules.
+    pub(crate) suppressions: bool,
+    /// Comments with directives.
+    pub(crate) directives: &'r [Range<u32>],
+    pub(crate) lines: usize,
+}
+
+/// When all rules have run: softens findings that no run reaches, silences, and sorts.
+pub(crate) fn conclude(
+    plan: &Plan,
+    text: &ProgramText<'_>,
+    survey: &Survey,
+    mut collector: Collector<'_>,
+    notes: &FileNotes<'_>,
+) -> Outcome {
+    if let Some(end) = unread_from(survey) {
+        // The rest of the block that ends the program is read with it.
+        let (base, chunk) = text.around(end);
+        let rest = chunk.as_bytes().get((end - base) as usize..).unwrap_or_default();
+        let line = rest.iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(rest.len());
+        collector.soften(plan, end + line as u32);
+    }
+    finish(plan, text, collector, notes)
+}
+
+/// Executes all paths of the program and lets the rules of the path tier watch.
+fn check_paths(
+    job: &Job<'_>,
+    plan: &Plan,
+    loaded: Loaded<'_>,
+    survey: &Survey,
+    collector: &mut Collector<'_>,
+) -> (Assumptions, bool) {
+    if plan.path.is_empty() {
+        return (Assumptions::new(), false);
+    }
+    let library = ProgramLibrary(job.environment.programs);
+    let model = Model::new(job.environment.control());
+    let program = Program::new(loaded, job.environment.dialect, &library);
+    let mut add = |severity: Option<Severity>, finding: Finding| collector.add(severity, finding);
+    let mut watchers = Watchers::new(job.environment, &program, &model, survey, &plan.path, &mut add);
+    let machine = &job.environment.machine.engine;
+    let mut results = Vec::new();
+    for skip in switch_positions(job.execution.block_skip, survey.block_deletes) {
+        if !results.is_empty() {
+            watchers.restart();
+        }
+        let options = Options { skip, ..Options::NONE };
+        results.push(flow(&program, &model, machine, options, job.execution.fuel, &mut watchers));
+    }
+    let out_of_fuel = results.iter().any(|result| result.out_of_fuel);
+    let mut assumptions = Assumptions::new();
+    for result in &results {
+        assumptions.extend(result.assumptions.iter().cloned());
+    }
+    if let Some((first, others)) = results.split_first() {
+        watchers.finish(first, others);
+    }
+    (assumptions, out_of_fuel)
+}
+
+/// Positions of the block delete switches worth an analysis: all off, all on, and each level alone where there are several.
+pub(crate) fn switch_positions(wanted: Option<bool>, levels: u16) -> Vec<u16> {
+    match (wanted, levels.count_ones()) {
+        (Some(false), _) | (None, 0) => vec![0],
+        (Some(true), _) => vec![u16::MAX],
+        (None, 1) => vec![0, u16::MAX],
+        (None, _) => {
+            let each = (0..16).map(|level| 1 << level).filter(|level| levels & level != 0);
+            [0, u16::MAX].into_iter().chain(each).collect()
+        }
+    }
+}
+
+/// Where the text begins that no run reads: after an end of the program that nothing goes past.
+fn unread_from(survey: &Survey) -> Option<u32> {
+    let starts = [
+        survey.programs.last().map(|p| p.range.start),
+        survey.labels.last().map(|l| l.range.start),
+        survey.loops.last().map(|l| l.range.start),
+        survey.o_words.last().map(|o| o.range.start),
+    ];
+    let reached = starts.into_iter().flatten().max().unwrap_or(0);
+    let mut ends = survey.ends.iter().filter(|e| e.ends == Ends::Program && !e.conditional);
+    ends.find(|e| e.range.start >= reached).map(|e| e.range.end)
+}
+
+/// Lines as people count them: a line end (`\n`, `\r\n` or `\r`) closes one, and text after the last is one more.
+pub(crate) fn count_lines(text: &[u8]) -> usize {
+    let feeds = memchr::memchr_iter(b'\n', text).count();
+    let lone_returns = memchr::memchr_iter(b'\r', text).filter(|at| text.get(at + 1) != Some(&b'\n')).count();
+    feeds + lone_returns + usize::from(text.last().is_some_and(|last| !matches!(last, b'\n' | b'\r')))
+}
+
+/// The rules of the block and token tiers over a chunk at offset `base`; blocks that begin at `end` or after it are not read.
+pub(crate) fn check_blocks(
+    environment: Environment<'_>,
+    plan: &Plan,
+    end: u32,
+    base: u32,
+    table: &BlockTable,
+    text: &str,
+    collector: &mut Collector<'_>,
+) {
+    if !table.flags().intersects(plan.trigger) {
+        return;
+    }
+    for (ix, block) in table.blocks() {
+        if !block.flags.intersects(plan.trigger) {
+            continue;
+        }
+        if base + block.range.start >= end {
+            break;
+        }
+        let cx = BlockCx { environment, table, ix, block, text, base };
+        for (rule, severity, trigger) in &plan.block {
+            if let Run::Block { check, .. } = rule.run
+                && block.flags.intersects(*trigger)
+            {
+                check(&cx, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+            }
+        }
+        if block.flags.contains(BlockFlags::ERROR) {
+            for error in syntax_errors::shown(&cx) {
+                for (rule, severity) in &plan.token {
+                    if let Run::Token { on, check } = rule.run
+                        && on(error.kind)
+                    {
+                        check(&cx, error, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Silences, reports suppressions that silence nothing, and sorts.
+fn finish(
+    plan: &Plan,
+    text: &ProgramText<'_>,
+    mut collector: Collector<'_>,
+    notes: &FileNotes<'_>,
+) -> Outcome {
+    let mut suppressed = 0;
+    if notes.suppressions && !notes.directives.is_empty() {
+        let mut suppressions = Suppressions::read(text, notes.directives, plan.table);
+        let before = collector.findings.len();
+        collector.findings.retain(|finding| !suppressions.silences(finding));
+        suppressed = before - collector.findings.len();
+        for (rule, severity) in &plan.suppressions {
+            if let Run::Suppressions { check } = rule.run {
+                check(&suppressions, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+            }
+        }
+    }
+    let mut findings = collector.findings;
+    findings.sort_by(|a, b| {
+        (a.range.start, a.range.end, a.rule.id, &a.message).cmp(&(
+            b.range.start,
+            b.range.end,
+            b.rule.id,
+            &b.message,
+        ))
+    });
+    Outcome {
+        findings,
+        omitted: collector.omitted.0,
+        suppressed,
+        lines: notes.lines,
+        assumptions: Assumptions::new(),
+        out_of_fuel: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::count_lines;
+
+    #[test]
+    fn every_kind_of_line_end_closes_a_line() {
+        for (text, lines) in
+            [("", 0), ("G0", 1), ("G0\n", 1), ("G0\r\nG1", 2), ("G0\rG1\r", 2), ("\n\r\n\r", 3)]
+        {
+            assert_eq!(count_lines(text.as_bytes()), lines, "{text:?}");
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! What surrounds a program that is checked: its control, the user's machine, other programs.
+//!
+//! Knows: what every rule may ask of the surroundings. Must not know: where they come from, the program itself.
+
+use std::collections::BTreeMap;
+
+use gcheck_controls::{Control, LetterSet};
+use gcheck_engine::{Library, SourceFile};
+use gcheck_program::Dialect;
+
+/// What the user declared about the machine; everything may be unknown.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MachineFacts {
+    /// Axes the machine has.
+    pub axes: Option<LetterSet>,
+    /// The control's settings by number, values as its page words them.
+    pub settings: BTreeMap<String, String>,
+    /// The user configured the units of the machine's programs: `engine.units` is more than the control's default.
+    pub units_are_told: bool,
+    /// Offsets, tools, travel and the rest that executing a program asks for.
+    pub engine: gcheck_engine::Machine,
+}
+
+/// Programs that are not in the file at hand: other files of its folder and of the search path.
+pub trait Programs {
+    /// Is there a program of this number?
+    fn has_number(&self, number: u32) -> bool;
+    /// Is there a subroutine file of this name (lower case)?
+    fn has_name(&self, name: &str) -> bool;
+    /// The file that holds the program of this number, for execution.
+    fn source_of_number(&self, number: u32) -> Option<SourceFile> {
+        let _ = number;
+        None
+    }
+    /// The file that holds the subroutine of this name (lower case), for execution.
+    fn source_of_name(&self, name: &str) -> Option<SourceFile> {
+        let _ = name;
+        None
+    }
+}
+
+/// No other programs.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct NoPrograms;
+
+impl Programs for NoPrograms {
+    fn has_number(&self, _: u32) -> bool {
+        false
+    }
+
+    fn has_name(&self, _: &str) -> bool {
+        false
+    }
+}
+
+/// What every rule may ask.
+#[derive(Clone, Copy)]
+pub struct Environment<'a> {
+    /// The control, prepared.
+    pub dialect: &'a Dialect<'a>,
+    /// The user's machine.
+    pub machine: &'a MachineFacts,
+    /// Other programs.
+    pub programs: &'a dyn Programs,
+    /// The user did not choose the control: it was guessed from the program, or is the default.
+    pub control_is_guessed: bool,
+}
+
+impl<'a> Environment<'a> {
+    /// The control.
+    pub fn control(&self) -> &'a Control {
+        self.dialect.control()
+    }
+
+    /// A setting's value: configured, or the default that the knowledge base assumes.
+    ///
+    /// The second part is the assumption to state, if the user did not configure it.
+    pub fn setting(&self, number: &str) -> Option<(&'a str, Option<String>)> {
+        if let Some(value) = self.machine.settings.get(number) {
+            return Some((value, None));
+        }
+        let entry = self.control().setting(number)?;
+        let default = entry.default.as_deref()?;
+        Some((default, Some(format!("setting {number} ({}) is {default}", entry.title))))
+    }
+}
+
+/// The engine's view of [`Environment::programs`].
+pub(crate) struct ProgramLibrary<'a>(pub(crate) &'a dyn Programs);
+
+impl Library for ProgramLibrary<'_> {
+    fn by_number(&self, number: u32) -> Option<SourceFile> {
+        self.0.source_of_number(number)
+    }
+
+    fn by_name(&self, name: &str) -> Option<SourceFile> {
+        self.0.source_of_name(name)
+    }
+}

@@ -1,0 +1,126 @@
+//! What a rule of the program tier sees: a whole file.
+//!
+//! Knows: how to read a file again, in pieces, lines and blocks; facts that are found out once for several rules. Must not
+//! know: any rule, what words mean.
+
+use std::any::{Any, TypeId};
+use std::cell::RefCell;
+use std::ops::Range;
+use std::rc::Rc;
+
+use gcheck_controls::Control;
+use gcheck_program::{Survey, lower};
+use gcheck_syntax::line_len;
+
+use crate::{BlockCx, Environment, ProgramText};
+
+/// What several rules ask of a file: found out once, when the first of them asks.
+pub trait FileFact: Any {
+    /// Of a file.
+    fn of(cx: &FileCx<'_>) -> Self;
+}
+
+/// A whole file, as a rule of the program tier sees it.
+pub struct FileCx<'a> {
+    /// Control, machine, other programs.
+    pub environment: Environment<'a>,
+    /// The text.
+    pub text: &'a ProgramText<'a>,
+    /// The part of the file that the control reads.
+    pub region: Range<u32>,
+    /// Labels, jumps, calls, loops, ends.
+    pub survey: &'a Survey,
+    /// Facts that a rule has asked for.
+    facts: RefCell<Vec<(TypeId, Rc<dyn Any>)>>,
+}
+
+impl<'a> FileCx<'a> {
+    /// A file with its survey; `region` is the part that the control reads.
+    pub fn new(
+        environment: Environment<'a>,
+        text: &'a ProgramText<'a>,
+        region: Range<u32>,
+        survey: &'a Survey,
+    ) -> Self {
+        Self { environment, text, region, survey, facts: RefCell::default() }
+    }
+
+    /// A fact about the file.
+    pub fn fact<F: FileFact>(&self) -> Rc<F> {
+        let id = TypeId::of::<F>();
+        let known = self.facts.borrow().iter().find(|(of, _)| *of == id).map(|(_, fact)| Rc::clone(fact));
+        if let Some(fact) = known.and_then(|fact| fact.downcast().ok()) {
+            return fact;
+        }
+        let fact = Rc::new(F::of(self));
+        self.facts.borrow_mut().push((id, Rc::<F>::clone(&fact)));
+        fact
+    }
+
+    /// The control.
+    pub fn control(&self) -> &'a Control {
+        self.environment.control()
+    }
+
+    /// Text of a range of the file.
+    pub fn slice(&self, range: Range<u32>) -> &'a str {
+        self.text.slice(range)
+    }
+
+    /// Reads a block again whose place the survey holds, and gives it to `look`.
+    pub fn reread(&self, place: Range<u32>, mut look: impl FnMut(&BlockCx<'_>)) {
+        let base = place.start;
+        let text = self.slice(place);
+        let table = lower(text, self.environment.dialect);
+        for (ix, block) in table.blocks() {
+            look(&BlockCx { environment: self.environment, table: &table, ix, block, text, base });
+        }
+    }
+
+    /// Reads the file again, block by block. A rule that is on by default must not: it asks the survey.
+    pub fn each_block(&self, mut look: impl FnMut(&BlockCx<'_>)) {
+        for (start, run) in self.runs() {
+            for chunk in gcheck_syntax::cuts(run) {
+                let base = start + chunk.start as u32;
+                let text = run.get(chunk).unwrap_or_default();
+                let table = lower(text, self.environment.dialect);
+                for (ix, block) in table.blocks() {
+                    look(&BlockCx { environment: self.environment, table: &table, ix, block, text, base });
+                }
+            }
+        }
+    }
+
+    /// What the control reads, in runs of whole lines, each with its offset. Never copied, however long it is.
+    pub fn runs(&self) -> impl Iterator<Item = (u32, &'a str)> + use<'a> {
+        let end = self.region.end;
+        let runs = self.text.from(0).take_while(move |(base, _)| *base < end);
+        runs.map(move |(base, run)| (base, run.get(..(end - base) as usize).unwrap_or(run)))
+    }
+
+    /// [`Self::runs`] line by line, each line with its end.
+    pub fn lines(&self) -> impl Iterator<Item = (u32, &'a str)> + use<'a> {
+        self.runs().flat_map(|(mut at, mut rest)| {
+            std::iter::from_fn(move || {
+                let (line, after) = rest.split_at_checked(line_len(rest.as_bytes()))?;
+                let start = at;
+                (at, rest) = (start + line.len() as u32, after);
+                (!line.is_empty()).then_some((start, line))
+            })
+        })
+    }
+
+    /// The line around a place, at most [`LINE`] bytes of it on either side.
+    pub fn line_around(&self, place: Range<u32>) -> Range<u32> {
+        let (base, text) = self.text.around(place.start);
+        let is_end = |byte: &&u8| matches!(byte, b'\n' | b'\r');
+        let inside = place.start.saturating_sub(base) as usize;
+        let (head, tail) = text.as_bytes().split_at_checked(inside).unwrap_or_default();
+        let before = head.iter().rev().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
+        let after = tail.iter().take(LINE).take_while(|byte| !is_end(byte)).count() as u32;
+        place.start - before..place.start + after
+    }
+}
+
+/// Controls read no longer lines; a file of one long line is not read again and again.
+const LINE: usize = 1024;

@@ -1,0 +1,672 @@
+//! The analysis of all paths, kept from one edit to the next: in segments, from one checkpoint of the engine to the next.
+//!
+//! Knows: when a segment still holds, where an analysis must be taken up, when it has come back to what is known. Must not know:
+//! any rule.
+//!
+//! A segment holds while the chunks it read are as they were, and the state, the rules' memories and the facts it asked for are
+//! those it began with. Where facts were set is not part of the state: a fact that a segment neither asks for nor sets is
+//! handed on.
+
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashSet};
+use std::ops::Range;
+use std::rc::Rc;
+
+use gcheck_diagnostics::{Finding, Severity};
+use gcheck_engine::{
+    Assumption, At, Checkpoint, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, Leg, Machine,
+    Model, Options, Program, ProgramFile, Trace, flow_from,
+};
+use gcheck_program::{BlockFlags, Survey};
+use rustc_hash::FxHashMap;
+
+use super::anchored::AnchoredFinding;
+use super::layout::Layout;
+use super::rule_state::RuleState;
+use crate::check::{Assumptions, Collector};
+use crate::watchers::Watchers;
+use crate::{Environment, RuleEntry};
+
+/// What is kept of the analysis, for each position of the block delete switches.
+#[derive(Debug, Default)]
+pub(crate) struct Paths {
+    chains: Vec<Chain>,
+    /// The rules that had something to watch.
+    active: Vec<&'static str>,
+    /// What was done is no base for going on: all is analysed again at the next change.
+    unsure: bool,
+}
+
+/// The segments of one analysis in order.
+#[derive(Debug)]
+struct Chain {
+    skip: u16,
+    segments: Vec<Segment>,
+    /// What the rules remember at the end.
+    end: Option<RuleState>,
+}
+
+/// Where a segment begins.
+#[derive(Debug, Clone)]
+struct Entry {
+    /// Blocks stand in it by their names.
+    checkpoint: Checkpoint,
+    /// The block before the one at which it begins; `None` at the beginning of the file.
+    before: Option<At>,
+    rules: Rc<RuleState>,
+}
+
+#[derive(Debug)]
+struct Segment {
+    /// `None` for the first.
+    entry: Option<Entry>,
+    blocks: u64,
+    out_of_fuel: bool,
+    assumptions: BTreeSet<Assumption>,
+    asked: Facts,
+    set: Facts,
+    reached: Vec<Run>,
+    /// Slots of the chunks that it read or names in findings.
+    reads: Vec<u32>,
+    /// It asked for all blocks with these flags.
+    flags: BlockFlags,
+    findings: Vec<AnchoredFinding>,
+    /// It must be executed again, whatever it read.
+    is_stale: bool,
+    /// It was not executed: it stands for all that comes behind where it begins.
+    is_gap: bool,
+}
+
+/// Blocks that were reached.
+#[derive(Debug)]
+struct Run {
+    place: RunPlace,
+    blocks: Range<u32>,
+    always: bool,
+}
+
+#[derive(Debug)]
+enum RunPlace {
+    /// A slot of the main file.
+    Slot(u32),
+    /// Another file.
+    File(u32),
+}
+
+/// Why an analysis did not come to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Broken {
+    /// Somebody asked for it.
+    Stopped,
+    /// It has come as far as was wanted; what it found so far is collected.
+    Enough,
+    /// What was kept is of no use.
+    Useless,
+}
+
+/// What the analysis needs to know.
+pub(crate) struct Inputs<'g> {
+    pub(crate) environment: Environment<'g>,
+    pub(crate) program: &'g Program<'g>,
+    pub(crate) model: &'g Model<'g>,
+    pub(crate) survey: &'g Survey,
+    pub(crate) rules: &'g [(&'static RuleEntry, Option<Severity>)],
+    pub(crate) fuel: u64,
+    pub(crate) layout: &'g Layout,
+    pub(crate) stop: &'g dyn Fn() -> bool,
+    /// A checkpoint at this block of the main file, or behind it, is far enough.
+    pub(crate) enough: u32,
+}
+
+/// How much was executed, and how much was not.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Segments executed.
+    pub executed: usize,
+    /// Segments taken over as they were.
+    pub kept: usize,
+    /// Analyses that began at the beginning.
+    pub from_the_start: usize,
+}
+
+impl Paths {
+    /// Marks what an edit makes stale beside what it changes itself: chunks with blocks of these flags came.
+    pub(crate) fn note_flags(&mut self, flags: BlockFlags) {
+        for segment in self.chains.iter_mut().flat_map(|chain| &mut chain.segments) {
+            segment.is_stale |= segment.flags.intersects(flags);
+        }
+    }
+
+    pub(crate) fn is_unsure(&self) -> bool {
+        self.unsure
+    }
+
+    /// Brings the analysis up to date and adds what it finds.
+    pub(crate) fn update(
+        &mut self,
+        inputs: &Inputs<'_>,
+        switches: &[u16],
+        collector: &mut Collector<'_>,
+        work: &mut Work,
+    ) -> Result<(Assumptions, bool), Broken> {
+        let found = RefCell::new(Vec::new());
+        let mut add =
+            |severity: Option<Severity>, finding: Finding| found.borrow_mut().push((severity, finding));
+        let Inputs { environment, program, model, survey, rules, .. } = *inputs;
+        let mut watchers = Watchers::new(environment, program, model, survey, rules, &mut add);
+        let active = watchers.active();
+        let is_known = !self.unsure
+            && self.active == active
+            && self.chains.iter().map(|chain| chain.skip).eq(switches.iter().copied());
+        if !is_known {
+            if self.chains.iter().any(|chain| !chain.segments.is_empty()) {
+                return Err(Broken::Useless);
+            }
+            self.active = active;
+            self.chains =
+                switches.iter().map(|skip| Chain { skip: *skip, segments: Vec::new(), end: None }).collect();
+        }
+        let remembers = watchers.remembers_all();
+        for chain in &mut self.chains {
+            loop {
+                let offers = remembers && !self.unsure;
+                let went_back = match advance(chain, inputs, &mut watchers, &found, offers, work) {
+                    Err(Broken::Enough) => {
+                        collect(inputs.layout, [&*chain], collector, Vec::new());
+                        return Err(Broken::Enough);
+                    }
+                    done => done?,
+                };
+                self.unsure |= chain.segments.iter().any(|segment| segment.out_of_fuel);
+                if !went_back {
+                    break;
+                }
+                // What was taken for a checkpoint was none: once more, in one piece.
+                self.unsure = true;
+                chain.segments.clear();
+            }
+            if chain.segments.iter().map(|segment| segment.blocks).sum::<u64>() >= inputs.fuel
+                && work.kept > 0
+            {
+                return Err(Broken::Useless);
+            }
+        }
+        self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
+        let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
+        if let Some(end) = self.chains.last().and_then(|chain| chain.end.as_ref()) {
+            watchers.restart();
+            if !end.restore(&mut watchers, inputs.layout) {
+                return Err(Broken::Useless);
+            }
+        }
+        found.take();
+        watchers.forget_made();
+        if let Some((first, others)) = results.split_first() {
+            watchers.finish(first, others);
+        }
+        drop(watchers);
+        collect(inputs.layout, &self.chains, collector, found.into_inner());
+        let mut assumptions = Assumptions::new();
+        for result in &results {
+            assumptions.extend(result.assumptions.iter().cloned());
+        }
+        Ok((assumptions, results.iter().any(|result| result.out_of_fuel)))
+    }
+
+    /// Executes again what came by any of the blocks, with every switch of block delete off, and shows it to an observer.
+    /// `false`: nothing is kept that would help.
+    pub(crate) fn show_again<O: FlowObserver>(
+        &self,
+        inputs: &Inputs<'_>,
+        machine: &Machine,
+        blocks: &Range<u32>,
+        observer: &mut O,
+    ) -> bool {
+        let Some(chain) = self.chains.iter().find(|chain| chain.skip == 0) else { return false };
+        if !chain.covers(blocks, inputs.layout) {
+            return false;
+        }
+        let mut spent = 0;
+        for segment in &chain.segments {
+            let comes_by = segment.reached.iter().any(|run| match run.place {
+                RunPlace::Slot(slot) => inputs
+                    .layout
+                    .run_outside(slot, &run.blocks)
+                    .is_some_and(|run| run.start < blocks.end && blocks.start < run.end),
+                RunPlace::File(_) => false,
+            });
+            if comes_by {
+                let mut checkpoint = segment.entry.as_ref().map(|entry| entry.checkpoint.clone());
+                if checkpoint.as_mut().is_some_and(|checkpoint| !number_again(checkpoint, inputs.layout)) {
+                    return false;
+                }
+                let mut once = Once { observer, stop: inputs.stop };
+                let fuel = inputs.fuel.saturating_sub(spent);
+                flow_from(inputs.program, inputs.model, machine, Options::NONE, fuel, checkpoint, &mut once);
+            }
+            spent += segment.blocks;
+        }
+        true
+    }
+}
+
+/// Adds each finding once: a loop comes by many times, and so do calls from several segments.
+fn collect<'c>(
+    layout: &'c Layout,
+    chains: impl IntoIterator<Item = &'c Chain>,
+    collector: &mut Collector<'_>,
+    last: Vec<(Option<Severity>, Finding)>,
+) {
+    let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
+    let known = |chain: &'c Chain| chain.segments.iter().take_while(|segment| !segment.is_gap);
+    for segment in chains.into_iter().flat_map(known) {
+        for kept in &segment.findings {
+            if made.insert(kept.key(layout)) {
+                collector.add(kept.severity, kept.found(layout));
+            }
+        }
+    }
+    for (severity, finding) in last {
+        if !made.contains(&(finding.rule.id, finding.range.start, finding.message.as_str())) {
+            collector.add(severity, finding);
+        }
+    }
+}
+
+impl Chain {
+    /// Is all known of the paths that come by some blocks? An analysis that was given up, or has come far enough, knows what is
+    /// in front of the block where it is to be taken up: nothing leads back over that.
+    fn covers(&self, blocks: &Range<u32>, layout: &Layout) -> bool {
+        let Some(gap) = self.segments.iter().find(|segment| segment.is_gap) else {
+            return !self.segments.is_empty();
+        };
+        gap.entry.as_ref().is_some_and(|entry| {
+            let mut at = entry.checkpoint.at;
+            layout.number_again(&mut at) && at.file == 0 && blocks.end <= at.block
+        })
+    }
+
+    fn result(&self, layout: &Layout) -> FlowResult {
+        let mut result = FlowResult::default();
+        for segment in &self.segments {
+            result.add_leg(segment.blocks, segment.out_of_fuel, &segment.assumptions);
+            for run in &segment.reached {
+                let (file, blocks) = match run.place {
+                    RunPlace::Slot(slot) => (0, layout.run_outside(slot, &run.blocks)),
+                    RunPlace::File(file) => (file, Some(run.blocks.clone())),
+                };
+                if let Some(blocks) = blocks {
+                    result.reach_all(At { file, block: blocks.start }, blocks.end, run.always);
+                }
+            }
+        }
+        result
+    }
+}
+
+impl Segment {
+    /// Does it still hold, when these facts were set by other blocks than at its beginning?
+    fn holds(&self, layout: &Layout, differing: Facts) -> bool {
+        !self.is_stale
+            && !self.asked.intersects(differing)
+            && self.reads.iter().all(|slot| layout.is_there(*slot))
+    }
+}
+
+fn number_again(checkpoint: &mut Checkpoint, layout: &Layout) -> bool {
+    layout.number_again(&mut checkpoint.at) && checkpoint.trace.places(&mut |at| layout.number_again(at))
+}
+
+/// Facts that were set by other blocks than the segments in hand say, and the trace that has them right.
+type Carried = Option<(Facts, Trace)>;
+
+impl Entry {
+    /// Was nothing put in between the block at which it begins and the one in front? What was put in there may have to be
+    /// executed first.
+    fn is_whole(&self, layout: &Layout) -> bool {
+        let number = |mut at: At| layout.number_again(&mut at).then_some(at);
+        match self.before {
+            Some(before) => number(before).map(At::next) == number(self.checkpoint.at),
+            None => number(self.checkpoint.at).is_some_and(|at| at.block == 0),
+        }
+    }
+
+    fn carry(&mut self, carried: &Carried) {
+        if let Some((facts, trace)) = carried {
+            self.checkpoint.trace.take(*facts, trace);
+        }
+    }
+}
+
+/// Brings a chain up to date. True when execution came back over a checkpoint.
+fn advance(
+    chain: &mut Chain,
+    inputs: &Inputs<'_>,
+    watchers: &mut Watchers<'_, '_>,
+    found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+    offers: bool,
+    work: &mut Work,
+) -> Result<bool, Broken> {
+    let layout = inputs.layout;
+    let file = inputs.program.file(0).ok_or(Broken::Useless)?;
+    let mut old: Vec<Option<Segment>> = std::mem::take(&mut chain.segments).into_iter().map(Some).collect();
+    let mut at = 0;
+    let mut carried: Carried = None;
+    let mut entries: Option<FxHashMap<At, usize>> = None;
+    loop {
+        // What holds is taken over.
+        while let Some(Some(segment)) = old.get(at) {
+            let differing = carried.as_ref().map_or(Facts::default(), |(facts, _)| *facts);
+            if !segment.holds(layout, differing) {
+                break;
+            }
+            let Some(mut segment) = old.get_mut(at).and_then(Option::take) else { break };
+            if let Some(entry) = &mut segment.entry {
+                entry.carry(&carried);
+            }
+            if let Some((facts, _)) = &mut carried {
+                *facts = facts.without(segment.set);
+            }
+            carried = carried.filter(|(facts, _)| !facts.is_empty());
+            chain.segments.push(segment);
+            work.kept += 1;
+            at += 1;
+        }
+        if at == old.len() && at > 0 {
+            return Ok(false);
+        }
+        let entries = entries.get_or_insert_with(|| {
+            let entry = |(index, segment): (usize, &Option<Segment>)| {
+                Some((segment.as_ref()?.entry.as_ref()?.checkpoint.at, index))
+            };
+            old.iter().enumerate().filter_map(entry).collect()
+        });
+        let mut entry = old.get_mut(at).and_then(Option::take).and_then(|segment| segment.entry);
+        if let Some(entry) = &mut entry {
+            entry.carry(&carried);
+        }
+        while entry.as_ref().is_some_and(|entry| !entry.is_whole(layout)) {
+            entry = chain.segments.pop().and_then(|segment| segment.entry);
+            work.kept = work.kept.saturating_sub(1);
+        }
+        // From here on it is executed.
+        watchers.restart();
+        watchers.forget_made();
+        found.take();
+        let mut checkpoint = None;
+        match &entry {
+            None => work.from_the_start += 1,
+            Some(entry) => {
+                let mut from = entry.checkpoint.clone();
+                if !number_again(&mut from, layout) || !entry.rules.restore(watchers, layout) {
+                    return Err(Broken::Useless);
+                }
+                checkpoint = Some(from);
+            }
+        }
+        file.loaded.note_touched();
+        let fuel = inputs.fuel.saturating_sub(chain.segments.iter().map(|segment| segment.blocks).sum());
+        let mut recorder = Recorder {
+            watchers: &mut *watchers,
+            file: &file,
+            layout,
+            found,
+            offers,
+            stop: inputs.stop,
+            enough: Some(inputs.enough),
+            entry,
+            segments: &mut chain.segments,
+            old: &old,
+            behind: at,
+            entries,
+            joined: None,
+            went_back: false,
+            executed: 0,
+        };
+        let options = Options { skip: chain.skip, ..Options::NONE };
+        let machine = &inputs.environment.machine.engine;
+        let leg = flow_from(inputs.program, inputs.model, machine, options, fuel, checkpoint, &mut recorder);
+        let (joined, stopped) = (recorder.joined.take(), leg.stopped);
+        if joined.is_none() && !stopped {
+            recorder.close(leg);
+        }
+        let (entry, went_back) = (recorder.entry.take(), recorder.went_back);
+        let is_far = recorder.enough.is_none();
+        work.executed += recorder.executed;
+        if let Some(Joined { index, before, differing, trace }) = joined {
+            at = index;
+            if let Some(Some(Segment { entry: Some(entry), .. })) = old.get_mut(index) {
+                entry.before = before;
+            }
+            carried = Some((differing, trace)).filter(|(facts, _)| !facts.is_empty());
+            continue;
+        }
+        if stopped {
+            // Given up on the way: what follows here is to be executed, and what was known may be met behind it.
+            chain.segments.push(Segment::gap(entry));
+            chain.segments.extend(old.into_iter().skip(at).flatten());
+            return Err(if is_far { Broken::Enough } else { Broken::Stopped });
+        }
+        chain.end = Some(RuleState::of(watchers, layout));
+        return Ok(went_back);
+    }
+}
+
+impl Segment {
+    /// Stands for what was not executed.
+    fn gap(entry: Option<Entry>) -> Self {
+        Self {
+            entry,
+            blocks: 0,
+            out_of_fuel: false,
+            assumptions: BTreeSet::new(),
+            asked: Facts::default(),
+            set: Facts::default(),
+            reached: Vec::new(),
+            reads: Vec::new(),
+            flags: BlockFlags::empty(),
+            findings: Vec::new(),
+            is_stale: true,
+            is_gap: true,
+        }
+    }
+}
+
+/// Execution has come to where an old segment begins.
+struct Joined {
+    /// Which one.
+    index: usize,
+    /// The block in front of it now.
+    before: Option<At>,
+    /// The facts that were set elsewhere than it says.
+    differing: Facts,
+    /// Where they were set.
+    trace: Trace,
+}
+
+/// Lets the rules watch, and cuts what they are shown into segments.
+struct Recorder<'r, 'w, 'c> {
+    watchers: &'r mut Watchers<'w, 'c>,
+    file: &'r ProgramFile<'r>,
+    layout: &'r Layout,
+    found: &'r RefCell<Vec<(Option<Severity>, Finding)>>,
+    offers: bool,
+    stop: &'r dyn Fn() -> bool,
+    /// The block that is far enough; `None` when it was reached.
+    enough: Option<u32>,
+    /// Where the segment under way began.
+    entry: Option<Entry>,
+    segments: &'r mut Vec<Segment>,
+    old: &'r [Option<Segment>],
+    /// Old segments up to this one are behind.
+    behind: usize,
+    /// By the block at which it begins: which old segment.
+    entries: &'r FxHashMap<At, usize>,
+    joined: Option<Joined>,
+    went_back: bool,
+    executed: usize,
+}
+
+impl Recorder<'_, '_, '_> {
+    /// A segment comes to its end.
+    fn close(&mut self, leg: Leg) {
+        let touched = self.file.loaded.note_touched();
+        let mut reads: Vec<u32> =
+            touched.chunks.iter().filter_map(|chunk| self.layout.slot(*chunk as usize)).collect();
+        let mut is_stale = touched.all;
+        let mut findings = Vec::new();
+        for (severity, finding) in self.found.take() {
+            match AnchoredFinding::new(severity, finding, self.layout) {
+                Some(kept) => {
+                    reads.extend(kept.slots());
+                    findings.push(kept);
+                }
+                None => is_stale = true,
+            }
+        }
+        reads.sort_unstable();
+        reads.dedup();
+        let mut reached = Vec::new();
+        for (runs, always) in [(leg.reached(), false), (leg.always_reached(), true)] {
+            for (from, end) in runs {
+                if from.file == 0 {
+                    self.layout.runs_inside(from.block..end, |slot, blocks| {
+                        reached.push(Run { place: RunPlace::Slot(slot), blocks, always });
+                    });
+                } else {
+                    let place = RunPlace::File(from.file);
+                    reached.push(Run { place, blocks: from.block..end, always });
+                }
+            }
+        }
+        self.went_back |= leg.went_back;
+        self.executed += 1;
+        self.segments.push(Segment {
+            entry: self.entry.take(),
+            blocks: leg.blocks,
+            out_of_fuel: leg.out_of_fuel,
+            asked: leg.asked,
+            set: leg.set,
+            assumptions: leg.assumptions,
+            reached,
+            reads,
+            flags: touched.flags,
+            findings,
+            is_stale,
+            is_gap: false,
+        });
+    }
+}
+
+impl FlowObserver for Recorder<'_, '_, '_> {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        self.watchers.before(cx);
+    }
+
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        self.watchers.event(cx, event);
+    }
+
+    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
+        self.watchers.vacant_read(cx, variable);
+    }
+
+    fn after(&mut self, cx: &FlowCx<'_>) {
+        self.watchers.after(cx);
+    }
+
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.watchers.fault(cx, fault);
+    }
+
+    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
+        self.watchers.ended(cx, ending);
+    }
+
+    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
+        self.watchers.endless(cx, head);
+    }
+
+    fn wants_checkpoints(&self) -> bool {
+        self.offers
+    }
+
+    fn checkpoint(&mut self, leg: Leg, mut checkpoint: Checkpoint) -> bool {
+        self.close(leg);
+        self.watchers.forget_made();
+        self.enough = self.enough.filter(|enough| checkpoint.at.block < *enough);
+        checkpoint.trace = checkpoint.trace.apart();
+        let before = checkpoint.at.block.checked_sub(1).map(|block| {
+            let mut before = At { block, ..checkpoint.at };
+            self.layout.name(&mut before);
+            before
+        });
+        self.layout.name(&mut checkpoint.at);
+        checkpoint.trace.places(&mut |at| {
+            self.layout.name(at);
+            true
+        });
+        let rules = RuleState::of(self.watchers, self.layout);
+        let index = self.entries.get(&checkpoint.at).copied().filter(|index| *index > self.behind);
+        let known = index.and_then(|index| self.old.get(index)?.as_ref());
+        if let (Some(index), Some(known)) = (index, known)
+            && let Some(entry) = &known.entry
+            && entry.checkpoint.leads_on_as(&checkpoint)
+            && *entry.rules == rules
+        {
+            let differing = checkpoint.trace.differing(&entry.checkpoint.trace);
+            if known.holds(self.layout, differing) {
+                self.joined = Some(Joined { index, before, differing, trace: checkpoint.trace });
+                return false;
+            }
+        }
+        // Most of the time nothing of what rules remember changes from one checkpoint to the next.
+        let last = self.segments.last().and_then(|segment| segment.entry.as_ref());
+        let rules = match last {
+            Some(last) if *last.rules == rules => Rc::clone(&last.rules),
+            _ => Rc::new(rules),
+        };
+        self.entry = Some(Entry { checkpoint, before, rules });
+        self.enough.is_some()
+    }
+
+    fn stops(&mut self) -> bool {
+        (self.stop)()
+    }
+}
+
+/// Shows one segment and no more.
+struct Once<'o, O> {
+    observer: &'o mut O,
+    stop: &'o dyn Fn() -> bool,
+}
+
+impl<O: FlowObserver> FlowObserver for Once<'_, O> {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        self.observer.before(cx);
+    }
+
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        self.observer.event(cx, event);
+    }
+
+    fn after(&mut self, cx: &FlowCx<'_>) {
+        self.observer.after(cx);
+    }
+
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.observer.fault(cx, fault);
+    }
+
+    fn wants_checkpoints(&self) -> bool {
+        true
+    }
+
+    fn checkpoint(&mut self, _: Leg, _: Checkpoint) -> bool {
+        false
+    }
+
+    fn stops(&mut self) -> bool {
+        (self.stop)()
+    }
+}

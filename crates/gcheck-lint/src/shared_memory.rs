@@ -1,0 +1,54 @@
+//! What several rules of the path tier remember together, kept and moved on once for all of them.
+//!
+//! Knows: how a rule names such a memory, and how one is found by its type. Must not know: any rule, what is remembered.
+
+use gcheck_engine::Event;
+
+use crate::{Memory, PathCx};
+
+/// What several rules of the path tier remember together.
+///
+/// The memory sees every move once, after the rules: during a move, a rule asks for what was before that move.
+pub trait SharedMemory: Memory {
+    /// The axes moved, and every rule has seen it.
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event);
+}
+
+/// Makes an empty one.
+pub type MakeShared = fn() -> Box<dyn SharedMemory>;
+
+/// The shared memories of an analysis: one of each type.
+#[derive(Default)]
+pub(crate) struct SharedMemories(Vec<(MakeShared, Box<dyn SharedMemory>)>);
+
+impl SharedMemories {
+    /// Takes one in, unless there is one of its type.
+    pub(crate) fn add(&mut self, make: MakeShared) {
+        let new = make();
+        let type_of = |memory: &dyn SharedMemory| memory.as_any().type_id();
+        if self.0.iter().all(|(_, own)| type_of(&**own) != type_of(&*new)) {
+            self.0.push((make, new));
+        }
+    }
+
+    /// All of them forget.
+    pub(crate) fn restart(&mut self) {
+        for (make, memory) in &mut self.0 {
+            *memory = make();
+        }
+    }
+
+    /// The one of a type.
+    pub(crate) fn get<T: SharedMemory + 'static>(&self) -> Option<&T> {
+        self.0.iter().find_map(|(_, memory)| memory.as_any().downcast_ref())
+    }
+
+    /// All of them, always in the same order.
+    pub(crate) fn iter_mut(&mut self) -> impl Iterator<Item = &mut (dyn SharedMemory + 'static)> {
+        self.0.iter_mut().map(|(_, memory)| &mut **memory)
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}

@@ -1,0 +1,331 @@
+//! Calls the rules of the path tier while all paths of a program are analysed.
+//!
+//! Knows: how what the engine shows becomes calls of rules. Must not know: any rule, how paths are found, how memories are
+//! kept.
+
+use std::cell::Cell;
+use std::collections::HashSet;
+use std::rc::Rc;
+
+use gcheck_controls::LetterSet;
+use gcheck_diagnostics::{Finding, Severity};
+use gcheck_engine::{
+    At, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Model, Origin, Program, TravelKind,
+};
+use gcheck_program::Survey;
+use rustc_hash::FxHashMap;
+
+use crate::path_context::ReadBlock;
+use crate::shared_memory::SharedMemories;
+use crate::{Environment, FinishCx, PathCx, PathRule, Remembers, Report, RuleEntry, Run, Uses, Watch};
+
+/// A rule that watches.
+struct Active {
+    entry: &'static RuleEntry,
+    severity: Option<Severity>,
+    rule: Box<dyn PathRule>,
+}
+
+/// Calls the rules as the analysis goes.
+pub(crate) struct Watchers<'a, 'c> {
+    environment: Environment<'a>,
+    program: &'a Program<'a>,
+    model: &'a Model<'a>,
+    survey: &'a Survey,
+    rules: Vec<Active>,
+    shared: SharedMemories,
+    /// By bit of [`Watch`]: indices of the rules that watch it.
+    lists: Lists,
+    add: &'c mut dyn FnMut(Option<Severity>, Finding),
+    /// Findings made already: a loop comes by many times.
+    made: HashSet<(&'static str, u32, String)>,
+    /// Something other than a move happened since the last cut.
+    changed: bool,
+    /// Blocks of the main file that were read, by number.
+    read: FxHashMap<u32, Rc<ReadBlock>>,
+    /// The block that is being executed, if it was read.
+    current: Option<Rc<ReadBlock>>,
+}
+
+/// By bit of [`Watch`]: indices of the rules that watch it.
+type Lists = [Vec<usize>; 12];
+
+/// How far the rules have come, beside what each remembers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Progress {
+    lists: Lists,
+    changed: bool,
+}
+
+/// Which rules watch what.
+fn lists(rules: &[Active]) -> Lists {
+    let mut lists = Lists::default();
+    for (index, active) in rules.iter().enumerate() {
+        let Run::Path { watch, .. } = active.entry.run else { continue };
+        for (bit, list) in lists.iter_mut().enumerate() {
+            if watch.bits() & (1 << bit) != 0 {
+                list.push(index);
+            }
+        }
+    }
+    lists
+}
+
+/// Blocks whose words are kept.
+const MAX_READ: usize = 4096;
+
+impl<'a, 'c> Watchers<'a, 'c> {
+    pub(crate) fn new(
+        environment: Environment<'a>,
+        program: &'a Program<'a>,
+        model: &'a Model<'a>,
+        survey: &'a Survey,
+        rules: &[(&'static RuleEntry, Option<Severity>)],
+        add: &'c mut dyn FnMut(Option<Severity>, Finding),
+    ) -> Self {
+        let uses = Uses::new(environment, survey);
+        let mut active = Vec::new();
+        let mut shared = SharedMemories::default();
+        for (entry, severity) in rules {
+            let Run::Path { make, .. } = entry.run else { continue };
+            let rule = make();
+            if rule.concerns(&uses) {
+                if let Some(make) = rule.shares() {
+                    shared.add(make);
+                }
+                active.push(Active { entry, severity: *severity, rule });
+            }
+        }
+        let lists = lists(&active);
+        Self {
+            environment,
+            program,
+            model,
+            survey,
+            rules: active,
+            shared,
+            lists,
+            add,
+            made: HashSet::new(),
+            changed: true,
+            read: FxHashMap::default(),
+            current: None,
+        }
+    }
+
+    /// Makes the rules forget what they saw, for another analysis of the same program.
+    pub(crate) fn restart(&mut self) {
+        for active in &mut self.rules {
+            if let Run::Path { make, .. } = active.entry.run {
+                active.rule = make();
+            }
+        }
+        self.shared.restart();
+        self.lists = lists(&self.rules);
+        self.changed = true;
+    }
+
+    /// Ids of the rules that have something to watch.
+    pub(crate) fn active(&self) -> Vec<&'static str> {
+        self.rules.iter().map(|active| active.entry.meta.id).collect()
+    }
+
+    /// Do all rules say what they remember?
+    pub(crate) fn remembers_all(&mut self) -> bool {
+        let knows = |active: &mut Active| !matches!(active.rule.memory(), Remembers::Unknown);
+        self.rules.iter_mut().all(knows)
+    }
+
+    /// From here on findings are added that were made before.
+    pub(crate) fn forget_made(&mut self) {
+        self.made.clear();
+    }
+
+    /// What each rule remembers, then what they remember together.
+    pub(crate) fn memories(&mut self) -> impl Iterator<Item = Remembers<'_>> {
+        let own = self.rules.iter_mut().map(|active| active.rule.memory());
+        own.chain(self.shared.iter_mut().map(|shared| Remembers::All(shared)))
+    }
+
+    /// What beside the memories of rules decides what they are shown next.
+    pub(crate) fn progress(&self) -> Progress {
+        Progress { lists: self.lists.clone(), changed: self.changed }
+    }
+
+    /// Goes on as from there.
+    pub(crate) fn set_progress(&mut self, progress: &Progress) {
+        self.lists.clone_from(&progress.lists);
+        self.changed = progress.changed;
+    }
+
+    /// All paths were seen.
+    pub(crate) fn finish(&mut self, result: &FlowResult, others: &[FlowResult]) {
+        let cx = FinishCx {
+            environment: self.environment,
+            program: self.program,
+            model: self.model,
+            survey: self.survey,
+            result,
+            others,
+        };
+        self.each(Watch::FINISH, &Cell::new(false), |rule, report| rule.finish(&cx, report));
+    }
+
+    fn each(
+        &mut self,
+        watch: Watch,
+        had_enough: &Cell<bool>,
+        mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
+    ) {
+        let bit = watch.bits().trailing_zeros() as usize;
+        let Some(list) = self.lists.get_mut(bit) else { return };
+        let mut next = 0;
+        while let Some(index) = list.get(next) {
+            let Some(active) = self.rules.get_mut(*index) else { return };
+            let (made, add, severity) = (&mut self.made, &mut self.add, active.severity);
+            let mut once = |finding: Finding| {
+                if made.insert((finding.rule.id, finding.range.start, finding.message.clone())) {
+                    add(severity, finding);
+                }
+            };
+            call(&mut *active.rule, &mut Report::new(&mut once));
+            if had_enough.take() {
+                list.remove(next);
+            } else {
+                next += 1;
+            }
+        }
+    }
+
+    fn read_block(&mut self, at: At) -> Option<Rc<ReadBlock>> {
+        if let Some(read) = self.read.get(&at.block) {
+            return Some(Rc::clone(read));
+        }
+        let read = Rc::new(ReadBlock::new(at, self.program, self.model, self.environment)?);
+        if self.read.len() >= MAX_READ {
+            self.read.clear();
+        }
+        self.read.insert(at.block, Rc::clone(&read));
+        Some(read)
+    }
+
+    fn watches(&self, watch: Watch) -> bool {
+        let bit = watch.bits().trailing_zeros() as usize;
+        self.lists.get(bit).is_some_and(|list| !list.is_empty())
+    }
+
+    fn show(
+        &mut self,
+        watch: Watch,
+        flow: &FlowCx<'_>,
+        mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
+    ) {
+        // Blocks of other files are judged when those files are checked.
+        if flow.origin.at.file != 0 || !self.watches(watch) {
+            return;
+        }
+        let (environment, program, model, survey) = (self.environment, self.program, self.model, self.survey);
+        let read = self.current.take();
+        // Rules ask the shared memories while they are called.
+        let shared = std::mem::take(&mut self.shared);
+        let had_enough = Cell::new(false);
+        let cx = PathCx {
+            environment,
+            program,
+            model,
+            survey,
+            flow,
+            read: read.as_deref(),
+            had_enough: &had_enough,
+            shared: &shared,
+        };
+        self.each(watch, &had_enough, |rule, report| call(rule, &cx, report));
+        self.current = read;
+        self.shared = shared;
+    }
+
+    /// Every rule has seen a move: what they remember together goes on.
+    fn move_shared(&mut self, flow: &FlowCx<'_>, event: &Event) {
+        if flow.origin.at.file != 0 || self.shared.is_empty() {
+            return;
+        }
+        let cx = PathCx {
+            environment: self.environment,
+            program: self.program,
+            model: self.model,
+            survey: self.survey,
+            flow,
+            read: None,
+            had_enough: &Cell::new(false),
+            shared: &SharedMemories::default(),
+        };
+        for shared in self.shared.iter_mut() {
+            shared.moved(&cx, event);
+        }
+    }
+}
+
+/// Blocks that [`PathRule::block`] may be called for.
+fn is_read(origin: Origin) -> bool {
+    use gcheck_program::BlockFlags as F;
+    const LETTERS: LetterSet = LetterSet::of("FSTHD");
+    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION) || origin.letters.intersects(LETTERS)
+}
+
+impl FlowObserver for Watchers<'_, '_> {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        self.current = None;
+        if cx.origin.at.file == 0 && is_read(cx.origin) {
+            self.current = self.read_block(cx.origin.at);
+            if self.current.as_ref().is_some_and(|read| read.is_eventful) {
+                self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+            }
+            self.show(Watch::ALL_BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+        }
+    }
+
+    fn event(&mut self, cx: &FlowCx<'_>, event: &Event) {
+        let (moves, cuts) = match event {
+            Event::Travel(travel) => (true, travel.kind != TravelKind::Rapid),
+            Event::Arc(_) | Event::Curve(_) => (true, true),
+            _ => (false, false),
+        };
+        // Operations that pass their points exactly say so at each of them; no rule asks for it.
+        if matches!(event, Event::PathMode(_)) {
+            return;
+        }
+        if !moves {
+            self.changed = true;
+            self.show(Watch::CHANGES, cx, |rule, cx, report| rule.changed(cx, event, report));
+            return;
+        }
+        self.show(Watch::MOVES, cx, |rule, cx, report| rule.moved(cx, event, report));
+        if matches!(event, Event::Arc(_)) {
+            self.show(Watch::ARCS, cx, |rule, cx, report| rule.moved(cx, event, report));
+        }
+        if !cuts {
+            self.show(Watch::RAPIDS, cx, |rule, cx, report| rule.rapid(cx, event, report));
+        } else if self.changed && cx.origin.at.file == 0 {
+            self.changed = false;
+            self.show(Watch::CUTS, cx, |rule, cx, report| rule.cut(cx, event, report));
+        }
+        self.move_shared(cx, event);
+    }
+
+    fn vacant_read(&mut self, cx: &FlowCx<'_>, variable: u32) {
+        self.show(Watch::READS, cx, |rule, cx, report| rule.vacant_read(cx, variable, report));
+    }
+
+    fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
+        self.show(Watch::FAULTS, cx, |rule, cx, report| rule.fault(cx, fault, report));
+    }
+
+    fn ended(&mut self, cx: &FlowCx<'_>, ending: Ending) {
+        self.changed = true;
+        self.show(Watch::ENDS, cx, |rule, cx, report| rule.ended(cx, ending, report));
+    }
+
+    fn endless(&mut self, cx: &FlowCx<'_>, head: At) {
+        self.show(Watch::ENDLESS, cx, |rule, cx, report| rule.endless(cx, head, report));
+    }
+}

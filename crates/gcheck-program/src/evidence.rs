@@ -1,0 +1,392 @@
+//! What a program shows of the control it is written for.
+//!
+//! Knows: how comments, codes and forms of text look on all controls together. Must not know: any control; the hints and
+//! their weights are data. The scan is lexical and reads only the head of a file, so that it can run before a control is
+//! chosen.
+
+use gcheck_controls::{CodeNumber, Evidence, Letter, LetterSet};
+
+/// Lines whose comments count: the machine is named at the top.
+const COMMENT_LINES: usize = 300;
+/// Bytes whose codes and forms count, and the rest of their last line: what a program uses at all, it uses early.
+pub const EVIDENCE_BYTES: usize = 256 << 10;
+
+/// Collects the evidence of a program for [`gcheck_controls::guess`]. Of a long text its head is enough: [`EVIDENCE_BYTES`]
+/// bytes and the rest of their last line.
+pub fn collect_evidence(text: &str) -> Evidence {
+    let mut scan = Scan::default();
+    for (number, line) in text.split(['\n', '\r']).enumerate() {
+        let offset = line.as_ptr() as usize - text.as_ptr() as usize;
+        if offset > EVIDENCE_BYTES {
+            break;
+        }
+        scan.keeps_comments = number < COMMENT_LINES;
+        scan.line(line);
+    }
+    let [with_x, with_z, with_y] = scan.blocks_with;
+    let turns = [50, 96, 97].map(CodeNumber::g).iter().any(|code| scan.codes.contains(code));
+    if with_x.min(with_z) >= ENOUGH_BLOCKS && with_y == 0 && turns {
+        scan.form("turning-words");
+    }
+    Evidence {
+        comments: scan.comments,
+        codes: scan.codes.iter().map(ToString::to_string).collect(),
+        forms: scan.forms.iter().map(|form| (*form).to_owned()).collect(),
+    }
+}
+
+#[derive(Debug, Default)]
+struct Scan {
+    comments: Vec<String>,
+    codes: Vec<CodeNumber>,
+    forms: Vec<&'static str>,
+    keeps_comments: bool,
+    /// Blocks with an `X` and a value, with a `Z`, with a `Y`.
+    blocks_with: [usize; 3],
+}
+
+/// Blocks with `X` and blocks with `Z` that a program needs before it means something that none has a `Y`.
+const ENOUGH_BLOCKS: usize = 4;
+
+/// What a block has that can only be judged at its end.
+#[derive(Debug, Clone, Copy, Default)]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts of a block, named one by one")]
+struct Seen {
+    packed_tool: bool,
+    short_tool: bool,
+    /// `T0707`: the station and its offset are one number written twice.
+    twin_tool: bool,
+    turning_cycle: bool,
+    letters: LetterSet,
+    /// Letters with a value.
+    valued: LetterSet,
+    increment: bool,
+    tool_change: bool,
+    macro_call: bool,
+    /// No word has come yet but `N` and `/`.
+    is_head: bool,
+}
+
+impl Scan {
+    fn form(&mut self, form: &'static str) {
+        if !self.forms.contains(&form) {
+            self.forms.push(form);
+        }
+    }
+
+    fn comment(&mut self, text: &str) {
+        let text = text.trim();
+        if self.keeps_comments && !text.is_empty() {
+            self.comments.push(text.to_owned());
+        }
+    }
+
+    fn line(&mut self, line: &str) {
+        let mut rest = line.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
+        if rest.starts_with('%') {
+            self.form("tape-mark");
+            return;
+        }
+        let whole = rest;
+        let mut seen = Seen { is_head: true, ..Seen::default() };
+        while let Some(first) = rest.chars().next() {
+            rest = match first {
+                '(' => {
+                    let inside = rest.get(1..).unwrap_or_default();
+                    let (text, after) = inside.split_once(')').unwrap_or((inside, ""));
+                    self.comment(text);
+                    after
+                }
+                ';' => {
+                    let after = rest.get(1..).unwrap_or_default().trim();
+                    if after.is_empty() {
+                        ""
+                    } else if rest.len() == whole.len() || is_prose(after) {
+                        self.form("semicolon-comment");
+                        self.comment(after);
+                        ""
+                    } else {
+                        after
+                    }
+                }
+                '[' => after_brackets(rest, self),
+                '#' => self.variable(rest),
+                ':' if seen.is_head && number(rest.get(1..).unwrap_or_default()).0 > 0 => {
+                    self.form("program-number");
+                    seen.is_head = false;
+                    rest.get(1..).unwrap_or_default()
+                }
+                c if c.is_ascii_alphabetic() => self.letters(rest, &mut seen),
+                c => rest.get(c.len_utf8()..).unwrap_or_default(),
+            };
+        }
+        if seen.packed_tool && !seen.tool_change {
+            self.form("packed-tool");
+            if seen.short_tool {
+                self.form("packed-tool-short");
+            }
+        }
+        if seen.twin_tool && seen.tool_change {
+            self.form("packed-tool-with-change");
+        }
+        for (count, letter) in self.blocks_with.iter_mut().zip(['X', 'Z', 'Y']) {
+            *count += usize::from(seen.valued.contains(Letter::of(letter)));
+        }
+        let has = |letter| seen.letters.contains(Letter::of(letter));
+        if seen.turning_cycle && has('P') && has('Q') && has('D') {
+            self.form("turning-cycle-one-block");
+        }
+        if seen.turning_cycle && !has('P') && has('R') && (has('U') || has('W')) {
+            self.form("turning-cycle-two-blocks");
+        }
+        if seen.increment && !seen.macro_call {
+            self.form("incremental-words");
+        }
+    }
+
+    /// `#100`, `#<name>`.
+    fn variable<'t>(&mut self, rest: &'t str) -> &'t str {
+        let after = rest.get(1..).unwrap_or_default();
+        match after.strip_prefix('<').and_then(|name| name.split_once('>')) {
+            Some((_, after)) => {
+                self.form("named-parameter");
+                after
+            }
+            None => after,
+        }
+    }
+
+    /// A keyword, or an address with its number.
+    fn letters<'t>(&mut self, rest: &'t str, seen: &mut Seen) -> &'t str {
+        let (word, after) =
+            rest.split_at(rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len()));
+        if word.len() > 1 {
+            seen.is_head = false;
+            if is_one_of(word, &["IF", "WHILE", "GOTO", "DO", "END", "DPRNT", "BPRNT", "POPEN", "PCLOS"]) {
+                self.form("macro-statement");
+            }
+            return after;
+        }
+        let written = word.bytes().next().unwrap_or(0);
+        let letter = written.to_ascii_uppercase();
+        if let Some(letter) = Letter::new(letter) {
+            seen.letters.insert(letter);
+        }
+        let value = after.trim_start_matches([' ', '\t']);
+        let (len, digits) = number(value);
+        let after = value.get(len..).unwrap_or_default();
+        if let Some(letter) = Letter::new(letter)
+            && (len > 0 || value.starts_with(['#', '[']))
+        {
+            seen.valued.insert(letter);
+        }
+        match letter {
+            b'O' if seen.is_head => {
+                seen.is_head = false;
+                return self.o_word(value);
+            }
+            b'G' | b'M' => {
+                let code = value
+                    .get(..len)
+                    .and_then(|v| v.parse().ok())
+                    .and_then(|v| CodeNumber::from_value(letter, v));
+                if let Some(code) = code {
+                    if written != letter {
+                        self.form("lower-case");
+                    }
+                    seen.turning_cycle |= [71, 72, 73].map(CodeNumber::g).contains(&code);
+                    seen.tool_change |= code == CodeNumber::m(6);
+                    seen.macro_call |= code == CodeNumber::g(65) || code == CodeNumber::g(66);
+                    if !self.codes.contains(&code) {
+                        self.codes.push(code);
+                    }
+                }
+            }
+            b'T' => {
+                seen.packed_tool |= len == digits && (3..=4).contains(&digits);
+                seen.short_tool |= len == digits && digits == 3;
+                let halves = value.get(..2).zip(value.get(2..4));
+                seen.twin_tool |=
+                    len == 4 && digits == 4 && halves.is_some_and(|(tool, offset)| tool == offset);
+            }
+            b'U' | b'W' => seen.increment |= len > 0 || value.starts_with(['#', '[']),
+            _ => {}
+        }
+        seen.is_head &= letter == b'N';
+        after
+    }
+
+    /// `O1234`, `O100 SUB`, `O<name> CALL`: what follows the `O`.
+    fn o_word<'t>(&mut self, value: &'t str) -> &'t str {
+        let (len, digits) = number(value);
+        let after = match value.bytes().next() {
+            Some(b'<') => value.split_once('>').map_or("", |(_, after)| after),
+            Some(b'[') => after_brackets(value, self),
+            Some(b'#') => value.trim_start_matches(|c: char| c == '#' || c.is_ascii_digit()),
+            _ => value.get(len..).unwrap_or_default(),
+        };
+        let next = after.trim_start();
+        let keyword = next
+            .get(..next.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(next.len()))
+            .unwrap_or_default();
+        let keywords = [
+            "SUB",
+            "ENDSUB",
+            "CALL",
+            "RETURN",
+            "IF",
+            "ELSEIF",
+            "ELSE",
+            "ENDIF",
+            "WHILE",
+            "ENDWHILE",
+            "DO",
+            "REPEAT",
+            "ENDREPEAT",
+            "BREAK",
+            "CONTINUE",
+        ];
+        if is_one_of(keyword, &keywords) {
+            self.form("o-word");
+            return next.get(keyword.len()..).unwrap_or_default();
+        }
+        if digits > 0 {
+            self.form("program-number");
+            if digits == 5 {
+                self.form("five-digit-program");
+            }
+        }
+        after
+    }
+}
+
+/// The text after the bracket that closes the one at its head; inside is an expression, of which only names count.
+fn after_brackets<'t>(rest: &'t str, scan: &mut Scan) -> &'t str {
+    let mut depth = 0_usize;
+    for (at, byte) in rest.bytes().enumerate() {
+        match byte {
+            b'[' => depth += 1,
+            b']' => depth -= 1,
+            b'#' => {
+                scan.variable(rest.get(at..).unwrap_or_default());
+            }
+            _ => {}
+        }
+        if depth == 0 {
+            return rest.get(at + 1..).unwrap_or_default();
+        }
+    }
+    ""
+}
+
+/// Length of the number at the head, with its sign and point, and how many digits it has.
+fn number(text: &str) -> (usize, usize) {
+    let sign = usize::from(text.starts_with(['-', '+']));
+    let body = text.get(sign..).unwrap_or_default();
+    let len = body.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(body.len());
+    let digits = body.bytes().take(len).filter(u8::is_ascii_digit).count();
+    if digits == 0 { (0, 0) } else { (sign + len, digits) }
+}
+
+/// Is the text after `;` words for people, not a block?
+fn is_prose(text: &str) -> bool {
+    let mut letters = 0;
+    for c in text.chars() {
+        if c.is_alphabetic() {
+            letters += 1;
+            if letters > 1 {
+                return true;
+            }
+        } else if c == '(' {
+            return false;
+        } else {
+            // `; a 5 mm end mill`: a letter that is alone has no number.
+            if letters == 1 && c == ' ' {
+                return true;
+            }
+            letters = 0;
+        }
+    }
+    letters > 0
+}
+
+fn is_one_of(word: &str, list: &[&str]) -> bool {
+    list.iter().any(|w| w.eq_ignore_ascii_case(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::collect_evidence;
+    use expect_test::{Expect, expect};
+
+    fn check(program: &str, expected: &Expect) {
+        let evidence = collect_evidence(program);
+        let lines = [evidence.comments.join(" | "), evidence.codes.join(" "), evidence.forms.join(" ")];
+        expected.assert_eq(&lines.map(|l| format!("{l}\n")).concat());
+    }
+
+    #[test]
+    fn a_lathe_program_shows_packed_tools_and_increments() {
+        check(
+            "%\nO0001 (ST-20)\nG28 U0. W0.;\nT0101\nG96 S200 M03\nG71 P10 Q20\n%\n",
+            &expect![[r#"
+                ST-20
+                G28 G96 M3 G71
+                tape-mark program-number incremental-words packed-tool
+            "#]],
+        );
+    }
+
+    #[test]
+    fn o_words_and_named_parameters_are_seen_inside_brackets() {
+        check(
+            "; drill plate\no<drill> sub\n  G0 X[#<_x> + 1]\no100 if [#<n> GT 1]\no<drill> endsub\nG38.2 Z-1 F10 ; probe down\n",
+            &expect![[r#"
+                drill plate | probe down
+                G0 G38.2
+                semicolon-comment o-word named-parameter
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_mill_with_many_tools_has_no_packed_tool_number() {
+        check(
+            "N10 T101 M6; N20 G65 P9810 X1. W2.\nIF [#1 EQ 0] GOTO 10\n",
+            &expect![[r#"
+
+                M6 G65
+                macro-statement
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_lathe_with_a_tool_change_code_writes_station_and_offset_alike() {
+        check(
+            "N10 T0707 M06\nN15 G99 G96 S100\nG0 X60 Z1\nX58\nG1 Z-5\nX60\nG0 Z1\nX50\nZ0\nY#1 (Y)\n",
+            &expect![[r#"
+                Y
+                M6 G99 G96 G0 G1
+                packed-tool-with-change
+            "#]],
+        );
+        check(
+            "T0102 M6\nG97 X60 Z1\nX58\nZ-5\nX60\nZ1\nX50\nZ0\n(Y1)\n",
+            &expect![[r#"
+                Y1
+                M6 G97
+                turning-words
+            "#]],
+        );
+    }
+
+    #[test]
+    fn text_that_is_not_a_program_does_no_harm() {
+        let evidence = collect_evidence("O<\nT\n#<\n[[\n(\n;\nX é G é\nG99999999999999999999\n:");
+        assert!(
+            evidence.comments.is_empty() && evidence.codes.is_empty() && evidence.forms.is_empty(),
+            "{evidence:?}"
+        );
+    }
+}

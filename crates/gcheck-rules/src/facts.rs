@@ -1,0 +1,31 @@
+//! What rules know of machining together: one module a subject, each free of any rule.
+//!
+//! Knows: the list of subjects. Must not know: any rule, wording of findings. A module here is used by several rules, or holds
+//! what a rule would otherwise have to take from another rule.
+
+pub(crate) mod arcs;
+pub(crate) mod bar_feed;
+pub(crate) mod boundary;
+pub(crate) mod compensation;
+pub(crate) mod coolant;
+pub(crate) mod cuts;
+pub(crate) mod cutting;
+pub(crate) mod cycles;
+pub(crate) mod do_loops;
+pub(crate) mod dwell;
+pub(crate) mod feed;
+pub(crate) mod five_axis;
+pub(crate) mod mode_left_on;
+pub(crate) mod modes;
+pub(crate) mod notation;
+pub(crate) mod offset_schemes;
+pub(crate) mod parting;
+pub(crate) mod pockets;
+pub(crate) mod probing;
+pub(crate) mod program_numbers;
+pub(crate) mod sections;
+pub(crate) mod shared_list;
+pub(crate) mod turning;
+pub(crate) mod usage;
+pub(crate) mod word_sets;
+pub(crate) mod work_offset;

@@ -1,0 +1,217 @@
+//! What a program has cut so far on a mill, as straight cuts in the plane with their depths.
+//!
+//! Knows: the cuts of every path up to a move, as long as all of them are known. Must not know: any rule, stock, fixtures.
+
+use gcheck_engine::{Abstract, Axis, Domain, Event, Position, TravelKind};
+
+use crate::facts::shared_list::SharedList;
+use crate::{PathCx, SharedMemory, remembers};
+
+/// Levels that differ by less are one: millimetres.
+pub(crate) const LEVEL: f64 = 1e-4;
+/// Depths above this are the surface of the part: millimetres.
+pub(crate) const SURFACE: f64 = -0.01;
+
+/// How far beside its path a cutter clears.
+#[derive(Clone, PartialEq)]
+pub(crate) struct Clear {
+    /// Millimetres.
+    pub(crate) radius: f64,
+    /// What that rests on.
+    pub(crate) assumption: Option<String>,
+}
+
+impl Clear {
+    /// Of the tool in the spindle; an inch across if its size is unknown.
+    pub(crate) fn of(cx: &PathCx<'_>) -> Self {
+        match cutter_radius(cx) {
+            Some(radius) => Self { radius, assumption: None },
+            None => {
+                Self { radius: 12.7, assumption: Some("no cutter is wider than 25.4 mm (1 in)".to_owned()) }
+            }
+        }
+    }
+}
+
+/// The radius of the tool in the spindle, as the machine file has it: millimetres.
+pub(crate) fn cutter_radius(cx: &PathCx<'_>) -> Option<f64> {
+    let number = Abstract::known(cx.state().tool()).filter(|n| (1.0..1e6).contains(n))?;
+    #[expect(clippy::cast_sign_loss, reason = "range checked above")]
+    let tool = cx.state().tables().tool(number as u32)?;
+    Some(tool.diameter.0 / 2.0).filter(|radius| *radius > 0.0)
+}
+
+/// What was cut so far, as far as it is known throughout.
+#[derive(Default, Clone, PartialEq)]
+pub(crate) struct Cuts {
+    list: SharedList<Cut>,
+    /// Work offset and shift that the coordinates count from.
+    frame: Option<Frame>,
+    /// Where the last move ended.
+    last: Option<[f64; 3]>,
+    /// Something unknown was moved, so that no later question has an answer.
+    blind: bool,
+}
+
+/// The work offset, and the shift as bits.
+type Frame = (u16, [u64; 3]);
+
+fn frame(cx: &PathCx<'_>) -> Option<Frame> {
+    let shift = cx.state().shift();
+    cx.state().work().map(|work| (work, [Axis::X, Axis::Y, Axis::Z].map(|axis| shift.raw(axis).to_bits())))
+}
+
+/// A straight cut.
+#[derive(Clone, PartialEq)]
+struct Cut {
+    from: [f64; 2],
+    to: [f64; 2],
+    /// The lower end.
+    z: f64,
+}
+
+/// Cuts that are kept. Programs with more of them come from a system that plans its rapid moves.
+const MAX_CUTS: usize = 20_000;
+
+remembers!(Cuts);
+
+impl SharedMemory for Cuts {
+    fn moved(&mut self, cx: &PathCx<'_>, event: &Event) {
+        if self.blind {
+            return;
+        }
+        match frame(cx) {
+            Some(frame) if self.knows(cx, event) => {
+                self.frame = Some(frame);
+                self.add(event);
+            }
+            _ => self.give_up(),
+        }
+    }
+}
+
+impl Cuts {
+    /// For [`PathRule::shares`](crate::PathRule::shares).
+    pub(crate) fn shared() -> Box<dyn SharedMemory> {
+        Box::new(Self::default())
+    }
+
+    /// Is everything known that was cut up to this move?
+    pub(crate) fn knows(&self, cx: &PathCx<'_>, event: &Event) -> bool {
+        if self.blind || !cx.is_mill() || !cx.is_on_every_path() {
+            return false;
+        }
+        let Some(frame) = frame(cx) else { return false };
+        let from = match event {
+            Event::Travel(travel) => &travel.from,
+            Event::Arc(arc) => &arc.from,
+            _ => &Position::UNKNOWN,
+        };
+        // Cuts of another frame, in another file, or on another path: where they were is not known here.
+        match self.frame {
+            Some(own) if own != frame => self.list.is_empty(),
+            // Z may jump when a tool offset comes into effect.
+            _ => !matches!((self.last, point(from)), (Some(last), Some(from)) if is_apart(last, from)),
+        }
+    }
+
+    /// Forgets everything for good: the old cuts are useless, and would make memories of equal edits differ.
+    fn give_up(&mut self) {
+        *self = Self { blind: true, ..Self::default() };
+    }
+
+    /// Keeps what a move cuts.
+    fn add(&mut self, event: &Event) {
+        let (from, to, cuts) = match event {
+            Event::Travel(travel) => (&travel.from, &travel.to, travel.kind != TravelKind::Rapid),
+            Event::Arc(arc) => (&arc.from, &arc.to, true),
+            _ => (&Position::UNKNOWN, &Position::UNKNOWN, true),
+        };
+        self.last = point(to);
+        if !cuts {
+            return;
+        }
+        let depth = |position: &Position| position.get(Axis::Z);
+        let z = match (depth(from), depth(to)) {
+            (Some(a), Some(b)) => Some(a.min(b)),
+            // Down from an unknown height.
+            (None, b) => b,
+            (Some(_), None) => None,
+        };
+        let flat = |position: &Position| Some([position.get(Axis::X)?, position.get(Axis::Y)?]);
+        let (Some(a), Some(b), Some(z)) = (flat(from), flat(to), z) else {
+            self.give_up();
+            return;
+        };
+        match event {
+            Event::Arc(arc) => {
+                if arc.plane != gcheck_geometry::Plane::Xy || !arc.sweep.is_finite() {
+                    self.blind = arc.plane == gcheck_geometry::Plane::Xy;
+                    self.list.push(Cut { from: a, to: b, z });
+                } else {
+                    self.add_arc([arc.centre.0.0, arc.centre.1.0], a, arc.sweep, z);
+                }
+            }
+            _ => self.list.push(Cut { from: a, to: b, z }),
+        }
+        if self.list.len() > MAX_CUTS {
+            self.give_up();
+        }
+    }
+
+    fn add_arc(&mut self, centre: [f64; 2], start: [f64; 2], sweep: f64, z: f64) {
+        const PIECES: u32 = 12;
+        let radius = distance(centre, start);
+        let angle = (start[1] - centre[1]).atan2(start[0] - centre[0]);
+        let at = |piece: u32| {
+            let (sin, cos) = (angle + sweep * f64::from(piece) / f64::from(PIECES)).sin_cos();
+            [centre[0] + radius * cos, centre[1] + radius * sin]
+        };
+        for piece in 0..PIECES {
+            self.list.push(Cut { from: at(piece), to: at(piece + 1), z });
+        }
+    }
+
+    /// Did one of the first `count` cuts reach within `radius` of a point, at this depth or lower?
+    pub(crate) fn reach(&self, count: usize, at: [f64; 2], z: f64, radius: f64) -> bool {
+        let mut cuts = self.list.iter().take(count);
+        cuts.any(|cut| cut.z <= z + LEVEL && distance_to_line(at, cut.from, cut.to) <= radius)
+    }
+
+    /// Is it unknown for good what was cut?
+    pub(crate) fn is_blind(&self) -> bool {
+        self.blind
+    }
+
+    /// How many cuts are kept.
+    pub(crate) fn len(&self) -> usize {
+        self.list.len()
+    }
+}
+
+/// X, Y and Z, if all are known.
+pub(crate) fn point(position: &Position) -> Option<[f64; 3]> {
+    Some([position.get(Axis::X)?, position.get(Axis::Y)?, position.get(Axis::Z)?])
+}
+
+/// Are two points not one in X and Y?
+fn is_apart(a: [f64; 3], b: [f64; 3]) -> bool {
+    let (x, y) = (a[0] - b[0], a[1] - b[1]);
+    // Asked at every move, so without a root.
+    x * x + y * y > 1e-12
+}
+
+/// Of two points, millimetres.
+pub(crate) fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+fn distance_to_line(at: [f64; 2], from: [f64; 2], to: [f64; 2]) -> f64 {
+    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
+    let square = dx * dx + dy * dy;
+    if square <= 0.0 {
+        return distance(at, from);
+    }
+    let along = (((at[0] - from[0]) * dx + (at[1] - from[1]) * dy) / square).clamp(0.0, 1.0);
+    distance(at, [from[0] + along * dx, from[1] + along * dy])
+}

@@ -1,0 +1,119 @@
+//! A mode that one tool's work switched on, and that is still on where the next tool cuts or the program ends.
+//!
+//! Knows: where the first tool comes, where a mode was set, what the file can switch. Must not know: any rule; each rule gives
+//! its mode and the words for it.
+
+use crate::{Finding, RuleMeta};
+use crate::{PathCx, PathRule, Remembers, Report, Uses, remembers};
+use gcheck_controls::Effect;
+use gcheck_engine::{At, Ending, Event, Fact, Role};
+
+use crate::facts::boundary::{Boundary, boundary, ends_at_tape_mark, is_before, with_tool_change};
+use crate::facts::modes::left_at_end;
+
+/// A mode of coordinates that may be left on.
+pub(crate) struct Mode {
+    pub(crate) rule: &'static RuleMeta,
+    pub(crate) role: Role,
+    pub(crate) on: Effect,
+    pub(crate) off: Effect,
+    /// What the next tool cuts with: "the scaling".
+    pub(crate) of_tool: &'static str,
+    /// What is still on at the end: "scaling".
+    pub(crate) at_end: &'static str,
+    /// What is to be switched off: "scaling".
+    pub(crate) switched: &'static str,
+}
+
+/// Looks whether a mode is left on: by tools for the next one, or by the program at its end.
+///
+/// A mode from the head of the program is meant for all tools, and one that the file switches off somewhere may last
+/// until there. A mode that begins in the middle of one tool's work and never ends is meant for that tool.
+pub(crate) struct ModeLeftOn {
+    mode: &'static Mode,
+    carried: Carried,
+}
+
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Carried {
+    /// Where the first tool comes.
+    first_tool: Option<At>,
+    /// A cut was reported: later cuts and the end of the program are not.
+    is_reported: bool,
+}
+
+remembers!(Carried: first_tool);
+
+impl ModeLeftOn {
+    pub(crate) fn new(mode: &'static Mode) -> Self {
+        Self { mode, carried: Carried::default() }
+    }
+
+    /// The tool cuts with the mode of the tool before.
+    fn at_cut(&self, cx: &PathCx<'_>) -> Option<Finding> {
+        let Mode { rule, role, on, off, of_tool, .. } = *self.mode;
+        let first_tool = self.carried.first_tool.filter(|_| !self.carried.is_reported)?;
+        let code = cx.state().mode(role).only()?;
+        if !code.is_some() || cx.model.effect(code) != on {
+            return None;
+        }
+        let (set, changed) = (cx.trace().set_by(Fact::Mode(role))?, cx.trace().set_by(Fact::Tool)?);
+        if !is_before(first_tool, set) || !is_before(set, changed) || cx.file_uses(|effect| effect == off) {
+            return None;
+        }
+        let (name, cancel) = (cx.name_of(code), cx.name_of_effect(off).unwrap_or_default());
+        let finding = cx
+            .finding(rule, cx.range(), format!("the tool cuts with {of_tool} of the tool before (`{name}`)"))
+            .label("nothing in the file switches it off")
+            .help(format!("switch it off with `{cancel}` where the work of the tool before ends"));
+        let finding = with_tool_change(cx, finding);
+        Some(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")))
+    }
+
+    fn check_end(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let Mode { rule, role, on, off, at_end, switched, .. } = *self.mode;
+        if self.carried.is_reported {
+            return;
+        }
+        let Some(finding) = left_at_end(cx, rule, role, |effect| effect == on, at_end) else { return };
+        let cancel = cx.name_of_effect(off).unwrap_or_default();
+        report.add(
+            finding
+                .assuming("the end of the program keeps it, as the control's book leaves to a parameter")
+                .help(format!("switch {switched} off with `{cancel}` before the program ends"))
+                .fix_if(cx.block_before(Some(&cancel))),
+        );
+    }
+}
+
+impl PathRule for ModeLeftOn {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(&mut self.carried)
+    }
+
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == self.mode.on)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if self.carried.first_tool.is_none() && boundary(cx) == Some(Boundary::ToolChange) {
+            self.carried.first_tool = Some(cx.origin().at);
+        }
+        if boundary(cx) == Some(Boundary::ProgramEnd) {
+            self.check_end(cx, report);
+        }
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        if let Some(finding) = self.at_cut(cx) {
+            self.carried.is_reported = true;
+            report.add(finding);
+        }
+    }
+
+    fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
+        if ends_at_tape_mark(cx, ending) {
+            self.check_end(cx, report);
+        }
+    }
+}

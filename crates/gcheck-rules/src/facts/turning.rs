@@ -1,0 +1,137 @@
+//! The profile that a roughing cycle of a lathe names, as its blocks write it.
+//!
+//! Knows: first and last block, the points that numbers give. Must not know: any rule, arcs, the passes of a cycle. A profile
+//! with anything computed in it is not read.
+
+use std::ops::Range;
+
+use crate::PathCx;
+use gcheck_controls::{Effect, Letter, LetterSet};
+use gcheck_engine::{At, Axis, Role};
+use gcheck_program::{BlockFlags, Place};
+
+/// A profile that can be read.
+#[derive(Debug)]
+pub(crate) struct Profile {
+    /// Where the tool is when the cycle begins.
+    pub(crate) start: Point,
+    /// The ends of its blocks that move, in order.
+    pub(crate) points: Vec<Point>,
+    /// Axes that the first block names.
+    pub(crate) first_axes: LetterSet,
+}
+
+/// A point, in the units of the program; X as it is programmed.
+#[derive(Debug, Clone)]
+pub(crate) struct Point {
+    /// Across.
+    pub(crate) x: f64,
+    /// Along the spindle.
+    pub(crate) z: f64,
+    /// Reached in rapid: the way out of a profile is not part of it.
+    pub(crate) is_rapid: bool,
+    /// The block that leads there.
+    pub(crate) range: Range<u32>,
+}
+
+/// Blocks that are read; a longer profile is not judged.
+const MAX_BLOCKS: u32 = 500;
+
+/// Does the code remove material layer by layer down to a profile?
+pub(crate) fn is_roughing(effect: Effect) -> bool {
+    matches!(effect, Effect::RoughAlongZ | Effect::RoughAlongX)
+}
+
+/// The first and the last block of the profile that `P` and `Q` of this block name.
+pub(crate) fn profile_blocks(cx: &PathCx<'_>) -> Option<(At, At)> {
+    let place = cx.place()?;
+    let words = place.table.words(place.block());
+    let named = |letter: char| words.iter().find(|word| word.letter == Letter::of(letter))?.integer();
+    let here = cx.origin().at;
+    let file = cx.program.file(here.file).filter(|_| here.file == 0)?;
+    let label = |letter: char, from: u32| file.loaded.outline().label(named(letter)?, from, true);
+    let first = label('P', here.block)?;
+    let last = label('Q', first).filter(|last| *last >= first)?;
+    Some((At { block: first, ..here }, At { block: last, ..here }))
+}
+
+/// The profile of a roughing cycle in positions. `None` where any number of it is not written as such.
+pub(crate) fn profile(cx: &PathCx<'_>) -> Option<Profile> {
+    let (first, last) = profile_blocks(cx)?;
+    let semantics = cx.model.semantics();
+    let has_own_letters = !semantics.increments.is_empty();
+    let is_absolute = has_own_letters || cx.state().is_incremental(cx.model) == Some(false);
+    if last.block - first.block > MAX_BLOCKS || !is_absolute {
+        return None;
+    }
+    let units = cx.state().units(cx.model)?.in_mm();
+    let half = if cx.state().is_diameter(cx.model)? { 2.0 } else { 1.0 };
+    let at = cx.state().position();
+    let (x, z) = (at.get(Axis::X)? * half / units, at.get(Axis::Z)? / units);
+    let start = Point { x, z, is_rapid: true, range: cx.range() };
+    let (mut x, mut z) = (x, z);
+    let mut points = Vec::new();
+    let mut is_rapid = cx.state().effect(Role::Motion, cx.model)? == Effect::Rapid;
+    let mut first_axes = LetterSet::EMPTY;
+    for block in first.block..=last.block {
+        let place = cx.place_of(At { block, ..first })?;
+        let letters = place.block().letters;
+        let odd =
+            BlockFlags::STATEMENT | BlockFlags::EXPRESSION | BlockFlags::ERROR | BlockFlags::BLOCK_DELETE;
+        if place.block().flags.intersects(odd) || !is_plain(cx, &place) {
+            return None;
+        }
+        if block == first.block {
+            first_axes = letters.and(LetterSet::of("XZUW"));
+        }
+        for word in place.table.words(place.block()) {
+            match cx.model.effect(word.code) {
+                Effect::Rapid => is_rapid = true,
+                Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise => is_rapid = false,
+                _ => {}
+            }
+            let Some(number) = word.number() else { continue };
+            if word.letter.is_corner() {
+                continue;
+            }
+            match word.letter.ascii() {
+                b'X' => x = number,
+                b'Z' => z = number,
+                b'U' if has_own_letters => x += number,
+                b'W' if has_own_letters => z += number,
+                _ => {}
+            }
+        }
+        if letters.intersects(LetterSet::of("XZUW")) {
+            points.push(Point { x, z, is_rapid, range: place.range() });
+        }
+    }
+    (!points.is_empty()).then_some(Profile { start, points, first_axes })
+}
+
+/// Does a block do nothing but move, with numbers that count as written?
+fn is_plain(cx: &PathCx<'_>, place: &Place) -> bool {
+    // What a number without a point counts, settings decide.
+    let counts = |word: &gcheck_program::Word| {
+        let is_axis = matches!(word.letter.ascii(), b'X' | b'Z' | b'U' | b'W') && !word.letter.is_corner();
+        is_axis && !word.shape.point && word.number() != Some(0.0)
+    };
+    let as_written = cx.control().numbers().unpointed == gcheck_controls::Unpointed::AsWritten;
+    let words = place.table.words(place.block());
+    let codes = words.iter().filter(|word| word.code.is_some());
+    let moves = |effect| {
+        matches!(
+            effect,
+            Effect::None
+                | Effect::Rapid
+                | Effect::Linear
+                | Effect::ArcClockwise
+                | Effect::ArcCounterClockwise
+                | Effect::CompensationLeft
+                | Effect::CompensationRight
+                | Effect::CompensationOff
+        )
+    };
+    (as_written || !words.iter().any(counts))
+        && codes.into_iter().all(|word| moves(cx.model.effect(word.code)))
+}

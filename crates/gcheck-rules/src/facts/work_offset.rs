@@ -1,0 +1,34 @@
+//! Work offsets: whether a cut is made in one that the program chose.
+//!
+//! Knows: what chooses a work offset, what a program with length offsets shows. Must not know: any rule, values of offsets.
+
+use gcheck_controls::{Confidence, Effect};
+use gcheck_engine::{Abstract, Domain, Fact, Role};
+
+use crate::PathCx;
+
+/// The first work offset, where this cut is in one that nothing chose.
+pub(crate) fn unchosen_work_offset(cx: &PathCx<'_>) -> Option<String> {
+    let first = cx.control().codes().find(|code| code.effect() == Effect::WorkOffset(1))?;
+    let is_chosen = cx.trace().set_by(Fact::Mode(Role::WorkOffset)).is_some()
+        || cx.trace().set_by(Fact::Shift).is_some()
+        || cx.is_after_unknown_program();
+    let is_in_machine_coordinates = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
+    let is_free = is_chosen || is_in_machine_coordinates || cx.model.semantics().tools.change_by_t;
+    (!is_free).then(|| first.number().to_string())
+}
+
+/// The tool was changed in and has a length offset: the program is one for tables of offsets, and it `chooses_work_offset` no work offset
+/// at all. Not so where each end of a program is known to bring the first one back.
+pub(crate) fn never_chooses_work_offset(cx: &PathCx<'_>) -> bool {
+    let semantics = cx.model.semantics();
+    let comes_back = semantics.confidence == Confidence::Manual && cx.end_resets(Role::WorkOffset);
+    let has_length = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthPlus)
+        && Abstract::known(cx.state().h()).is_some_and(|offset| offset > 0.0);
+    has_length && cx.trace().set_by(Fact::Tool).is_some() && !comes_back && !cx.file_uses(chooses_work_offset)
+}
+
+/// Does the code choose a work offset?
+pub(crate) fn chooses_work_offset(effect: Effect) -> bool {
+    matches!(effect, Effect::WorkOffset(_) | Effect::WorkOffsetByP(_))
+}

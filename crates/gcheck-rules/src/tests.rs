@@ -1,0 +1,9 @@
+//! What holds for all rules together, with the rules as they are.
+//!
+//! Knows: the table of rules. Must not know: a rule by itself; that is tested in the rule's file.
+
+mod edited_is_fresh;
+mod every_rule;
+mod faults;
+mod proposed_fixes;
+mod syntax_errors;

@@ -1,0 +1,289 @@
+//! Every fault of the engine is reported by a rule, or there is a reason why by none.
+
+use gcheck_engine::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
+
+use crate::RULES;
+use crate::testing::{World, findings, recommended};
+
+/// The rules that report a fault, or why none does.
+enum Said {
+    By(&'static [&'static str]),
+    Nobody(&'static str),
+}
+
+/// Without a wildcard, so that a new fault needs a line here.
+fn said(fault: &Fault) -> Said {
+    use Said::{By, Nobody};
+    match fault {
+        Fault::Value(fault) => match fault {
+            ValueFault::DivisionByZero
+            | ValueFault::NegativeRoot
+            | ValueFault::LogarithmOfNonPositive
+            | ValueFault::ArcFunctionRange
+            | ValueFault::NegativePower
+            | ValueFault::NotFinite => By(&["expression-without-value"]),
+            ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
+            ValueFault::NoSuchFunction => By(&["function-unknown"]),
+        },
+        Fault::Undecidable => Nobody("what nobody told us is no mistake of the program"),
+        Fault::UnsetParameter => By(&["named-parameter-unset"]),
+        Fault::ReadOnlyVariable(_) => {
+            By(&["assignment-to-read-only-variable", "computed-variable-read-only"])
+        }
+        Fault::VariableNumber => By(&["variable-number-not-whole"]),
+        Fault::MissingValue(_) => By(&["address-without-value"]),
+        Fault::MissingWord(_) => By(&["required-word-missing", "word-choice-missing", "thread-without-lead"]),
+        Fault::WordRange(_) => By(&[
+            "number-out-of-range",
+            "sign-not-accepted",
+            "decimal-point-on-integer",
+            "computed-value-out-of-range",
+        ]),
+        Fault::UnknownCode => By(&["unknown-code"]),
+        Fault::NotNow(..) => By(&["cycle-in-inverse-time", "codes-conflict"]),
+        Fault::Malformed => By(&["unexpected-text", "unclosed-bracket", "malformed-number"]),
+        Fault::Conflict => By(&[
+            "codes-conflict",
+            "two-codes-of-one-group",
+            "words-exclude-each-other",
+            "machine-coordinates-in-increments",
+        ]),
+        Fault::WordTwice(_) => By(&["word-given-twice", "code-given-twice"]),
+        Fault::UnreadWord(_) => By(&["word-not-read", "word-forbidden"]),
+        Fault::Misplaced(_) => Nobody("the order of numbers in a block matters to one interpreter only"),
+        Fault::TooManyCodes => By(&["too-many-m-codes"]),
+        Fault::LineTooLong => By(&["line-too-long"]),
+        Fault::TooFewPoints => Nobody("splines are one interpreter's own"),
+        Fault::NoFeed => By(&["feed-missing", "feed-zero", "probe-without-feed"]),
+        Fault::NoInverseTimeFeed => By(&["inverse-time-feed-missing"]),
+        Fault::SpindleStopped => By(&["spindle-stopped-while-cutting"]),
+        Fault::SpindleDirection => By(&["tap-in-wrong-direction"]),
+        Fault::NoSuchAxis(_) => By(&["unknown-address"]),
+        Fault::NoMotionMode => By(&["axis-words-without-motion-mode"]),
+        Fault::NoAxisWords => By(&["motion-without-axis-words"]),
+        Fault::Arc(fault) => match fault {
+            ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on"]),
+            ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
+            ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
+            ArcFault::ZeroRadius => By(&["zero-radius-arc"]),
+            ArcFault::RadiusTooSmall { .. } => By(&["arc-radius-too-small"]),
+            ArcFault::OffCircle { .. } => By(&["arc-end-off-circle"]),
+            ArcFault::FullCircleByRadius => By(&["full-circle-by-radius"]),
+            ArcFault::Turns => By(&["arc-turns-not-whole"]),
+        },
+        Fault::Cycle(fault) => match fault {
+            CycleFault::Missing(_) => By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"]),
+            CycleFault::RBelowBottom => By(&["cycle-r-below-bottom"]),
+            CycleFault::NotPositive(_) | CycleFault::ZeroRepeats => By(&["cycle-word-not-positive"]),
+            CycleFault::Rotary => By(&["cycle-with-rotary-word"]),
+            CycleFault::InverseTime => By(&["cycle-in-inverse-time"]),
+            CycleFault::Compensated => By(&["cycle-under-compensation"]),
+            CycleFault::Plane | CycleFault::Geometry => By(&["cycle-numbers-contradict"]),
+            CycleFault::OutlineOpen(_) | CycleFault::OutlineEmpty => By(&["pocket-outline-open"]),
+            CycleFault::StartOutside => By(&["pocket-start-outside"]),
+        },
+        Fault::Compensation(fault) => match fault {
+            CompensationFault::EntryTooShort { .. } => By(&["lead-in-too-short"]),
+            CompensationFault::EntryIsArc => By(&["compensation-on-in-arc"]),
+            CompensationFault::ExitIsArc => By(&["compensation-off-in-arc"]),
+            CompensationFault::Gouge => By(&["compensation-gouge"]),
+            CompensationFault::Plane | CompensationFault::NotWhileOn | CompensationFault::AlreadyOn => {
+                By(&["refused-under-compensation"])
+            }
+        },
+        Fault::NoSuchTool(_) => By(&["tool-not-in-table"]),
+        Fault::NoToolSelected => By(&["tool-change-without-t"]),
+        Fault::Probe => By(&["probe-move-refused"]),
+        Fault::NoDwellTime => By(&["required-word-missing", "word-choice-missing"]),
+        Fault::Profile => By(&["turning-profile-not-usable"]),
+        Fault::OverTravel(_) => By(&["move-outside-travel"]),
+        Fault::NoSavedModes => By(&["saved-modes-missing"]),
+        Fault::NoSuchLabel(_) => By(&["jump-target-missing", "jump-to-missing-block"]),
+        Fault::NoSuchProgram => By(&["subprogram-missing", "o-word-subroutine-missing"]),
+        Fault::TooDeep => By(&["calls-nested-too-deep"]),
+        Fault::LoopMismatch => {
+            By(&["loop-end-missing", "loop-begin-missing", "crossed-loops", "o-word-unmatched"])
+        }
+        Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
+        Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
+        Fault::Alarm(_) => By(&["alarm-reached"]),
+    }
+}
+
+/// One of each, those with details apart.
+fn plain_faults() -> Vec<Fault> {
+    let letter = gcheck_controls::Letter::of('X');
+    let code = gcheck_controls::CodeIx::NONE;
+    vec![
+        Fault::Undecidable,
+        Fault::UnsetParameter,
+        Fault::ReadOnlyVariable(0),
+        Fault::VariableNumber,
+        Fault::MissingValue(letter),
+        Fault::MissingWord(letter),
+        Fault::WordRange(letter),
+        Fault::UnknownCode,
+        Fault::NotNow(code, None),
+        Fault::Malformed,
+        Fault::Conflict,
+        Fault::WordTwice(letter),
+        Fault::UnreadWord(letter),
+        Fault::Misplaced(letter),
+        Fault::TooManyCodes,
+        Fault::LineTooLong,
+        Fault::TooFewPoints,
+        Fault::NoFeed,
+        Fault::NoInverseTimeFeed,
+        Fault::SpindleStopped,
+        Fault::SpindleDirection,
+        Fault::NoSuchAxis(letter),
+        Fault::NoMotionMode,
+        Fault::NoAxisWords,
+        Fault::NoSuchTool(1),
+        Fault::NoToolSelected,
+        Fault::Probe,
+        Fault::NoDwellTime,
+        Fault::Profile,
+        Fault::OverTravel(letter),
+        Fault::NoSavedModes,
+        Fault::NoSuchLabel(1),
+        Fault::NoSuchProgram,
+        Fault::TooDeep,
+        Fault::LoopMismatch,
+        Fault::StrayReturn,
+        Fault::NoProgramEnd,
+        Fault::Alarm(1),
+    ]
+}
+
+fn detailed_faults() -> Vec<Fault> {
+    let letter = gcheck_controls::Letter::of('X');
+    let mut faults = Vec::new();
+    faults.extend(
+        [
+            ValueFault::DivisionByZero,
+            ValueFault::NegativeRoot,
+            ValueFault::LogarithmOfNonPositive,
+            ValueFault::ArcFunctionRange,
+            ValueFault::NegativePower,
+            ValueFault::NotFinite,
+            ValueFault::Malformed,
+            ValueFault::NoSuchFunction,
+        ]
+        .map(Fault::Value),
+    );
+    faults.extend(
+        [
+            ArcFault::NoCentre,
+            ArcFault::CentreAndRadius,
+            ArcFault::WrongPlane(letter),
+            ArcFault::ZeroRadius,
+            ArcFault::RadiusTooSmall { half_chord: 2.0, radius: 1.0 },
+            ArcFault::OffCircle { start: 1.0, end: 2.0 },
+            ArcFault::FullCircleByRadius,
+            ArcFault::Turns,
+        ]
+        .map(Fault::Arc),
+    );
+    faults.extend(
+        [
+            CycleFault::Missing(letter),
+            CycleFault::RBelowBottom,
+            CycleFault::NotPositive(letter),
+            CycleFault::ZeroRepeats,
+            CycleFault::Rotary,
+            CycleFault::InverseTime,
+            CycleFault::Compensated,
+            CycleFault::Plane,
+            CycleFault::Geometry,
+            CycleFault::OutlineOpen(1.0),
+            CycleFault::OutlineEmpty,
+            CycleFault::StartOutside,
+        ]
+        .map(Fault::Cycle),
+    );
+    faults.extend(
+        [
+            CompensationFault::EntryTooShort { needed: 2.0, got: 1.0 },
+            CompensationFault::EntryIsArc,
+            CompensationFault::ExitIsArc,
+            CompensationFault::Gouge,
+            CompensationFault::Plane,
+            CompensationFault::NotWhileOn,
+            CompensationFault::AlreadyOn,
+        ]
+        .map(Fault::Compensation),
+    );
+    faults
+}
+
+#[test]
+fn every_fault_is_spoken_for_by_rules_that_exist() {
+    let faults: Vec<Fault> = plain_faults().into_iter().chain(detailed_faults()).collect();
+    let mut wrong = Vec::new();
+    for fault in &faults {
+        match said(fault) {
+            Said::By(rules) => {
+                wrong.extend(
+                    rules.iter().filter(|id| RULES.by_id(id).is_none()).map(|id| format!("{fault:?}: {id}")),
+                );
+                assert!(!rules.is_empty(), "{fault:?}");
+            }
+            Said::Nobody(why) => assert!(!why.is_empty(), "{fault:?}"),
+        }
+    }
+    assert!(wrong.is_empty(), "rules that do not exist: {wrong:#?}");
+}
+
+/// Programs that raise a fault, each with the words that the table above promises.
+#[test]
+fn a_program_that_cannot_be_executed_has_a_finding() {
+    let programs: &[(&str, &str, Fault)] = &[
+        ("fanuc-mill", "O1\n#2=1/0\nM30\n", Fault::Value(ValueFault::DivisionByZero)),
+        ("linuxcnc", "G21\nG0 X#<width>\nM2\n", Fault::UnsetParameter),
+        ("fanuc-mill", "O1\n#0=1\nM30\n", Fault::ReadOnlyVariable(0)),
+        ("fanuc-mill", "O1\n#1=#[1.5]\nM30\n", Fault::VariableNumber),
+        ("fanuc-mill", "O1\nG0 X\nM30\n", Fault::MissingValue(gcheck_controls::Letter::of('X'))),
+        ("fanuc-mill", "O1\nM98\nM30\n", Fault::MissingWord(gcheck_controls::Letter::of('P'))),
+        ("linuxcnc", "G21\nM3 S-5\nM2\n", Fault::WordRange(gcheck_controls::Letter::of('S'))),
+        ("fanuc-mill", "O1\nG999\nM30\n", Fault::UnknownCode),
+        ("linuxcnc", "G0 G1 X1 F10\nM2\n", Fault::Conflict),
+        ("linuxcnc", "G21 G91\nG53 G0 X1\nM2\n", Fault::Conflict),
+        ("linuxcnc", "G21\nG1 X1\nM2\n", Fault::NoFeed),
+        ("linuxcnc", "G21 G90 F9 G0 X0 Y0 Z9\nM4 S9\nG84 Z1 R5\nM2\n", Fault::SpindleDirection),
+        ("linuxcnc", "G21 G93\nG1 X1\nM2\n", Fault::NoInverseTimeFeed),
+        ("linuxcnc", "G21\nX1\nM2\n", Fault::NoMotionMode),
+        (
+            "linuxcnc",
+            "G21 F100 G90 G0 X0 Y0\nG2 X10 Y0 R1\nM2\n",
+            Fault::Arc(ArcFault::RadiusTooSmall { half_chord: 5.0, radius: 1.0 }),
+        ),
+        (
+            "linuxcnc",
+            "G21 F100 G90 G0 X0 Y0 Z5\nG81 X1 Y1 Z2 R1\nM2\n",
+            Fault::Cycle(CycleFault::RBelowBottom),
+        ),
+        (
+            "linuxcnc",
+            "G21 G90 F100\nG41.1 D6 G1 X10\nG1 Y10\nG28\nM2\n",
+            Fault::Compensation(CompensationFault::NotWhileOn),
+        ),
+        ("linuxcnc", "M72\nM2\n", Fault::NoSavedModes),
+        ("fanuc-mill", "O1\nGOTO 50\nM30\n", Fault::NoSuchLabel(50)),
+        ("linuxcnc", "o7 call\nM2\n", Fault::NoSuchProgram),
+        ("fanuc-mill", "O1\nM98 P2\nM30\nO2\nM98 P2\nM99\n", Fault::TooDeep),
+        ("fanuc-mill", "O1\nEND1\nM30\n", Fault::LoopMismatch),
+        ("linuxcnc", "o1 return\nM2\n", Fault::StrayReturn),
+        ("haas-mill", "M97 P10\nM30\nN10 G0 X1.\n", Fault::NoProgramEnd),
+    ];
+    let mut silent = Vec::new();
+    for (control, program, fault) in programs {
+        let Said::By(rules) = said(fault) else { continue };
+        let found = findings(&recommended(), control, program, &World::default());
+        if !found.iter().any(|finding| rules.contains(&finding.rule.id)) {
+            let ids: Vec<_> = found.iter().map(|finding| finding.rule.id).collect();
+            silent.push(format!("{control} {program:?}: {fault:?} is told by {ids:?}, not by {rules:?}"));
+        }
+    }
+    assert!(silent.is_empty(), "{silent:#?}");
+}

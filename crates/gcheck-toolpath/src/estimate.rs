@@ -1,0 +1,126 @@
+//! The run of a program as a machine makes it: events go to the planner, times come back by section and place.
+//!
+//! Knows: which section and line a time belongs to. Must not know: how motion is planned, how times are shown.
+
+use gcheck_geometry::Seconds;
+use gcheck_planner::{Item, Planner, Shares, Span};
+
+use crate::motion::{Motion, Tracker};
+use crate::plan::{Items, Plan};
+use crate::slowest::{Place, Slowest};
+use crate::step::Step;
+
+/// Where a time belongs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tag {
+    pub(crate) section: u32,
+    pub(crate) file: u16,
+    pub(crate) line: u32,
+    pub(crate) kind: Kind,
+}
+
+/// What a time is spent on while axes run, or while they do not move.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Rapid,
+    Cut,
+    Stand,
+    /// A pocket that the control clears: the axes stop for the planner, and cut for the figures.
+    Pocket,
+}
+
+/// Plans a run.
+#[derive(Debug, Clone)]
+pub(crate) struct Estimate {
+    plan: Plan,
+    planner: Planner<Tag>,
+    items: Items,
+    slowest: Slowest,
+}
+
+impl Estimate {
+    pub(crate) fn new(plan: Plan) -> Self {
+        let items = Items::new(&plan);
+        let mut planner = Planner::new(plan.machine);
+        planner.push(items.meeting(), &mut |_| {});
+        Self { plan, planner, items, slowest: Slowest::default() }
+    }
+
+    /// An event that moves no axis. `each` gets the shares of time that became certain.
+    pub(crate) fn event(
+        &mut self,
+        step: &Step<'_>,
+        surface: bool,
+        tag: Tag,
+        each: &mut impl FnMut(Tag, &Shares),
+    ) {
+        let Self { planner, items, slowest, .. } = self;
+        items.event(step, surface, tag, |item| planner.push(item, &mut |span| hand(slowest, span, each)));
+    }
+
+    /// A movement; `None` where its time cannot be known, so that the axes stop there.
+    pub(crate) fn motion(
+        &mut self,
+        step: &Step<'_>,
+        tracker: &Tracker,
+        motion: &Motion,
+        asked: Option<Seconds>,
+        tag: Tag,
+        each: &mut impl FnMut(Tag, &Shares),
+    ) {
+        let Self { planner, items, slowest, .. } = self;
+        let mut push = |item: Item<Tag>| planner.push(item, &mut |span| hand(slowest, span, each));
+        match asked {
+            Some(asked) => items.motion(step, tracker, motion, asked, tag, push),
+            None => push(Item::Halt),
+        }
+    }
+
+    /// The axes do not move for a time that the program gives.
+    pub(crate) fn pause(&mut self, seconds: Seconds, tag: Tag, each: &mut impl FnMut(Tag, &Shares)) {
+        self.push(Item::Pause { seconds, auxiliary: false, tag }, each);
+    }
+
+    /// A tool change; `None` where the tool is in the spindle.
+    pub(crate) fn change(&mut self, tool: Option<u32>, tag: Tag, each: &mut impl FnMut(Tag, &Shares)) {
+        let item = self.items.change(tool, tag);
+        self.push(item, each);
+    }
+
+    /// Nothing comes any more.
+    pub(crate) fn finish(&mut self, each: &mut impl FnMut(Tag, &Shares)) {
+        let Self { planner, slowest, .. } = self;
+        planner.finish(&mut |span| hand(slowest, span, each));
+        slowest.finish();
+    }
+
+    pub(crate) const fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    pub(crate) fn places(&self) -> &[Place] {
+        self.slowest.places()
+    }
+
+    #[expect(clippy::large_types_passed_by_value, reason = "called once a run")]
+    fn push(&mut self, item: Item<Tag>, each: &mut impl FnMut(Tag, &Shares)) {
+        let Self { planner, slowest, .. } = self;
+        planner.push(item, &mut |span| hand(slowest, span, each));
+    }
+}
+
+fn hand(slowest: &mut Slowest, span: &Span<Tag>, each: &mut impl FnMut(Tag, &Shares)) {
+    each(span.tag, &span.shares);
+    if matches!(span.tag.kind, Kind::Rapid | Kind::Cut) {
+        let taken = span.shares.total();
+        slowest.add(Place {
+            file: span.tag.file,
+            lines: (span.tag.line, span.tag.line),
+            cause: span.cause,
+            lost: Seconds((taken - span.asked).0.max(0.0)),
+            taken,
+            moves: u64::from(span.blocks),
+            way: span.profile.length,
+        });
+    }
+}

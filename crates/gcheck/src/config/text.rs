@@ -1,0 +1,46 @@
+//! The text of a configuration: where it came from, and how its parts are pointed at and resolved.
+//!
+//! Knows: places in the text, patterns and paths that count from its folder. Must not know: what its tables mean.
+
+use std::path::{Path, PathBuf};
+
+use super::file::SearchTable;
+use super::pattern::PathPattern;
+use super::placed::Placed;
+use crate::Problem;
+
+/// Where a text came from.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Text<'t> {
+    /// What messages call it.
+    pub(super) name: &'t str,
+    #[expect(clippy::struct_field_names, reason = "a text has a name and a text")]
+    pub(super) text: &'t str,
+    /// The folder from which its paths count.
+    pub(super) folder: &'t Path,
+}
+
+impl Text<'_> {
+    pub(super) fn problem<T>(&self, placed: &Placed<T>, message: impl Into<String>) -> Problem {
+        Problem::at(self.name, self.text, &placed.range, message)
+    }
+
+    pub(super) fn patterns(&self, patterns: &[Placed<String>]) -> Result<Vec<PathPattern>, Problem> {
+        patterns.iter().map(|pattern| self.pattern(pattern)).collect()
+    }
+
+    pub(super) fn pattern(&self, pattern: &Placed<String>) -> Result<PathPattern, Problem> {
+        PathPattern::new(self.folder, &pattern.value).map_err(|reason| {
+            self.problem(pattern, format!("`{}` is not a pattern: {reason}", pattern.value))
+        })
+    }
+
+    pub(super) fn search(&self, table: &SearchTable) -> Vec<PathBuf> {
+        table.paths.iter().map(|path| self.path(&path.value)).collect()
+    }
+
+    /// A path that the text names.
+    pub(super) fn path(&self, path: &str) -> PathBuf {
+        crate::paths::absolute(&self.folder.join(path))
+    }
+}

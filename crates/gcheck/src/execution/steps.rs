@@ -1,0 +1,17 @@
+//! What output takes of a run: one step after the other.
+//!
+//! Knows: nothing but the step. Must not know: where steps come from, formats.
+
+use std::io;
+
+use gcheck_toolpath::Step;
+
+/// Takes the steps of a run.
+pub(crate) trait Steps {
+    /// As the reference interpreter has it: sequence numbers are those of the block being executed, which under cutter
+    /// compensation may be later than the block that a move belongs to, and an optional stop is one whatever the switch says.
+    const AS_INTERPRETED: bool = false;
+
+    /// One event.
+    fn step(&mut self, step: &Step<'_>) -> io::Result<()>;
+}
