@@ -164,7 +164,7 @@ pub(crate) fn holds(proof: &Proof) -> Result<(), String> {
             if speaks { Err(format!("{found:?} in\n{}", program.text)) } else { Ok(()) }
         }
         Proof::Makes { program, block, events } => makes(program, block, events),
-        Proof::Stands { program, after, at } => stands(program, after, at),
+        Proof::Stands { program, after, at } => ends_at(program, after, at),
         Proof::Same { one, other } => same(one, other),
     }
 }
@@ -293,7 +293,7 @@ fn makes(program: &Program, block: &str, wanted: &[&str]) -> Result<(), String> 
 }
 
 /// Where the axes are after a block: see [`Proof::Is`].
-fn stands(program: &Program, after: &str, at: &str) -> Result<(), String> {
+fn ends_at(program: &Program, after: &str, at: &str) -> Result<(), String> {
     let line = line_of(program, after)?;
     let moves = product::moves(program);
     let Some(last) = moves.iter().rfind(|one| one["line"] == line) else {
@@ -333,8 +333,8 @@ fn is_event(one: &Value, words: &str) -> bool {
     }
     let action = one["action"].as_str().unwrap_or_default();
     match (kind, action) {
-        ("spindle", "speed") => one["rpm"] == rest,
-        ("tool", _) => one["tool"] == rest,
+        ("spindle", "speed") => rest.parse().ok() == one["rpm"].as_f64(),
+        ("tool", _) => rest.parse().ok() == one["tool"].as_f64(),
         _ if one["to"].is_null() && kind != "dwell" => action == rest,
         _ => {
             let named = |axis: &str| rest.split(' ').any(|word| word.starts_with(axis));
