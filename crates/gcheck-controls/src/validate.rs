@@ -249,7 +249,7 @@ impl Problems<'_> {
         for part in motion.source.split(';').map(str::trim) {
             let known = control.references().iter().any(|r| part.starts_with(r.id.as_str()));
             if !known && !part.starts_with("general knowledge") {
-                self.say(PLACE, format!("the source `{part}` is no reference of the control"));
+                self.say(PLACE, format!("the source `{part}` is not among the references of the control"));
             }
         }
         if motion.look_ahead == 0 {

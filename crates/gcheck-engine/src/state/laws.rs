@@ -192,8 +192,8 @@ fn every_field_counts_in_all_four_questions() {
         let mut other = base.clone();
         alter(&mut other);
         assert!(!base.same(&other) && !other.same(&base), "{name}: the two are called the same");
-        assert!(!base.covers(&other), "{name}: the one is said to stand for the other");
-        assert!(!other.covers(&base), "{name}: the other is said to stand for the one");
+        assert!(!base.covers(&other), "{name}: the one covers the other");
+        assert!(!other.covers(&base), "{name}: the other covers the one");
         for joined in [base.join(&other), base.widen(&other)] {
             assert!(joined.covers(&base) && joined.covers(&other), "{name}: a path is lost");
             assert!(
