@@ -78,13 +78,14 @@ impl Estimate {
 
     /// The axes do not move for a time that the program gives.
     pub(crate) fn pause(&mut self, seconds: Seconds, tag: Tag, each: &mut impl FnMut(Tag, &Shares)) {
-        self.push(Item::Pause { seconds, auxiliary: false, tag }, each);
+        let Self { planner, slowest, .. } = self;
+        planner.push(Item::Pause { seconds, auxiliary: false, tag }, &mut |span| hand(slowest, span, each));
     }
 
     /// A tool change; `None` where the tool is in the spindle.
     pub(crate) fn change(&mut self, tool: Option<u32>, tag: Tag, each: &mut impl FnMut(Tag, &Shares)) {
-        let item = self.items.change(tool, tag);
-        self.push(item, each);
+        let Self { items, planner, slowest, .. } = self;
+        planner.push(items.change(tool, tag), &mut |span| hand(slowest, span, each));
     }
 
     /// Nothing comes any more.
@@ -100,12 +101,6 @@ impl Estimate {
 
     pub(crate) fn places(&self) -> &[Place] {
         self.slowest.places()
-    }
-
-    #[expect(clippy::large_types_passed_by_value, reason = "called once a run")]
-    fn push(&mut self, item: Item<Tag>, each: &mut impl FnMut(Tag, &Shares)) {
-        let Self { planner, slowest, .. } = self;
-        planner.push(item, &mut |span| hand(slowest, span, each));
     }
 }
 

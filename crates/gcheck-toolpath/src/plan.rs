@@ -312,62 +312,60 @@ impl Items {
             self.stops_once = false;
             let mode = self.effective();
             each(Item::Meeting(Meeting::Stop));
-            self.moved(step, tracker, motion, asked, tag, &mut each);
+            moved(step, tracker, motion, asked, tag, &mut each);
             each(Item::Meeting(mode));
         } else {
-            self.moved(step, tracker, motion, asked, tag, &mut each);
+            moved(step, tracker, motion, asked, tag, &mut each);
         }
     }
+}
 
-    #[expect(clippy::unused_self, reason = "it is asked of a plan")]
-    fn moved<T: Copy>(
-        &self,
-        step: &Step<'_>,
-        tracker: &Tracker,
-        motion: &Motion,
-        asked: Seconds,
-        tag: T,
-        each: &mut impl FnMut(Item<T>),
-    ) {
-        let rpm = Rpm(if step.rpm.is_finite() { step.rpm } else { 0.0 });
-        let drive = match motion.way {
-            Way::Rapid => Drive::Rapid,
-            Way::Feed => Drive::Feed,
-            Way::Probe => Drive::Probe,
-            Way::Thread => Drive::Thread(rpm),
-            Way::Tap(scale) => Drive::Tap(Rpm(rpm.0 * scale)),
-        };
-        let upright = tracker.is_upright();
-        let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
-        let [from, to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
-        let arc =
-            motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known() && tracker.still().is_none());
-        let whole = Move { drive, from, to, arc: None, asked, tag };
-        let Some(arc) = arc else { return each(Item::Move(whole)) };
-        if upright {
-            return each(Item::Move(Move { arc: Some(arc), ..whole }));
+/// A movement as the planner takes it: one move, or the chords of an arc in a tilted plane that has no name.
+fn moved<T: Copy>(
+    step: &Step<'_>,
+    tracker: &Tracker,
+    motion: &Motion,
+    asked: Seconds,
+    tag: T,
+    each: &mut impl FnMut(Item<T>),
+) {
+    let rpm = Rpm(if step.rpm.is_finite() { step.rpm } else { 0.0 });
+    let drive = match motion.way {
+        Way::Rapid => Drive::Rapid,
+        Way::Feed => Drive::Feed,
+        Way::Probe => Drive::Probe,
+        Way::Thread => Drive::Thread(rpm),
+        Way::Tap(scale) => Drive::Tap(Rpm(rpm.0 * scale)),
+    };
+    let upright = tracker.is_upright();
+    let turned = |position: &Position| if upright { *position } else { tracker.turned(position) };
+    let [from, to] = [turned(&motion.from), turned(&motion.to)].map(|position| point(&position));
+    let arc = motion.arc.filter(|arc| arc.is_known() && arc.rise().is_known() && tracker.still().is_none());
+    let whole = Move { drive, from, to, arc: None, asked, tag };
+    let Some(arc) = arc else { return each(Item::Move(whole)) };
+    if upright {
+        return each(Item::Move(Move { arc: Some(arc), ..whole }));
+    }
+    if arc.plane() == Plane::Xy {
+        let [first, second, _] = [arc.centre().0, arc.centre().1, Mm::ZERO];
+        let centre = tracker.turned(&motion.to.with_xyz([first, second, Mm::ZERO])).xyz();
+        let [x, y, _] = centre;
+        let [start, end] = [turned(&motion.from), turned(&motion.to)].map(|position| position.xyz());
+        let arc = Arc::from_parts(Plane::Xy, start, end, (x, y), arc.sweep());
+        return each(Item::Move(Move { arc: Some(arc), ..whole }));
+    }
+    // An arc in a plane other than the main ones.
+    #[expect(clippy::cast_sign_loss, reason = "the angle is not negative and the count small")]
+    let count = (arc.sweep().abs() / CHORD).ceil().clamp(1.0, 10_000.0) as u32;
+    let mut begin = from;
+    for (index, end) in (1..=count).zip(arc.chords(count)) {
+        let done = f64::from(index) / f64::from(count);
+        let mut next = from + (to - from) * done;
+        for (slot, value) in next.iter_mut().zip(turned(&motion.to.with_xyz(end)).xyz()) {
+            *slot = value.0;
         }
-        if arc.plane() == Plane::Xy {
-            let [first, second, _] = [arc.centre().0, arc.centre().1, Mm::ZERO];
-            let centre = tracker.turned(&motion.to.with_xyz([first, second, Mm::ZERO])).xyz();
-            let [x, y, _] = centre;
-            let [start, end] = [turned(&motion.from), turned(&motion.to)].map(|position| position.xyz());
-            let arc = Arc::from_parts(Plane::Xy, start, end, (x, y), arc.sweep());
-            return each(Item::Move(Move { arc: Some(arc), ..whole }));
-        }
-        // An arc in a plane other than the main ones.
-        #[expect(clippy::cast_sign_loss, reason = "the angle is not negative and the count small")]
-        let count = (arc.sweep().abs() / CHORD).ceil().clamp(1.0, 10_000.0) as u32;
-        let mut begin = from;
-        for (index, end) in (1..=count).zip(arc.chords(count)) {
-            let done = f64::from(index) / f64::from(count);
-            let mut next = from + (to - from) * done;
-            for (slot, value) in next.iter_mut().zip(turned(&motion.to.with_xyz(end)).xyz()) {
-                *slot = value.0;
-            }
-            each(Item::Move(Move { from: begin, to: next, asked: asked / f64::from(count), ..whole }));
-            begin = next;
-        }
+        each(Item::Move(Move { from: begin, to: next, asked: asked / f64::from(count), ..whole }));
+        begin = next;
     }
 }
 

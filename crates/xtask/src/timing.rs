@@ -74,10 +74,9 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
 }
 
 /// The programs of these names; all of the folder, and those of the corpus in the table, without names.
-#[expect(clippy::similar_names, reason = "each name is the term of its subject")]
-fn programs(named: &[&str], measured: &Measured) -> anyhow::Result<Vec<(String, PathBuf)>> {
+fn programs(asked_for: &[&str], measured: &Measured) -> anyhow::Result<Vec<(String, PathBuf)>> {
     let corpus = env::var_os("GCHECK_CORPUS").map(PathBuf::from);
-    let mut names: Vec<String> = named.iter().map(|name| (*name).to_owned()).collect();
+    let mut names: Vec<String> = asked_for.iter().map(|name| (*name).to_owned()).collect();
     if names.is_empty() {
         for entry in fs::read_dir(workspace::root().join(FOLDER))? {
             let path = entry?.path();

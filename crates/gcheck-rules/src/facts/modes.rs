@@ -80,7 +80,6 @@ pub(crate) fn resting_on_mode(cx: &PathCx<'_>, finding: Finding, role: Role) -> 
 }
 
 /// A finding about a mode that the program leaves on for the next one, if its end does not reset it.
-#[expect(clippy::similar_names, reason = "each name is the term of its subject")]
 pub(crate) fn left_at_end(
     cx: &PathCx<'_>,
     rule: &'static RuleMeta,
@@ -96,9 +95,9 @@ pub(crate) fn left_at_end(
     // A mode as it was at the start was not switched on by the program.
     cx.trace().set_by(fact)?;
     let name = cx.name_of(code);
-    let place = Boundary::ProgramEnd;
-    let message = format!("{what} is still on {} (`{name}`)", place.words());
-    let finding = cx.finding(rule, boundary_range(cx, place), message);
+    let end = Boundary::ProgramEnd;
+    let message = format!("{what} is still on {} (`{name}`)", end.words());
+    let finding = cx.finding(rule, boundary_range(cx, end), message);
     let finding = finding.label("what runs next begins with it");
     Some(cx.resting_on(finding, fact, &format!("`{name}`")))
 }
