@@ -1,7 +1,8 @@
 //! The laws of the syntax crate, on generated text: nothing is lost, nothing panics, edits give what a fresh start gives.
 
 use gcheck_syntax::{
-    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, MAX_OPERATORS, SourceText, SyntaxErrorKind, SyntaxProfile, cut, parse,
+    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, MAX_OPERATORS, SourceText, SyntaxErrorKind, SyntaxProfile,
+    cut, parse,
 };
 use proptest::prelude::*;
 
@@ -175,7 +176,11 @@ fn as_many_operators_as_the_limit_are_read() {
     let line = |operators: u32| format!("#1=[1{}]\n", "+1".repeat(operators as usize));
     assert_eq!(parse(&line(MAX_OPERATORS), SyntaxProfile::MACRO_B).errors(), []);
     assert_eq!(parse(&line(MAX_OPERATORS + 1), SyntaxProfile::MACRO_B).errors().len(), 1);
-    assert_eq!(parse(&line(600).repeat(2), SyntaxProfile::MACRO_B).errors(), [], "each line has its own count");
+    assert_eq!(
+        parse(&line(600).repeat(2), SyntaxProfile::MACRO_B).errors(),
+        [],
+        "each line has its own count"
+    );
 }
 
 #[test]
