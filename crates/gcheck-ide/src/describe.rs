@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 
 use gcheck_controls::{Access, Code, Control, Letter, VariableEntry, VariableKind, WordEntry};
 
+use crate::foreign::Foreign;
+
 /// A code: title, rules, words, prose, example, source.
 pub(crate) fn code(control: &Control, code: Code<'_>) -> String {
     format!("{}\n\n{}", title(code), details(control, code))
@@ -13,7 +15,12 @@ pub(crate) fn code(control: &Control, code: Code<'_>) -> String {
 
 /// A code and what it is called, in one line.
 pub(crate) fn title(code: Code<'_>) -> String {
-    format!("**{}** {}", code.entry().code, code.entry().title)
+    let entry = code.entry();
+    if code.is_user() {
+        // The configuration came with the programs.
+        return format!("**{}** {}", entry.code, Foreign::Prose(&entry.title));
+    }
+    format!("**{}** {}", entry.code, entry.title)
 }
 
 /// All about a code but its title.

@@ -16,6 +16,7 @@ use gcheck_syntax::SyntaxKind;
 use crate::ReferenceKind;
 use crate::describe;
 use crate::figures::{coordinate, plain, unit, value};
+use crate::foreign::Foreign;
 use crate::pieces::{pieces_of_line, touches};
 use crate::reading::{Item, Reading};
 use crate::state_at::look_at;
@@ -348,7 +349,7 @@ impl Cx<'_> {
     ) -> Option<String> {
         let (look, state) = look.zip(self.state)?;
         let written = self.snapshot.slice(self.place.in_file(word.range()));
-        let written = written.trim();
+        let written = Foreign::Code(written.trim());
         let reading = Reading::new(self.snapshot, look.model());
         let units = reading.units(&state.before);
         let unit = match kind? {
@@ -358,13 +359,13 @@ impl Cx<'_> {
             WordKind::Milliseconds => "ms",
             WordKind::Feed => {
                 return Some(format!(
-                    "`{written}` {}",
+                    "{written} {}",
                     reading.feed(state.after.as_ref()?)?.split_once(' ')?.1
                 ));
             }
             WordKind::SecondsOrMilliseconds => {
                 return Some(format!(
-                    "`{written}` is {} {}",
+                    "{written} is {} {}",
                     plain(word.number()?, 6),
                     if word.shape.point { "s" } else { "ms" }
                 ));
@@ -387,14 +388,14 @@ impl Cx<'_> {
                     }
                     _ => "",
                 };
-                Some(format!("`{written}` is {} {unit}{diameter}{why}", plain(counts, 6)))
+                Some(format!("{written} is {} {unit}{diameter}{why}", plain(counts, 6)))
             }
             Value::Expr(expr) => {
                 let range = self.place.in_file(self.place.table.expr(expr).range.clone());
                 let at = At { file: 0, block: self.place.number };
                 let values = look.expressions(at, &state.before);
                 let (_, held) = values.into_iter().find(|(of, _)| *of == range)?;
-                Some(format!("`{written}` is {} {unit}", value(&held)))
+                Some(format!("{written} is {} {unit}", value(&held)))
             }
             Value::Missing => None,
         }
@@ -476,7 +477,7 @@ impl Cx<'_> {
     }
 
     fn variable(&self, name: &str, entry: &str, held: Option<&Held>, thing: &Thing) -> String {
-        let mut text = format!("**{name}** {entry}");
+        let mut text = format!("**{}** {entry}", Foreign::Prose(name));
         match held {
             Some(Held { before, after: Some(after) }) if before.as_ref() != Some(after) => {
                 let before = before.as_ref().map_or_else(|| "not known".to_owned(), value);
@@ -502,7 +503,8 @@ impl Cx<'_> {
         let from = before.saturating_sub(MOST_ASSIGNMENTS - 1);
         for range in set.iter().skip(from).take(MOST_ASSIGNMENTS) {
             let line = self.snapshot.line_at(range.start);
-            let _ = write!(text, "\n- set in line {}: `{}`", line + 1, self.snapshot.line_text(line).trim());
+            let written = self.snapshot.line_text(line);
+            let _ = write!(text, "\n- set in line {}: {}", line + 1, Foreign::Code(written.trim()));
         }
         text
     }
@@ -515,16 +517,21 @@ impl Cx<'_> {
         let what = match thing {
             Thing::Label { number, .. } => format!("**N{number}** sequence number"),
             Thing::Program(number) => format!("**O{number}** program"),
-            Thing::Subroutine(label) => format!("**{}** subroutine", crate::document_symbols::o_name(label)),
-            Thing::Branch { label, .. } => format!("**{}** label", crate::document_symbols::o_name(label)),
+            Thing::Subroutine(label) => {
+                format!("**{}** subroutine", Foreign::Prose(&crate::document_symbols::o_name(label)))
+            }
+            Thing::Branch { label, .. } => {
+                format!("**{}** label", Foreign::Prose(&crate::document_symbols::o_name(label)))
+            }
             Thing::Variable { .. } | Thing::Parameter { .. } => String::new(),
         };
         let place = match head {
             Some(head) => {
                 let line = self.snapshot.line_at(head.range.start);
                 let text = self.snapshot.line_text(line).into_owned();
-                let comment = remark(&text).map(|remark| format!(" ({remark})")).unwrap_or_default();
-                format!(", line {}{comment}: `{}`", line + 1, text.trim())
+                let comment =
+                    remark(&text).map(|remark| format!(" ({})", Foreign::Prose(remark))).unwrap_or_default();
+                format!(", line {}{comment}: {}", line + 1, Foreign::Code(text.trim()))
             }
             None => ", not in this file".to_owned(),
         };
@@ -633,7 +640,7 @@ mod tests {
             "#<dep$0th> = 2\nM2\n",
             &expect![[r#"
             [#<depth>]
-            **#<depth>** named parameter, local
+            **#\<depth\>** named parameter, local
 
             after this block: 2 (before it: not known)
         "#]],
@@ -839,7 +846,7 @@ mod tests {
             "#<depth> = 2\nG21 G0 Z[#<dep$0th> * 2]\nM2\n",
             &expect![[r#"
             [#<depth>]
-            **#<depth>** named parameter, local
+            **#\<depth\>** named parameter, local
 
             here: 2
             - set in line 1: `#<depth> = 2`
@@ -919,6 +926,16 @@ mod tests {
                 needs `F`, may have `X` `Y` `Z` `A` `B` `C` `U` `V` `W` `,C` `,R`
             "#]],
         );
+    }
+
+    #[test]
+    fn text_of_a_program_is_never_more_than_text() {
+        check(
+            "haas-mill",
+            "O1\nM98 P$02\nM30\nO2 ([HELP](http://evil) ` <img src=x>)\nM99\n",
+            &expect![[r#""#]],
+        );
+        check("linuxcnc", "#<a](http://evil)>=1\n#1=#<a]$0(http://evil)>\nM2\n", &expect![[r#""#]]);
     }
 
     #[test]

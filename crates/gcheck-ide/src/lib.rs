@@ -26,6 +26,7 @@ mod figures;
 #[cfg(test)]
 mod fixture;
 mod folding;
+mod foreign;
 mod formatting;
 mod highlight;
 mod hover;

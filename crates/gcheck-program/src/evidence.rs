@@ -11,6 +11,9 @@ const COMMENT_LINES: usize = 300;
 /// Bytes whose codes and forms count, and the rest of their last line: what a program uses at all, it uses early.
 pub const EVIDENCE_BYTES: usize = 256 << 10;
 
+/// Bytes of a line that are looked at: for each `;` and each `#<` the rest of them is looked through.
+const MAX_LINE: usize = 1_024;
+
 /// Collects the evidence of a program for [`gcheck_controls::guess`]. Of a long text its head is enough: [`EVIDENCE_BYTES`]
 /// bytes and the rest of their last line.
 pub fn collect_evidence(text: &str) -> Evidence {
@@ -82,6 +85,7 @@ impl Scan {
     }
 
     fn line(&mut self, line: &str) {
+        let line = line.get(..line.floor_char_boundary(MAX_LINE)).unwrap_or(line);
         let mut rest = line.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
         if rest.starts_with('%') {
             self.form("tape-mark");
@@ -379,6 +383,16 @@ mod tests {
                 turning-words
             "#]],
         );
+    }
+
+    #[test]
+    fn of_a_long_line_the_head_counts() {
+        let blocks = format!("G71;{}G96;\nG54\n", "G0;".repeat(100_000));
+        let codes: Vec<String> = collect_evidence(&blocks).codes;
+        assert_eq!(codes, ["G71", "G0"], "the rest of the line is not looked at, nor is what follows");
+        for piece in ["#<", "O<", "[#<", "; G0 (", "(;"] {
+            collect_evidence(&piece.repeat(300_000));
+        }
     }
 
     #[test]

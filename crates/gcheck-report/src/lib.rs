@@ -29,5 +29,6 @@ pub use control_lines::control_lines;
 pub use fingerprint::{Fingerprint, Fingerprinter};
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
-pub use report::{Assumed, FileReport, RelatedFile, Report, Summary};
+pub use report::{Assumed, FileReport, RelatedFile, Report, Skipped, Summary};
+pub use shown::harmless;
 pub use style::Colour;

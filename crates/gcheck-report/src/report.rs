@@ -55,8 +55,21 @@ pub struct RelatedFile {
 #[derive(Debug)]
 pub struct Report {
     files: Vec<File>,
+    skipped: Vec<Skipped>,
     related: Vec<(String, Source)>,
     rules: Vec<&'static RuleMeta>,
+}
+
+/// The rule that reports that a budget was used up.
+const INCOMPLETE: &str = "analysis-incomplete";
+
+/// A file that was to be checked and could not be.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Skipped {
+    /// As shown; empty when the problem is not one of a single file.
+    pub file: String,
+    /// Why, in one sentence without an end.
+    pub reason: String,
 }
 
 /// The order of findings in a file.
@@ -106,6 +119,8 @@ pub struct Summary {
     pub fixed: usize,
     /// Paths of the files whose analysis ended early.
     pub out_of_fuel: Vec<String>,
+    /// Files that could not be checked.
+    pub skipped: Vec<Skipped>,
     /// The assumptions of the verdicts, each once, with the number of files that depend on it.
     pub assumptions: Vec<Assumed>,
 }
@@ -126,7 +141,7 @@ impl Report {
     pub fn new(files: Vec<FileReport>) -> Self {
         let mut files: Vec<File> = files.into_iter().map(File::new).collect();
         files.sort_by(|a, b| a.path.cmp(&b.path));
-        Self { files, related: Vec::new(), rules: Vec::new() }
+        Self { files, skipped: Vec::new(), related: Vec::new(), rules: Vec::new() }
     }
 
     /// With texts of files that labels point to; without its text a file is named, but no line of it is shown.
@@ -134,6 +149,27 @@ impl Report {
     pub fn with_related(mut self, files: Vec<RelatedFile>) -> Self {
         self.related = files.into_iter().map(|file| (file.path, Source::new(file.text))).collect();
         self
+    }
+
+    /// With the files that could not be checked.
+    #[must_use]
+    pub fn with_skipped(mut self, mut skipped: Vec<Skipped>) -> Self {
+        skipped.sort();
+        skipped.dedup();
+        self.skipped = skipped;
+        self
+    }
+
+    /// Is there more to find: a file was skipped, or a budget was used up before the end of an analysis?
+    pub fn is_incomplete(&self) -> bool {
+        let gave_up = |file: &File| {
+            let mut rules = file.findings.iter().map(|finding| finding.rule);
+            let mut omitted = file.omitted.iter().map(|(rule, ..)| *rule);
+            file.out_of_fuel
+                || rules.any(|rule| rule.id == INCOMPLETE)
+                || omitted.any(|rule| rule.id == INCOMPLETE)
+        };
+        !self.skipped.is_empty() || self.files.iter().any(gave_up)
     }
 
     /// With the rules that ran, for the formats that list them; rules of findings are listed anyway.
@@ -145,7 +181,8 @@ impl Report {
 
     /// The sums.
     pub fn summary(&self) -> Summary {
-        let mut sum = Summary { files: self.files.len(), ..Summary::default() };
+        let mut sum =
+            Summary { files: self.files.len(), skipped: self.skipped.clone(), ..Summary::default() };
         for file in &self.files {
             sum.lines += file.lines;
             sum.suppressed += file.suppressed;

@@ -42,6 +42,11 @@ pub(crate) fn lines(text: &str) -> Cow<'_, str> {
     })
 }
 
+/// A text of any number of lines as it may be printed: nothing in it steers the terminal.
+pub fn harmless(text: &str) -> Cow<'_, str> {
+    lines(text)
+}
+
 /// In a message SUB is most likely quoted from a program, where it stands for a byte that is not UTF-8.
 fn message_char(c: char) -> char {
     if c == gcheck_syntax::SourceText::STAND_IN { REPLACEMENT } else { program_char(c) }

@@ -5,6 +5,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::str::FromStr as _;
+use std::time::Duration;
 
 use gcheck_db::Snapshot;
 use gcheck_diagnostics::Severity;
@@ -21,6 +22,8 @@ use crate::proto::{
 
 /// What the client calls us.
 const SOURCE: &str = "gcheck";
+/// The code of a diagnostic that says that the analysis was given up; it is the rule's that says so on the command line.
+const INCOMPLETE: &str = "analysis-incomplete";
 /// Rules named when findings are too many to be shown.
 const NAMED: usize = 5;
 
@@ -87,6 +90,17 @@ fn omitted(shown: &Diagnostics) -> String {
     let more = if shown.omitted.len() > NAMED { ", and others" } else { "" };
     let findings = if count == 1 { "1 more finding is" } else { &format!("{count} more findings are") };
     format!("{findings} not shown: {}{more}; `gcheck check` shows them", named.join(", "))
+}
+
+/// Says that the analysis did not come to its end, so that an empty list is not taken for a program without mistakes.
+pub(crate) fn given_up(after: Duration) -> Diagnostic {
+    let message = format!(
+        "the analysis was given up after {} s, so mistakes of this program are not shown; `gcheck check` takes more time, and \
+         says where the time goes",
+        after.as_secs()
+    );
+    let code = Some(NumberOrString::String(INCOMPLETE.to_owned()));
+    Diagnostic { code, ..at_the_top(DiagnosticSeverity::WARNING, message) }
 }
 
 fn at_the_top(severity: DiagnosticSeverity, message: String) -> Diagnostic {

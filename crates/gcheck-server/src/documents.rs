@@ -41,6 +41,8 @@ pub(crate) struct Document {
     pub(crate) given_up: u32,
     /// The clock when its analysis met a mistake of our own: it is not tried again with the same text.
     pub(crate) failed: Option<u64>,
+    /// The clock when its analysis used up its time: it is not tried again with the same text.
+    pub(crate) too_long: Option<u64>,
     /// What its run amounted to, and the clock then.
     pub(crate) figures: Option<(u64, Arc<RunFigures>)>,
     /// A run of it is under way.
@@ -85,6 +87,11 @@ impl Document {
     /// The folder it is in.
     pub(crate) fn folder(&self) -> &Path {
         self.path.parent().unwrap_or(&self.path)
+    }
+
+    /// Was the analysis of the text as it is given up, because it took too long?
+    pub(crate) fn took_too_long(&self) -> bool {
+        self.too_long == Some(self.clock.now())
     }
 
     /// Something changed that its findings depend on.

@@ -39,6 +39,8 @@ pub(crate) use workspace::Addressed;
 const IDLE: Duration = Duration::from_mins(10);
 /// A question that takes longer is given up when an edit comes in.
 const PATIENCE: Duration = Duration::from_millis(50);
+/// A question that takes longer is given up in any case: nobody waits for the answer any more, and other questions do.
+const MOST_PATIENCE: Duration = Duration::from_secs(10);
 
 /// Everything the server knows.
 #[derive(Debug)]
@@ -154,11 +156,14 @@ impl Owner {
     /// Makes the database again from the texts of the open documents.
     fn rebuild(&mut self) {
         let mut database = Database::new();
+        let open = self.open_programs();
         self.disk = Disk::default();
         for document in self.documents.values_mut() {
             let settings = document.in_force.settings.clone().unwrap_or_else(fallback_settings);
-            let text =
-                self.database.snapshot(document.id).map(|snapshot| snapshot.text()).unwrap_or_default();
+            // The panic may have left the database in any state; a copy of each text is kept beside it.
+            let snapshot = AssertUnwindSafe(|| self.database.snapshot(document.id).map(|text| text.text()));
+            let text = catch_unwind(snapshot).ok().flatten().or_else(|| open.text(&document.path));
+            let text = text.unwrap_or_default();
             document.id = database.open(&text, settings);
             document.figures = None;
         }
@@ -174,7 +179,12 @@ impl Owner {
         let start = Instant::now();
         let waiting = Arc::clone(&self.waiting);
         let answer = {
-            let stop = || reply.is_cancelled() || (waiting.has_changes() && start.elapsed() > PATIENCE);
+            let stop = || {
+                let elapsed = start.elapsed();
+                reply.is_cancelled()
+                    || (waiting.has_changes() && elapsed > PATIENCE)
+                    || elapsed > MOST_PATIENCE
+            };
             work(self, &stop)
         };
         reply.send(answer);

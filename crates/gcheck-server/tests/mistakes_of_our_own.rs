@@ -1,12 +1,13 @@
 //! A panic anywhere answers its request with an error, is written to the log, and the server lives on with the right
-//! text.
+//! text; work without end is given up.
 //!
-//! Knows: a host that panics when it is told to. Must not know: what answers say.
+//! Knows: a host that panics or sleeps when it is told to. Must not know: what answers say.
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::time::Duration;
 
 use gcheck_db::Settings;
 use gcheck_lint::{Programs, RuleTable};
@@ -17,12 +18,15 @@ use serde_json::{Value, json};
 /// Panics where a program or its surroundings say so.
 struct Fragile;
 
-/// Panics when it is asked for program 666.
+/// Panics when it is asked for program 666, and takes longer than an analysis may for program 777.
 struct FragilePrograms;
 
 impl Programs for FragilePrograms {
     fn has_number(&self, number: u32) -> bool {
         assert_ne!(number, 666, "asked for the wrong program");
+        if number == 777 {
+            std::thread::sleep(Duration::from_millis(2_500));
+        }
         false
     }
 
@@ -134,5 +138,20 @@ fn settings_that_meet_one_leave_the_text_as_it_is() {
     logged(&mut client, "the head holds the word");
     change(&mut client, 2, "%\nO1\nG0 X1.\nM30\n%\n");
     published(&mut client, 2);
+    end(client, server);
+}
+
+#[test]
+fn an_analysis_that_takes_too_long_is_given_up_and_says_so() {
+    let around =
+        |number: u32| format!("%\nO1\nM98 P{number}\n#1=0\nN1 #1=#1+1\nIF[#1LT100000]GOTO1\nM30\n%\n");
+    let (mut client, server) = session(&around(777));
+    let shown = published(&mut client, 1);
+    assert_eq!(shown["diagnostics"][0]["code"], "analysis-incomplete", "{shown}");
+    let tree = client.request("gcheck/syntaxTree", json!({ "textDocument": { "uri": URI } }));
+    assert!(tree.as_str().unwrap().contains("P777"), "the next question is answered: {tree}");
+    change(&mut client, 2, &around(778));
+    let shown = published(&mut client, 2);
+    assert!(!shown.to_string().contains("analysis-incomplete"), "another text is analysed again: {shown}");
     end(client, server);
 }

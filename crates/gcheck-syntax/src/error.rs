@@ -24,7 +24,8 @@ pub enum SyntaxErrorKind {
     UnclosedBracket,
     /// `]` without `[`.
     StrayBracket,
-    /// Brackets or signs nested deeper than [`MAX_EXPRESSION_DEPTH`](crate::MAX_EXPRESSION_DEPTH).
+    /// Brackets, signs or `IF … THEN` nested deeper than [`MAX_EXPRESSION_DEPTH`](crate::MAX_EXPRESSION_DEPTH), or more
+    /// operators in a line than [`MAX_OPERATORS`](crate::MAX_OPERATORS).
     TooDeep,
     /// An address without a number or expression.
     AddressWithoutValue,

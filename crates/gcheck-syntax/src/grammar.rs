@@ -11,10 +11,16 @@ use std::ops::Range;
 use crate::lexer::{CommentEnd, Lexer, LexerMode, SemicolonUse, Token};
 use crate::{ForeignForm, SyntaxError, SyntaxErrorKind, SyntaxKind, SyntaxProfile};
 
-/// Nesting of brackets, functions, signs and indirections that an expression may have.
+/// Nesting of brackets, functions, signs, indirections and `IF … THEN` that a block may have.
 ///
 /// Controls allow five to a dozen; the limit only protects the stack.
 pub const MAX_EXPRESSION_DEPTH: u32 = 64;
+
+/// Operators that the expressions of one line may have.
+///
+/// The tree of `1+1+1` is as deep as it has operators, and trees are walked and freed by recursion. A control reads lines of
+/// some hundred characters; the limit only protects the stack.
+pub const MAX_OPERATORS: u32 = 1_000;
 
 /// Receives what the grammar recognises, in text order.
 pub trait Sink {
@@ -80,6 +86,8 @@ pub fn parse_into<S: Sink>(text: &str, profile: SyntaxProfile, sink: &mut S) {
                 tokens: &tokens,
                 at: 0,
                 depth: 0,
+                operators: 0,
+                tail: None,
                 too_deep: false,
                 profile,
                 sink,
@@ -101,6 +109,10 @@ struct Parser<'p, S: Sink> {
     tokens: &'p [Lexeme],
     at: usize,
     depth: u32,
+    /// Operators of the line so far.
+    operators: u32,
+    /// What the end of the line is made of, once a semicolon asked.
+    tail: Option<Tail>,
     /// The depth limit was reported for this line; what follows from it is not.
     too_deep: bool,
     profile: SyntaxProfile,
@@ -270,24 +282,45 @@ fn line<S: Sink>(p: &mut Parser<'_, S>) {
 }
 
 /// After an end-of-block character: nothing more, only comments, or text that cannot be read as words.
-fn rest_is_not_a_block<S: Sink>(p: &Parser<'_, S>) -> bool {
-    let rest = p.tokens.get(p.at..).unwrap_or_default();
-    let meaningful =
-        |t: Token| !matches!(t, Token::Whitespace | Token::Comment(_) | Token::Newline | Token::Semicolon(_));
-    let mut previous = Token::Whitespace;
-    let mut has_word = false;
-    for lexeme in rest {
-        match lexeme.token {
-            Token::Unknown => return true,
-            // `T` `O` `O` `L`: two letters in a row are prose.
-            Token::Letter if previous == Token::Letter => return true,
-            token => has_word |= meaningful(token),
+///
+/// The line is looked through once, whatever number of blocks it has.
+fn rest_is_not_a_block<S: Sink>(p: &mut Parser<'_, S>) -> bool {
+    let Parser { at, tokens, .. } = *p;
+    let tail = p.tail.get_or_insert_with(|| Tail::of(tokens));
+    !tail.word.is_some_and(|word| word >= at) || tail.prose.is_some_and(|prose| prose >= at)
+}
+
+/// What the end of a line is made of, as indexes of tokens.
+#[derive(Debug, Clone, Copy, Default)]
+struct Tail {
+    /// The last token that can be part of a block.
+    word: Option<usize>,
+    /// The last token that shows that the text is prose.
+    prose: Option<usize>,
+}
+
+impl Tail {
+    fn of(tokens: &[Lexeme]) -> Self {
+        let mut tail = Self::default();
+        let mut previous: Option<(usize, Token)> = None;
+        for (at, Lexeme { token, .. }) in tokens.iter().enumerate() {
+            match (token, previous) {
+                (Token::Whitespace, _) => continue,
+                (Token::Unknown, _) => tail.prose = Some(at),
+                // `T` `O` `O` `L`: two letters in a row are prose.
+                (Token::Letter, Some((first, Token::Letter))) => tail.prose = Some(first),
+                _ => {}
+            }
+            if !matches!(token, Token::Comment(_) | Token::Newline | Token::Semicolon(_)) {
+                tail.word = Some(at);
+            }
+            previous = Some((at, *token));
         }
-        if lexeme.token != Token::Whitespace {
-            previous = lexeme.token;
+        if let Some((last, Token::Letter)) = previous {
+            tail.prose = Some(last);
         }
+        tail
     }
-    !has_word || previous == Token::Letter
 }
 
 /// The rest of a line after its last end-of-block character.
@@ -711,10 +744,10 @@ fn if_statement<S: Sink>(p: &mut Parser<'_, S>) {
             Some(Token::Then) => {
                 p.skip_blanks();
                 p.bump();
-                block(p);
+                deeper(p, block);
             }
             // `IF [#9 EQ #0] #9=#4109`: some controls let THEN be left out in front of an assignment.
-            Some(Token::Variable | Token::NamedVariable | Token::Hash) => block(p),
+            Some(Token::Variable | Token::NamedVariable | Token::Hash) => deeper(p, block),
             _ => {
                 let end = p.end_of_previous();
                 p.error(SyntaxErrorKind::IfWithoutConsequence, start..end);
@@ -873,6 +906,11 @@ fn binary<S: Sink>(p: &mut Parser<'_, S>, weakest: u8) -> bool {
     let mut any = false;
     while let Some(power) = operator_ahead(p).filter(|power| *power >= weakest) {
         any = true;
+        p.operators += 1;
+        if p.operators > MAX_OPERATORS {
+            too_deep(p);
+            break;
+        }
         p.sink.start_node_at(left, SyntaxKind::BINARY);
         p.skip_blanks();
         if p.current() == Some(Token::Power) && !p.profile.power_operator {
@@ -917,14 +955,19 @@ fn is_divided_power<S: Sink>(p: &Parser<'_, S>, at: usize) -> bool {
 /// Runs `body` one level deeper, or reports the limit and gives up on the block.
 fn deeper<S: Sink>(p: &mut Parser<'_, S>, body: impl FnOnce(&mut Parser<'_, S>)) {
     if p.depth >= MAX_EXPRESSION_DEPTH {
-        p.error_here(SyntaxErrorKind::TooDeep);
-        p.too_deep = true;
-        p.rest_as_error();
+        too_deep(p);
         return;
     }
     p.depth += 1;
     body(p);
     p.depth -= 1;
+}
+
+/// Reports that the block goes too deep, and keeps the rest of it as text.
+fn too_deep<S: Sink>(p: &mut Parser<'_, S>) {
+    p.error_here(SyntaxErrorKind::TooDeep);
+    p.too_deep = true;
+    p.rest_as_error();
 }
 
 /// A value with its signs.

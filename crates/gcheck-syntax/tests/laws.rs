@@ -1,7 +1,8 @@
 //! The laws of the syntax crate, on generated text: nothing is lost, nothing panics, edits give what a fresh start gives.
 
 use gcheck_syntax::{
-    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, SourceText, SyntaxErrorKind, SyntaxProfile, cut, parse,
+    Document, MAX_EXPRESSION_DEPTH, MAX_LINES, MAX_OPERATORS, SourceText, SyntaxErrorKind, SyntaxProfile,
+    cut, parse,
 };
 use proptest::prelude::*;
 
@@ -152,7 +153,42 @@ fn ten_thousand_brackets_are_one_mistake() {
 }
 
 #[test]
+fn statements_and_operators_that_go_too_deep_are_one_mistake() {
+    for text in [
+        "IF[#1EQ1]THEN ".repeat(100_000),
+        "IF[#1EQ1]#2=".repeat(100_000),
+        format!("#1=[1{}]", "+1".repeat(100_000)),
+        format!("#1={}1", "[1+2*".repeat(100_000)),
+        format!("#1=[{}", "1+1**1*[".repeat(100_000)),
+    ] {
+        // The stack of a thread that others start.
+        let read = std::thread::Builder::new().stack_size(1 << 20).spawn(move || {
+            let parsed = parse(&text, SyntaxProfile::MACRO_B);
+            let deep = parsed.errors().iter().filter(|e| e.kind == SyntaxErrorKind::TooDeep).count();
+            assert_eq!((deep, parsed.syntax().text().to_string()), (1, text));
+        });
+        read.unwrap().join().unwrap();
+    }
+}
+
+#[test]
+fn as_many_operators_as_the_limit_are_read() {
+    let line = |operators: u32| format!("#1=[1{}]\n", "+1".repeat(operators as usize));
+    assert_eq!(parse(&line(MAX_OPERATORS), SyntaxProfile::MACRO_B).errors(), []);
+    assert_eq!(parse(&line(MAX_OPERATORS + 1), SyntaxProfile::MACRO_B).errors().len(), 1);
+    assert_eq!(
+        parse(&line(600).repeat(2), SyntaxProfile::MACRO_B).errors(),
+        [],
+        "each line has its own count"
+    );
+}
+
+#[test]
 fn a_line_of_a_million_characters_is_read_once() {
+    let blocks = "G0;".repeat(300_000);
+    for profile in profiles() {
+        assert_eq!(parse(&blocks, profile).syntax().text().to_string(), blocks);
+    }
     let text = "X1.5".repeat(250_000);
     assert_eq!(parse(&text, SyntaxProfile::MACRO_B).errors(), []);
     let comments = "(a".repeat(500_000);

@@ -2,12 +2,15 @@
 //!
 //! Knows: names, help texts, what excludes what. Must not know: what an argument does.
 
-use std::path::PathBuf;
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gcheck_diagnostics::Severity;
 use gcheck_format::Numbering;
 use gcheck_report::Format;
+
+use crate::Problem;
 
 /// Blocks that may be executed when nobody says otherwise.
 pub(crate) const FUEL: u64 = 50_000_000;
@@ -93,6 +96,26 @@ pub enum Command {
     },
 }
 
+/// Refuses an option that is the name of a file as well.
+///
+/// `gcheck check *` in somebody else's folder would take a file called `-ofile.nc` for `-o file.nc`, and write to it. After
+/// `--` everything is a path.
+///
+/// # Errors
+/// The problem that says how to write it.
+pub(crate) fn refuse_names_among_options(arguments: &[OsString]) -> Result<(), Problem> {
+    let options = arguments.iter().skip(1).take_while(|argument| *argument != "--");
+    let is_name = |argument: &&OsString| {
+        argument.len() > 1
+            && argument.as_encoded_bytes().starts_with(b"-")
+            && Path::new(argument).symlink_metadata().is_ok()
+    };
+    let Some(name) = { options }.find(is_name) else { return Ok(()) };
+    let name = name.to_string_lossy();
+    Err(Problem::new(format!("`{name}` is an option and the name of a file here"))
+        .help(format!("put `--` before paths, or write `./{name}`")))
+}
+
 /// Options of `gcheck check`.
 #[derive(Debug, Args)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a flag of the command line")]
@@ -115,6 +138,9 @@ pub struct CheckOptions {
     /// Exit with 1 from this severity on
     #[arg(long, value_enum, default_value_t, value_name = "SEVERITY")]
     pub fail_on: FailOn,
+    /// Exit with 1 when a file was not analysed to its end: fuel or a budget used up
+    #[arg(long)]
+    pub fail_on_incomplete: bool,
     /// Exit with 1 when there are more warnings than this
     #[arg(long, value_name = "N")]
     pub max_warnings: Option<usize>,
@@ -125,7 +151,7 @@ pub struct CheckOptions {
     /// `-o sarif=gcheck.sarif -o junit=gcheck.xml`
     #[arg(long, short, value_name = "[FORMAT=]FILE", value_parser = output_file)]
     pub output_file: Vec<OutputFile>,
-    /// Mend what has a fix that changes no move
+    /// Fix what has a fix that changes no move
     #[arg(long, group = "mends")]
     pub fix: bool,
     /// Print what `--fix` would change instead of findings; exit with 1 if it would change anything

@@ -13,8 +13,9 @@ pub(crate) const FAILED: u8 = 2;
 pub(crate) fn say(text: &str) {
     let text = text.trim_end();
     if !text.is_empty() {
-        // Without a standard error there is no place for it.
-        let _ = writeln!(std::io::stderr(), "{text}");
+        // Names of files and lines of programs are others' text, which could steer a terminal. Without a standard error there
+        // is no place for it.
+        let _ = writeln!(std::io::stderr(), "{}", gcheck_report::harmless(text));
     }
 }
 

@@ -52,6 +52,24 @@ pub(crate) fn find(given: &[PathBuf], configs: &mut Configs) -> Found {
     found
 }
 
+/// Refuses to write to a link that leads out of what was given: the folders, and those in which the files are.
+///
+/// Others' folders may hold such links, and what they lead to is not theirs to change.
+///
+/// # Errors
+/// The problem that says where the link leads.
+pub(crate) fn refuse_to_leave(path: &Path, given: &[PathBuf]) -> Result<(), Problem> {
+    let folder = |path: &PathBuf| {
+        let parent = || path.parent().filter(|parent| !parent.as_os_str().is_empty());
+        if path.is_dir() { path.clone() } else { parent().unwrap_or(Path::new(".")).to_owned() }
+    };
+    let folders: Vec<PathBuf> = given.iter().map(folder).collect();
+    let Some(target) = paths::leads_out(path, &folders) else { return Ok(()) };
+    let message =
+        format!("is a link that leads out of the folder, to {}; it is not changed", paths::shown(&target));
+    Err(Problem::with_file(path, message).help("name that file itself, or exclude the link"))
+}
+
 fn add(path: PathBuf, found: &mut Found, seen: &mut BTreeSet<PathBuf>) {
     if seen.insert(paths::absolute(&path)) {
         found.files.push(path);

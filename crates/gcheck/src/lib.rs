@@ -22,12 +22,17 @@ mod output;
 mod paths;
 mod problem;
 mod programs;
+mod quoting;
 mod reading;
 mod rewriting;
+mod threads;
+mod writing;
 
+use std::ffi::OsString;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::Path;
 use std::process::ExitCode;
+use std::{env, thread};
 
 use clap::Parser as _;
 
@@ -37,15 +42,32 @@ use args::{Arguments, Command};
 
 /// Runs the program with the arguments of the process.
 pub fn main() -> ExitCode {
-    // Usage errors end the process here, with exit code 2.
-    let arguments = Arguments::parse();
-    match run(&arguments) {
-        Ok(code) => ExitCode::from(code),
+    let work = thread::Builder::new().stack_size(threads::STACK).spawn(|| match started() {
+        Ok(code) => code,
+        Err(problem) => {
+            console::report(&problem);
+            console::FAILED
+        }
+    });
+    let ended = work.map_err(|error| Problem::new(format!("cannot start a thread: {error}")));
+    match ended.map(thread::JoinHandle::join) {
+        Ok(Ok(code)) => ExitCode::from(code),
+        // What panics is contained inside; this is for a panic of the containment.
+        Ok(Err(_)) => ExitCode::from(console::FAILED),
         Err(problem) => {
             console::report(&problem);
             ExitCode::from(console::FAILED)
         }
     }
+}
+
+fn started() -> Result<u8, Problem> {
+    let given: Vec<OsString> = env::args_os().collect();
+    args::refuse_names_among_options(&given)?;
+    // Usage errors end the process here, with exit code 2.
+    let arguments = Arguments::parse_from(given);
+    panic::catch_unwind(AssertUnwindSafe(|| run(&arguments)))
+        .unwrap_or_else(|payload| Err(Problem::own_mistake(payload.as_ref())))
 }
 
 fn run(arguments: &Arguments) -> Result<u8, Problem> {

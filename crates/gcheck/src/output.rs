@@ -1,17 +1,18 @@
 //! Where output goes: standard output, a file that is replaced whole, colours or none.
 //!
-//! Knows: terminals, environment variables about colour, temporary files. Must not know: what is written.
+//! Knows: terminals, environment variables about colour, links. Must not know: what is written, how a file is replaced.
 
 use std::fs::{self, File};
 use std::io::{self, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
-use std::{env, process};
+use std::{env, fmt};
 
 use gcheck_report::Colour;
 
-use crate::Problem;
 use crate::args::When;
 use crate::problem::io_reason;
+use crate::writing::{self, Failure};
+use crate::{Problem, paths};
 
 /// Whether standard output gets colours.
 pub(crate) fn colour(when: When) -> Colour {
@@ -45,16 +46,17 @@ pub(crate) fn to_stdout(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) ->
     }
 }
 
-/// Writes a file whole or not at all: to a temporary file beside it, which then takes its name.
+/// Writes a file whole or not at all.
 ///
-/// A link stays, and what it leads to is replaced. What is not a file (a pipe, `/dev/null`) is written to as it is.
+/// A link stays, and what it leads to is replaced, unless it leads out of the current folder: others' files hold such links.
+/// What is not a file (a pipe, `/dev/null`) is written to as it is.
 pub(crate) fn to_file(
     path: &Path,
     write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Problem> {
-    let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
+    let problem = |reason: &dyn fmt::Display| Problem::with_file(path, format!("cannot write: {reason}"));
     if path.is_dir() {
-        return Err(Problem::with_file(path, "cannot write: is a folder"));
+        return Err(problem(&"is a folder"));
     }
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if target.exists() && !target.is_file() {
@@ -62,61 +64,28 @@ pub(crate) fn to_file(
             .write(true)
             .open(&target)
             .and_then(|mut out| write(&mut out))
-            .map_err(|e| problem(&e));
+            .map_err(|e| problem(&io_reason(&e)));
     }
-    rename_over(&target, |file| {
-        write(file)?;
-        file.sync_all()?;
-        Ok(true)
-    })
-    .map(|_| ())
-    .map_err(|error| problem(&error))
+    if paths::is_below(path, Path::new("."))
+        && let Some(target) = paths::leads_out(path, &[PathBuf::from(".")])
+    {
+        let reason = format!("is a link that leads out of this folder, to {}", paths::shown(&target));
+        return Err(problem(&reason).help("name that file itself"));
+    }
+    writing::file(&target, write).map_err(|failure| problem(&failure))
 }
 
-/// Replaces a file whole or not at all, with the permissions that it had, and only if it still holds what `is_same` wants.
+/// Replaces a file whole or not at all, and only if it still holds `before`.
 ///
 /// A link stays, and what it leads to is replaced.
-pub(crate) fn replace(
-    path: &Path,
-    permissions: &fs::Permissions,
-    bytes: &[u8],
-    is_same: impl FnOnce(&[u8]) -> bool,
-) -> Result<(), Problem> {
-    let problem = |error: &io::Error| Problem::with_file(path, format!("cannot write: {}", io_reason(error)));
-    let target = fs::canonicalize(path).map_err(|error| problem(&error))?;
-    let is_replaced = rename_over(&target, |file| {
-        file.write_all(bytes)?;
-        file.set_permissions(permissions.clone())?;
-        file.sync_all()?;
-        // As late as can be: between this look and the new name there is room for hardly anybody.
-        Ok(is_same(&fs::read(&target)?))
-    })
-    .map_err(|error| problem(&error))?;
-    if is_replaced {
-        return Ok(());
-    }
-    Err(Problem::with_file(path, "was changed by another program in the meantime, and is not written")
-        .help("run gcheck again"))
-}
-
-/// Fills a temporary file, which then takes the target's name if `fill` says so; tells whether it did.
-fn rename_over(target: &Path, fill: impl FnOnce(&mut File) -> io::Result<bool>) -> io::Result<bool> {
-    let temporary = beside(target);
-    let done = File::create(&temporary).and_then(|mut file| fill(&mut file)).and_then(|wanted| {
-        if wanted {
-            fs::rename(&temporary, target)?;
+pub(crate) fn replace(path: &Path, before: &[u8], after: &[u8]) -> Result<(), Problem> {
+    let problem = |reason: &dyn fmt::Display| Problem::with_file(path, format!("cannot write: {reason}"));
+    let target = fs::canonicalize(path).map_err(|error| problem(&io_reason(&error)))?;
+    writing::instead_of(&target, before, after).map_err(|failure| match failure {
+        Failure::Changed => {
+            Problem::with_file(path, "was changed by another program in the meantime, and is not written")
+                .help("run gcheck again")
         }
-        Ok(wanted)
-    });
-    if !matches!(done, Ok(true)) {
-        // Nothing of ours remains; that the clean-up may fail as well changes nothing.
-        let _ = fs::remove_file(&temporary);
-    }
-    done
-}
-
-/// A name in the same folder, so that the rename stays on one file system.
-fn beside(path: &Path) -> PathBuf {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    path.with_file_name(format!(".{name}.{}.tmp", process::id()))
+        failure => problem(&failure),
+    })
 }

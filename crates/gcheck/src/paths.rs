@@ -1,6 +1,6 @@
-//! Paths as text: absolute, without `.` and `..`, and as people want to see them.
+//! Paths as text: absolute, without `.` and `..`, and as people want to see them; and where links lead.
 //!
-//! Knows: components of paths, the current folder. Must not know: what is at a path.
+//! Knows: components of paths, the current folder, links. Must not know: what is in a file.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -20,6 +20,21 @@ pub(crate) fn absolute(path: &Path) -> PathBuf {
         }
     }
     clean
+}
+
+/// Is the path, as it is written, in a folder or below it?
+pub(crate) fn is_below(path: &Path, folder: &Path) -> bool {
+    absolute(path).starts_with(absolute(folder))
+}
+
+/// Where a link leads that leads out of all of these folders; `None` for what is not a link, or stays inside.
+pub(crate) fn leads_out(path: &Path, folders: &[PathBuf]) -> Option<PathBuf> {
+    if !path.symlink_metadata().is_ok_and(|data| data.is_symlink()) {
+        return None;
+    }
+    let target = path.canonicalize().ok()?;
+    let holds = |folder: &PathBuf| folder.canonicalize().is_ok_and(|folder| target.starts_with(folder));
+    (!folders.iter().any(holds)).then_some(target)
 }
 
 /// The path as shown: without a leading `./`, with slashes on every system.

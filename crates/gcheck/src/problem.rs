@@ -7,6 +7,8 @@ use std::fmt;
 use std::ops::Range;
 use std::path::Path;
 
+use gcheck_report::Skipped;
+
 use crate::paths;
 
 /// Something that keeps a file, a configuration or the whole run from being done. One of these is one message.
@@ -88,6 +90,16 @@ impl Problem {
         }
     }
 
+    /// The same without anything of the file's text, for a file that is not to be quoted.
+    #[must_use]
+    pub(crate) fn without_text(self) -> Self {
+        if self.place.as_ref().is_none_or(|place| place.at.is_none()) {
+            return self;
+        }
+        Self { message: "cannot be read here".to_owned(), excerpt: None, note: None, help: None, ..self }
+            .note("the file is outside of the workspace, or hidden, so nothing of it is shown")
+    }
+
     /// Why it is so.
     #[must_use]
     pub fn note(mut self, text: impl Into<String>) -> Self {
@@ -112,6 +124,12 @@ impl Problem {
         let Place { name, at } = self.place.as_deref()?;
         let (line, column) = at.unwrap_or((1, 1));
         Some((name, line, column, self.excerpt.as_ref().map_or(0, |excerpt| excerpt.marked)))
+    }
+
+    /// The file, as far as it is about one, and what is wrong.
+    pub(crate) fn as_skipped(&self) -> Skipped {
+        let file = self.place.as_ref().map(|place| place.name.clone()).unwrap_or_default();
+        Skipped { file, reason: self.message.clone() }
     }
 
     /// The message with what is to be done, in one line.

@@ -219,7 +219,7 @@ impl Folder {
                 folder.is_partial = true;
                 return folder;
             }
-            if let Ok(content) = fs::read(path) {
+            if let Ok(content) = reading::regular(path, MAX_BYTES) {
                 for number in numbers_in(&content) {
                     folder.numbers.entry(number).or_insert_with(|| path.clone());
                 }

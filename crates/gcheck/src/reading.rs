@@ -2,7 +2,7 @@
 //!
 //! Knows: files and bytes. Must not know: configuration, controls.
 
-use std::fs::File;
+use std::fs::{self, File, Metadata};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -22,6 +22,35 @@ pub(crate) fn file(path: &Path) -> Result<SourceText, Problem> {
     let size = file.metadata().map_err(|error| unreadable(&error))?.len();
     let size = usize::try_from(size).ok().filter(|size| *size <= SourceText::MAX_LEN);
     bounded(path, file, size.ok_or_else(|| too_large(path))?).map_err(|error| unreadable(&error))?
+}
+
+/// Reads a file that others name, in a configuration or by its place: only what is a file (no pipe, device or socket), and
+/// at most `most` bytes. The error is the reason, in words that follow "cannot read".
+pub(crate) fn regular(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    // Before it is opened: opening a pipe waits for who writes to it.
+    let size = |data: io::Result<Metadata>| match data {
+        Ok(data) if !data.is_file() => Err("it is a pipe, a device or a folder, not a file".to_owned()),
+        Ok(data) if data.len() > most => Err(larger(most)),
+        Ok(data) => Ok(data.len()),
+        Err(error) => Err(io_reason(&error)),
+    };
+    size(fs::metadata(path))?;
+    let file = File::open(path).map_err(|error| io_reason(&error))?;
+    let size = size(file.metadata())?;
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
+    // Some files are longer than they say: those of the system itself say 0.
+    file.take(most + 1).read_to_end(&mut bytes).map_err(|error| io_reason(&error))?;
+    if bytes.len() as u64 > most { Err(larger(most)) } else { Ok(bytes) }
+}
+
+/// Bytes as text, unless they are none.
+pub(crate) fn text(path: &Path, bytes: Vec<u8>) -> Result<SourceText, Problem> {
+    let size = bytes.len();
+    bounded(path, bytes.as_slice(), size).unwrap_or_else(|_| Err(too_large(path)))
+}
+
+fn larger(most: u64) -> String {
+    format!("it is larger than {} MB", most >> 20)
 }
 
 /// Reads standard input, called `name`.

@@ -19,7 +19,7 @@ pub(crate) fn write(path: &Path, verb: &str, before: &[u8], after: &[u8]) -> Res
     if permissions.readonly() {
         return Err(Problem::with_file(path, format!("cannot {verb}: the file is read-only")));
     }
-    output::replace(path, &permissions, after, |now| now == before)
+    output::replace(path, before, after)
 }
 
 /// The change as a unified difference. Bytes that are not UTF-8 are shown as such.

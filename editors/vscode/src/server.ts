@@ -162,7 +162,9 @@ export class Server implements vscode.Disposable {
     const configured = vscode.workspace.isTrusted
       ? vscode.workspace.getConfiguration("gcheck").get<string>("path")
       : vscode.workspace.getConfiguration("gcheck").inspect<string>("path")?.globalValue;
-    const inPath = (process.env.PATH ?? "").split(path.delimiter).map((folder) => path.join(folder, name));
+    // A relative entry of the PATH would be looked up in the folder that is open.
+    const folders = (process.env.PATH ?? "").split(path.delimiter).filter((folder) => path.isAbsolute(folder));
+    const inPath = folders.map((folder) => path.join(folder, name));
     const bundled = this.context.asAbsolutePath(path.join("server", name));
     return [configured, process.env.GCHECK_PATH, bundled, ...inPath].find(isFile);
   }

@@ -2,6 +2,7 @@
 //!
 //! Knows: what is fresh, progress that is shown. Must not know: how findings are made, how they look to the client.
 
+use std::cell::Cell;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicU32, Ordering};
@@ -24,6 +25,11 @@ use crate::proto::{
 const MOST_GIVEN_UP: u32 = 20;
 /// An analysis that takes longer is shown to be under way.
 const SHOWN_AFTER: Duration = Duration::from_millis(500);
+
+/// Time that the analysis of a document may take between two questions, whatever its program does.
+const MOST_TIME: Duration = Duration::from_secs(2);
+/// The same for each million bytes of its text: a long program is not a program without end.
+const MOST_TIME_A_MEGABYTE: Duration = Duration::from_secs(1);
 
 /// Of a document of more bytes the findings of its first lines are shown ahead of the others.
 const LARGE: u32 = 2 << 20;
@@ -106,13 +112,34 @@ impl Owner {
         if document.in_force.settings.is_none() {
             return Ok(None);
         }
+        if document.took_too_long() {
+            return Ok(None);
+        }
+        let id = document.id;
+        let most = time_for(self.database.snapshot(id).map_or(0, |text| text.len()));
         let waiting: &Waiting = &self.waiting;
         let shown = Shown::new(&self.outbox, self.abilities.has_progress, document.name());
+        let is_over = Cell::new(false);
         let given_up = || {
             shown.look();
-            stop() || waiting.has_changes()
+            is_over.set(shown.start.elapsed() > most);
+            is_over.get() || stop() || waiting.has_changes()
         };
-        self.database.analysis(document.id, &given_up).map(Some)
+        let analysis = self.database.analysis(id, &given_up);
+        drop(shown);
+        if analysis.is_err() && is_over.get() {
+            self.stop_trying(uri);
+            return Ok(None);
+        }
+        analysis.map(Some)
+    }
+
+    /// The analysis used up its time: it is not tried again with this text.
+    fn stop_trying(&mut self, uri: &Uri) {
+        let Some(document) = self.documents.get_mut(uri) else { return };
+        document.too_long = Some(document.clock.now());
+        let message = format!("the analysis of {} is given up: it takes too long", document.name());
+        self.outbox.log(MessageType::WARNING, message);
     }
 
     /// The analysis of a document if it is there already.
@@ -138,6 +165,9 @@ impl Owner {
         };
         let Some(document) = self.documents.get(uri) else { return list };
         list.extend(diagnostics::of_problems(document, self.abilities.encoding, &snapshot));
+        if document.took_too_long() {
+            list.push(diagnostics::given_up(time_for(snapshot.len())));
+        }
         list
     }
 
@@ -183,6 +213,11 @@ impl Owner {
             }
         }
     }
+}
+
+/// Time that an analysis of so many bytes may take.
+fn time_for(bytes: u32) -> Duration {
+    MOST_TIME + MOST_TIME_A_MEGABYTE * (bytes / 1_000_000)
 }
 
 /// Progress of one analysis: shown only when it takes long, and only after the client has agreed.

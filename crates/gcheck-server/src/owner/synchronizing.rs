@@ -56,6 +56,7 @@ impl Owner {
             looked_ahead: None,
             given_up: 0,
             failed: None,
+            too_long: None,
             figures: None,
             is_running: false,
             touched,

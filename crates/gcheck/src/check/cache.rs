@@ -16,12 +16,12 @@ mod entry;
 mod key;
 mod questions;
 
+use std::env;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, SystemTime};
-use std::{env, process};
 
 use twox_hash::XxHash3_128;
 
@@ -29,8 +29,8 @@ pub(super) use entry::{Entry, Verdict};
 pub(super) use key::{Key, Run};
 pub(super) use questions::{Questions, answers_hold};
 
-use crate::Problem;
 use crate::problem::io_reason;
+use crate::{Problem, reading, writing};
 
 /// What the folder may hold, in bytes; beyond it, entries used longest ago go first.
 const MAX_BYTES: u64 = 256 << 20;
@@ -54,6 +54,8 @@ const SUM: usize = 16;
 const TAG: &str = "CACHEDIR.TAG";
 const TAG_TEXT: &str = "Signature: 8a477f597d28d172789f06886806bc55\n\
     # This folder holds results of gcheck (https://github.com/gcheck/gcheck). It may be deleted at any time.\n";
+/// No tag is longer.
+const MAX_TAG: u64 = 64 << 10;
 /// Keeps the folder out of version control wherever it lies.
 const IGNORE: &str = ".gitignore";
 /// Its time is that of the last clean-up.
@@ -65,8 +67,6 @@ pub(super) struct Cache {
     folder: PathBuf,
     /// Bytes that this run stored.
     stored: AtomicU64,
-    /// Files that this run began, for their temporary names.
-    begun: AtomicU64,
 }
 
 impl Cache {
@@ -77,7 +77,7 @@ impl Cache {
     pub(super) fn open(named: Option<&Path>) -> Result<Option<Self>, Problem> {
         let Some(folder) = named.map(Path::to_owned).or_else(usual_folder) else { return Ok(None) };
         match prepare(&folder) {
-            Ok(true) => Ok(Some(Self { folder, stored: AtomicU64::new(0), begun: AtomicU64::new(0) })),
+            Ok(true) => Ok(Some(Self { folder, stored: AtomicU64::new(0) })),
             Ok(false) | Err(_) if named.is_none() => Ok(None),
             Ok(false) => Err(Problem::with_file(&folder, "holds other files, so it cannot be the cache")
                 .help("name a folder of its own: one that is empty or does not exist yet")),
@@ -90,7 +90,7 @@ impl Cache {
     /// The result stored under a key, unless there is none that can be trusted.
     pub(super) fn load(&self, key: Key) -> Option<Entry> {
         let path = self.place(key);
-        let bytes = fs::read(&path).ok()?;
+        let bytes = reading::regular(&path, 2 * MAX_ENTRY as u64).ok()?;
         let (sum, payload) = bytes.strip_prefix(MAGIC)?.split_at_checked(SUM)?;
         if sum != check_sum(key, payload) {
             return None;
@@ -110,21 +110,10 @@ impl Cache {
     }
 
     fn write(&self, path: &Path, bytes: &[u8]) -> io::Result<()> {
-        let number = self.begun.fetch_add(1, Ordering::Relaxed);
-        let temporary = path.with_extension(format!("{}-{number}.tmp", process::id()));
-        let write = || {
-            fs::write(&temporary, bytes)?;
-            fs::rename(&temporary, path)
-        };
-        write()
-            .or_else(|_| {
-                fs::create_dir_all(path.parent().unwrap_or(&self.folder))?;
-                write()
-            })
-            .inspect_err(|_| {
-                // Nothing of ours remains; that the clean-up may fail as well changes nothing.
-                let _ = fs::remove_file(&temporary);
-            })
+        writing::quickly(path, bytes).or_else(|_| {
+            fs::create_dir_all(path.parent().unwrap_or(&self.folder))?;
+            writing::quickly(path, bytes)
+        })
     }
 
     /// Keeps the folder bounded. To be called when a run has stored what it has.
@@ -135,7 +124,7 @@ impl Cache {
             return;
         }
         // Another process may be cleaning up as well: what is gone already needs no deleting.
-        let _ = fs::write(&mark, "");
+        let _ = writing::quickly(&mark, b"");
         clean_up(&self.folder, MAX_BYTES, KEPT_BYTES);
     }
 
@@ -165,21 +154,20 @@ fn usual_folder() -> Option<PathBuf> {
 fn prepare(folder: &Path) -> io::Result<bool> {
     let tag = folder.join(TAG);
     // A tag of another program's cache is not enough.
-    let is_ours = || fs::read_to_string(&tag).is_ok_and(|text| text.contains("gcheck"));
+    let is_ours = || {
+        reading::regular(&tag, MAX_TAG).is_ok_and(|text| String::from_utf8_lossy(&text).contains("gcheck"))
+    };
     if is_ours() {
         return Ok(true);
     }
     fs::create_dir_all(folder)?;
-    let is_other = |name: &str| name != IGNORE && !name.starts_with(TAG);
+    let is_other = |name: &str| name != IGNORE && !name.starts_with(TAG) && !writing::is_temporary(name);
     if fs::read_dir(folder)?.flatten().any(|entry| is_other(&entry.file_name().to_string_lossy())) {
         // Another process may have begun at the same time; it writes the tag first.
         return Ok(is_ours());
     }
-    // A name of its own until it is whole, for the same reason.
-    let whole = folder.join(format!("{TAG}.{}.tmp", process::id()));
-    fs::write(&whole, TAG_TEXT)?;
-    fs::rename(whole, tag)?;
-    fs::write(folder.join(IGNORE), "# Written by gcheck.\n*\n")?;
+    writing::quickly(&tag, TAG_TEXT.as_bytes())?;
+    writing::quickly(&folder.join(IGNORE), b"# Written by gcheck.\n*\n")?;
     Ok(true)
 }
 

@@ -9,7 +9,7 @@ use crate::{Problem, rewriting};
 
 /// Replaces a program on disk by its fixed form: whole or not at all, and only if it is still what was checked.
 pub(super) fn write(path: &Path, change: &Change) -> Result<(), Problem> {
-    rewriting::write(path, "mend", &change.before, &change.after)
+    rewriting::write(path, "fix", &change.before, &change.after)
 }
 
 /// The change as a unified difference.

@@ -18,7 +18,7 @@ use crate::args::{CheckOptions, FailOn, Global, OutputFile};
 use crate::config::{Config, Configs, RuleWishes, unknown_rule, validate_control};
 use crate::console::{finish, say};
 use crate::discovery::{self, Found};
-use crate::{Problem, output, paths};
+use crate::{Problem, output, paths, threads};
 
 use super::cache::Cache;
 use super::fixed;
@@ -122,10 +122,12 @@ impl<'o> Check<'o> {
                 say(&remark);
             }
         }
-        let report = Report::new(reports).with_rules(RULES.iter().map(|rule| rule.meta));
+        let report = Report::new(reports)
+            .with_skipped(problems.iter().map(Problem::as_skipped).collect())
+            .with_rules(RULES.iter().map(|rule| rule.meta));
         write(global, options, &self.outputs, &report, &problems)?;
-        let summary = report.summary();
-        Ok(finish(&problems, u8::from(fails(&summary, options))))
+        let is_incomplete = options.fail_on_incomplete && report.is_incomplete();
+        Ok(finish(&problems, u8::from(is_incomplete || fails(&report.summary(), options))))
     }
 }
 
@@ -176,12 +178,7 @@ fn check_all(
 ) -> Result<(), Problem> {
     let progress = Progress::new(targets.len(), command.global.quiet);
     let pool = match command.options.jobs {
-        Some(jobs) if targets.len() > 1 => Some(
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(jobs.max(1))
-                .build()
-                .map_err(|error| Problem::new(format!("cannot start {jobs} threads: {error}")))?,
-        ),
+        Some(jobs) if targets.len() > 1 => Some(threads::pool(jobs)?),
         _ => None,
     };
     for wave in targets.chunks(WAVE) {
@@ -201,7 +198,10 @@ fn check_all(
         let results: Vec<_> = match &pool {
             // Threads cost more than one file takes.
             _ if targets.len() == 1 => wave.iter().map(check).collect(),
-            None => work(),
+            None => {
+                threads::prepare();
+                work()
+            }
             Some(pool) => pool.install(work),
         };
         for (target, result) in wave.iter().zip(results) {
@@ -227,7 +227,8 @@ impl Harvest {
             return change.map_or(Ok(()), |change| self.differences.show(&report, &change));
         }
         if let Some(change) = change
-            && let Err(problem) = fixed::write(&target.path, &change)
+            && let Err(problem) = discovery::refuse_to_leave(&target.path, &options.paths)
+                .and_then(|()| fixed::write(&target.path, &change))
         {
             self.problems.push(problem);
             return Ok(());

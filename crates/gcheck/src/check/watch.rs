@@ -20,7 +20,7 @@ use super::round::{Check, Looked};
 use crate::config::FILE_NAMES;
 use crate::console::{report, say};
 use crate::discovery::is_program_name;
-use crate::{Problem, paths};
+use crate::{Problem, paths, writing};
 
 /// Exit code of a program that Ctrl-C ended, as shells know it.
 const INTERRUPTED: u8 = 130;
@@ -70,6 +70,7 @@ fn on_interrupt(sender: Sender<Message>) -> Result<(), Problem> {
     let is_second = AtomicBool::new(false);
     ctrlc::set_handler(move || {
         if is_second.swap(true, Ordering::Relaxed) || sender.send(Message::Interrupted).is_err() {
+            writing::remove_all();
             process::exit(i32::from(INTERRUPTED));
         }
     })

@@ -19,7 +19,7 @@ use crate::config::{Config, Configs, validate_control};
 use crate::console::{finish, say};
 use crate::control_choice::choose;
 use crate::discovery::{self, Found};
-use crate::{Problem, output, paths, reading, rewriting};
+use crate::{Problem, output, paths, reading, rewriting, threads};
 
 /// Standard input among the paths.
 const STANDARD_INPUT: &str = "-";
@@ -43,6 +43,10 @@ pub(crate) fn run(global: &Global, options: &FmtOptions) -> Result<u8, Problem> 
     for path in files {
         // A file and a link to it are one file to write.
         if !seen.insert(fs::canonicalize(&path).unwrap_or_else(|_| path.clone())) {
+            continue;
+        }
+        if let Err(problem) = discovery::refuse_to_leave(&path, &options.paths) {
+            problems.push(problem);
             continue;
         }
         match configs.of_file(&path) {
@@ -128,12 +132,11 @@ fn format_all(
     match (options.jobs, targets.len()) {
         // Threads cost more than one file takes.
         (_, 0 | 1) => Ok(targets.iter().map(|target| guarded(target, global, options)).collect()),
-        (None, _) => Ok(work()),
-        (Some(jobs), _) => Ok(rayon::ThreadPoolBuilder::new()
-            .num_threads(jobs.max(1))
-            .build()
-            .map_err(|error| Problem::new(format!("cannot start {jobs} threads: {error}")))?
-            .install(work)),
+        (None, _) => {
+            threads::prepare();
+            Ok(work())
+        }
+        (Some(jobs), _) => Ok(threads::pool(jobs)?.install(work)),
     }
 }
 

@@ -2,25 +2,29 @@
 //!
 //! Knows: TOML, files, `extend`, `KEY=VALUE`. Must not know: which programs a configuration rules over.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::text::Text;
 use super::{ConfigFile, Layer};
 use crate::nearest::did_you_mean;
-use crate::problem::io_reason;
-use crate::{Problem, paths};
+use crate::quoting::Workspace;
+use crate::{Problem, paths, reading};
 
 /// More configurations than this, each extending the next, are a mistake.
 const MAX_BASES: usize = 16;
 
+/// A larger file is not a configuration.
+const MAX_BYTES: u64 = 1 << 20;
+
 /// Reads a file and everything it extends; the most basic layer first.
 pub(super) fn file_with_bases(path: &Path) -> Result<Vec<Arc<Layer>>, Problem> {
     let mut layers: Vec<Arc<Layer>> = Vec::new();
+    let workspace = Workspace::around(path);
     let mut next = Some(path.to_owned());
     while let Some(path) = next {
-        let (layer, base) = file(&path)?;
+        let (layer, base) = file(&path)
+            .map_err(|problem| if workspace.may_quote(&path) { problem } else { problem.without_text() })?;
         if let Some(base) = &base
             && (layers.len() >= MAX_BASES || is_read(&layers, &layer, base))
         {
@@ -50,9 +54,8 @@ fn file(path: &Path) -> Result<(Layer, Option<PathBuf>), Problem> {
     if path.is_dir() {
         return Err(problem(path, "is a folder, not a configuration file"));
     }
-    let bytes = fs::read(path).map_err(|error| {
-        Problem::with_file(path, format!("cannot read the configuration: {}", io_reason(&error)))
-    })?;
+    let bytes = reading::regular(path, MAX_BYTES)
+        .map_err(|reason| Problem::with_file(path, format!("cannot read the configuration: {reason}")))?;
     let text = String::from_utf8(bytes)
         .map_err(|_| problem(path, "is not a configuration: it holds bytes that are not UTF-8"))?;
     let name = paths::shown_from_here(path);

@@ -10,8 +10,11 @@ use gcheck_controls::Letter;
 use gcheck_engine::{Axis, Position, Tool, Units};
 use gcheck_geometry::Mm;
 
+use crate::quoting::Workspace;
 use crate::{Problem, paths, reading};
 
+/// A larger file is not a tool table.
+const MAX_BYTES: u64 = 64 << 20;
 /// More tools than this are a mistake.
 const MAX_TOOLS: usize = 100_000;
 
@@ -26,12 +29,17 @@ pub(super) struct ToolTableFile {
 /// Reads a table; its lengths are in `units`.
 pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> {
     let name = paths::shown_from_here(path);
-    let source =
-        reading::file(Path::new(&name)).map_err(|problem| problem.help("`tools.table` names this file"))?;
+    let bytes = reading::regular(path, MAX_BYTES).map_err(|reason| {
+        Problem::with_file(Path::new(&name), format!("cannot read: {reason}"))
+            .help("`tools.table` names this file")
+    })?;
+    let source = reading::text(Path::new(&name), bytes)
+        .map_err(|problem| problem.help("`tools.table` names this file"))?;
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
     let read = if is_csv { columns } else { words };
     read(source.text(), units.in_mm())
         .map_err(|Mistake { range, message }| Problem::at(&name, source.text(), &range, message))
+        .map_err(|problem| if Workspace::here().may_quote(path) { problem } else { problem.without_text() })
 }
 
 /// What is wrong, and where.

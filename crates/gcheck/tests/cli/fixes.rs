@@ -22,7 +22,7 @@ fn a_safe_fix_is_made_and_the_rest_reported() {
     .assert_eq(&shop.gcheck(&format!("{CHECK} --fix")).to_string());
     assert_eq!(shop.read("part.nc"), MENDABLE.replace("(PART", "(PART)"));
     let run = shop.gcheck(&format!("{CHECK} --fix"));
-    assert!(!run.stderr.contains("mended"), "{run}");
+    assert!(!run.stderr.contains("fixed"), "{run}");
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn a_read_only_file_is_left_alone_and_permissions_stay() {
     let run = shop.gcheck(&format!("{CHECK} --quiet --fix"));
     expect![[r#"
         part.nc:4:6: error[letter-o-for-zero] letter `O` instead of a zero in `X1O.`
-        ! error: locked.nc: cannot mend: the file is read-only
+        ! error: locked.nc: cannot fix: the file is read-only
         exit 2
     "#]]
     .assert_eq(&run.to_string());

@@ -22,6 +22,7 @@ mod exit_codes;
 mod fixes;
 mod formats;
 mod formatting;
+mod hostile;
 mod lists;
 mod output;
 mod plot;

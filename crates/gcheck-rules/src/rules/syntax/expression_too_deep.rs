@@ -1,15 +1,15 @@
-//! An expression that is nested too deeply.
+//! A block that is nested too deeply to be read.
 
-use gcheck_syntax::{MAX_EXPRESSION_DEPTH, SyntaxError, SyntaxErrorKind};
+use gcheck_syntax::{MAX_EXPRESSION_DEPTH, MAX_OPERATORS, SyntaxError, SyntaxErrorKind};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// Brackets, functions or signs are nested deeper than gcheck reads.
+    /// Brackets, functions, signs or `IF … THEN` are nested deeper than gcheck reads, or a line has more operators than it reads.
     ///
     /// ## Why it matters
-    /// No control evaluates an expression of this depth; most stop at five levels. gcheck does not read the rest of the block.
+    /// No control evaluates a block of this depth; most stop at five levels. gcheck does not read the rest of the block.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -34,7 +34,7 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     Finding::new(&META, cx.in_file(error.range.clone()), "expression is nested too deeply")
-        .label(format!("more than {MAX_EXPRESSION_DEPTH} levels"))
+        .label(format!("more than {MAX_EXPRESSION_DEPTH} levels, or {MAX_OPERATORS} operators in the line"))
         .note("the rest of the block was not read")
         .help("compute it in steps: assign intermediate results to variables")
 }
@@ -52,6 +52,24 @@ mod tests {
         for (levels, count) in [(64, 0), (65, 1), (300, 1)] {
             let found = findings(&only(&RULE), "haas-mill", &deep(levels), &World::default());
             assert_eq!(found.len(), count, "{levels}");
+        }
+    }
+
+    #[test]
+    fn consequences_of_conditions_count_too() {
+        for (levels, count) in [(64, 0), (65, 1), (100_000, 1)] {
+            let block = format!("{}#2=1", "IF[#1EQ1]THEN ".repeat(levels));
+            let found = findings(&only(&RULE), "fanuc-mill", &block, &World::default());
+            assert_eq!(found.len(), count, "{levels}");
+        }
+    }
+
+    #[test]
+    fn operators_of_a_line_are_counted() {
+        for (operators, count) in [(1_000, 0), (1_001, 1), (100_000, 1)] {
+            let block = format!("#1=[1{}]", "+1".repeat(operators));
+            let found = findings(&only(&RULE), "fanuc-mill", &block, &World::default());
+            assert_eq!(found.len(), count, "{operators}");
         }
     }
 
