@@ -160,6 +160,20 @@ test("a program is renamed across files", function()
   assert(text:find("M98 P2500", 1, true), text)
 end)
 
+test("rapid moves, cuts, arcs and other codes have their own colours", function()
+  vim.cmd("syntax on")
+  vim.cmd("new")
+  vim.api.nvim_buf_set_lines(0, 0, -1, false, { "G00 X1.", "G1X2.", "G02 X3. I1.", "G10 L2", "G01.5" })
+  vim.bo.filetype = "gcode"
+  local names = {}
+  for line = 1, 5 do
+    names[line] = vim.fn.synIDattr(vim.fn.synID(line, 1, 1), "name")
+  end
+  local expected = { "gcodeRapid", "gcodeFeed", "gcodeArc", "gcodeCode", "gcodeCode" }
+  assert(vim.deep_equal(names, expected), vim.inspect(names))
+  vim.cmd("bwipeout!")
+end)
+
 test("the health check passes", function()
   vim.cmd("silent checkhealth gcheck")
   local text = table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), "\n")
