@@ -3,7 +3,8 @@
 //! Knows: these two forms, without times and owners, so that the same files give the same bytes. Must not know: what is
 //! in the files.
 
-use std::io::{Cursor, Write as _};
+use std::collections::BTreeSet;
+use std::io::{Cursor, Write};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -45,14 +46,36 @@ impl Entry {
 /// Packs files as `.tar.gz`, in this order.
 pub(crate) fn tar_gz(entries: &[Entry], effort: u32) -> anyhow::Result<Vec<u8>> {
     let mut tar = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::new(effort)));
+    entries.iter().try_for_each(|entry| append(&mut tar, entry))?;
+    Ok(tar.into_inner()?.finish()?)
+}
+
+/// Packs files as `.tar.gz`, each folder before what is in it: dpkg makes no folder that the package does not list.
+pub(crate) fn tar_gz_with_folders(entries: &[Entry], effort: u32) -> anyhow::Result<Vec<u8>> {
+    let mut tar = tar::Builder::new(GzEncoder::new(Vec::new(), Compression::new(effort)));
+    let mut known = BTreeSet::new();
     for entry in entries {
-        let mut header = tar::Header::new_gnu();
-        header.set_size(entry.bytes.len() as u64);
-        header.set_mode(entry.mode());
-        header.set_entry_type(tar::EntryType::Regular);
-        tar.append_data(&mut header, &entry.path, entry.bytes.as_slice())?;
+        for (at, _) in entry.path.match_indices('/') {
+            let folder = entry.path.get(..=at).unwrap_or_default();
+            if known.insert(folder) {
+                let mut header = tar::Header::new_gnu();
+                header.set_size(0);
+                header.set_mode(0o755);
+                header.set_entry_type(tar::EntryType::Directory);
+                tar.append_data(&mut header, folder, [].as_slice())?;
+            }
+        }
+        append(&mut tar, entry)?;
     }
     Ok(tar.into_inner()?.finish()?)
+}
+
+fn append(tar: &mut tar::Builder<impl Write>, entry: &Entry) -> anyhow::Result<()> {
+    let mut header = tar::Header::new_gnu();
+    header.set_size(entry.bytes.len() as u64);
+    header.set_mode(entry.mode());
+    header.set_entry_type(tar::EntryType::Regular);
+    Ok(tar.append_data(&mut header, &entry.path, entry.bytes.as_slice())?)
 }
 
 /// Packs files as `.zip`, in this order.

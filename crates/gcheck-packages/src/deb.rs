@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use anyhow::ensure;
 
 use crate::Build;
-use crate::container::{Entry, Package, tar_gz};
+use crate::container::{Entry, Package, tar_gz, tar_gz_with_folders};
 
 /// Packs the package.
 ///
@@ -33,7 +33,7 @@ pub fn deb(build: &Build<'_>) -> anyhow::Result<Package> {
     }
     let size: usize = files.iter().map(|file| file.bytes.len()).sum();
     let control = tar_gz(&[Entry::text("./control", control(build, size.div_ceil(1024)))], *effort)?;
-    let data = tar_gz(&files, *effort)?;
+    let data = tar_gz_with_folders(&files, *effort)?;
     let mut deb = ar::Builder::new(Vec::new());
     let members =
         [("debian-binary", b"2.0\n".as_slice()), ("control.tar.gz", &control), ("data.tar.gz", &data)];

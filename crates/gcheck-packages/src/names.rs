@@ -1,9 +1,6 @@
 //! The names under which gcheck is published.
 //!
-//! Knows: `packages/names.toml`. Must not know: who owns them.
-
-use std::fs;
-use std::path::Path;
+//! Knows: `packages/names.toml`. Must not know: the accounts that own them.
 
 use anyhow::Context as _;
 use serde::Deserialize;
@@ -26,14 +23,12 @@ pub struct Names {
 }
 
 impl Names {
-    /// Reads them from the root of the repository.
+    /// Those of this repository.
     ///
     /// # Errors
-    /// When the file is missing, a key is missing, or one is not known.
-    pub fn read(root: &Path) -> anyhow::Result<Self> {
-        let path = root.join("packages/names.toml");
-        let text = fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        toml::from_str(&text).with_context(|| path.display().to_string())
+    /// When a key is missing, or one is not known.
+    pub fn read() -> anyhow::Result<Self> {
+        toml::from_str(include_str!("../../../packages/names.toml")).context("packages/names.toml")
     }
 
     /// The address of the repository.
@@ -44,6 +39,7 @@ impl Names {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
     use std::path::Path;
 
     use ignore::WalkBuilder;
@@ -60,7 +56,7 @@ mod tests {
 
     #[test]
     fn manifests_have_the_names_of_the_one_place() {
-        let names = Names::read(root()).unwrap();
+        let names = Names::read().unwrap();
         let cargo: toml::Table = toml::from_str(&text("Cargo.toml")).unwrap();
         assert_eq!(cargo["workspace"]["package"]["repository"].as_str(), Some(names.url().as_str()));
         let extension: serde_json::Value =
@@ -77,7 +73,7 @@ mod tests {
     /// Addresses of a repository called gcheck are those of the one place, wherever they are written.
     #[test]
     fn no_file_names_another_repository() {
-        let names = Names::read(root()).unwrap();
+        let names = Names::read().unwrap();
         let walk = WalkBuilder::new(root()).hidden(false).require_git(false).build();
         let mut wrong = Vec::new();
         for entry in walk.filter_map(Result::ok).filter(|entry| entry.path().is_file()) {

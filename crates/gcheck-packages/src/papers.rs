@@ -3,10 +3,6 @@
 //! Knows: which files of the repository these are. Must not know: any package.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
-
-use anyhow::Context as _;
 
 use crate::container::Entry;
 
@@ -29,21 +25,15 @@ pub struct Papers {
 }
 
 impl Papers {
-    /// Reads the texts of the repository.
-    ///
-    /// # Errors
-    /// When one of them cannot be read.
-    pub fn read(root: &Path, completions: BTreeMap<String, String>) -> anyhow::Result<Self> {
-        let read = |name: &str| {
-            fs::read_to_string(root.join(name)).with_context(|| root.join(name).display().to_string())
-        };
-        Ok(Self {
-            readme: read("README.md")?,
-            changelog: read("CHANGELOG.md")?,
-            mit: read("LICENSE-MIT")?,
-            apache: read("LICENSE-APACHE")?,
+    /// The texts of this repository.
+    pub fn new(completions: BTreeMap<String, String>) -> Self {
+        Self {
+            readme: include_str!("../../../README.md").to_owned(),
+            changelog: include_str!("../../../CHANGELOG.md").to_owned(),
+            mit: include_str!("../../../LICENSE-MIT").to_owned(),
+            apache: include_str!("../../../LICENSE-APACHE").to_owned(),
             completions,
-        })
+        }
     }
 
     /// The licences in a folder.

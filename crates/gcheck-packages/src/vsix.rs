@@ -58,8 +58,6 @@ fn with_programs(types: &[u8]) -> anyhow::Result<String> {
 
 #[cfg(test)]
 mod tests {
-    use std::path::Path;
-
     use super::*;
     use crate::{Names, Papers, Target};
 
@@ -69,8 +67,7 @@ mod tests {
     }
 
     fn with_server(triple: &str, universal: &[u8]) -> anyhow::Result<Package> {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap();
-        let (names, papers) = (Names::read(root).unwrap(), Papers::default());
+        let (names, papers) = (Names::read().unwrap(), Papers::default());
         let target = Target::named(triple).unwrap();
         vsix(
             &Build { names: &names, version: "1.2.3", target, binary: b"binary", papers: &papers, effort: 1 },

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use gcheck_diagnostics::{Finding, Severity};
 
+use crate::Report;
 use crate::report::File;
 use crate::shown::number;
 
@@ -40,8 +41,8 @@ impl Fold<'_> {
 }
 
 /// The findings of a file as they are told, in order; a fold is where the first of its findings would be.
-pub(crate) fn told(file: &File, folds: bool) -> Vec<Told<'_>> {
-    if !folds || file.findings.len() <= SHOWN {
+pub(crate) fn told<'r>(report: &Report, file: &'r File) -> Vec<Told<'r>> {
+    if !report.folds() || file.findings.len() <= SHOWN {
         return file.findings.iter().map(Told::One).collect();
     }
     let mut repeats: BTreeMap<(&str, Severity), Vec<&Finding>> = BTreeMap::new();
@@ -64,8 +65,12 @@ pub(crate) fn told(file: &File, folds: bool) -> Vec<Told<'_>> {
     told
 }
 
-/// Findings of a file that folds hide.
-pub(crate) fn hidden(file: &File) -> usize {
+/// Findings that folds hide from people.
+pub fn folded(report: &Report) -> usize {
+    if report.folds() { report.files().iter().map(hidden).sum() } else { 0 }
+}
+
+fn hidden(file: &File) -> usize {
     let mut repeats: BTreeMap<(&str, Severity), usize> = BTreeMap::new();
     for finding in &file.findings {
         *repeats.entry((finding.rule.id, finding.severity)).or_default() += 1;
@@ -98,6 +103,7 @@ mod tests {
     use expect_test::expect;
     use gcheck_diagnostics::{Finding, Severity};
 
+    use super::folded;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file, render};
     use crate::{Format, Report};
 
@@ -137,7 +143,7 @@ mod tests {
             full.ends_with("error[feed-missing]: … and 1,195 more in part.nc, lines 6 to 1,200\n\n"),
             "{full}"
         );
-        assert_eq!(report.hidden(), 1_195);
+        assert_eq!(folded(&report), 1_195);
     }
 
     #[test]
@@ -160,7 +166,7 @@ mod tests {
         let report = Report::new(vec![file("part.nc", &text, findings)]).folded();
         let told = render(&report, Format::Concise);
         assert!(!told.contains('…') && told.lines().count() == 9, "{told}");
-        assert_eq!(report.hidden(), 0);
+        assert_eq!(folded(&report), 0);
     }
 
     #[test]

@@ -28,6 +28,7 @@ pub use closing::{assumptions, file_counts, statistics, summary_line};
 pub use control::{ControlChoice, ControlSource};
 pub use control_lines::control_lines;
 pub use fingerprint::{Fingerprint, Fingerprinter};
+pub use fold::folded;
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
 pub use report::{Assumed, FileReport, RelatedFile, Report, Summary};

@@ -9,7 +9,6 @@ use gcheck_diagnostics::{Finding, RuleMeta, Severity, StatedAssumption};
 use gcheck_syntax::SourceText;
 use serde::Serialize;
 
-use crate::fold::{self, Told};
 use crate::source::Source;
 use crate::{ControlChoice, ControlSource, Fingerprint, Fingerprinter};
 
@@ -157,11 +156,6 @@ impl Report {
         self
     }
 
-    /// Findings that folds hide.
-    pub fn hidden(&self) -> usize {
-        if self.folds { self.files.iter().map(fold::hidden).sum() } else { 0 }
-    }
-
     /// Findings that have a fix which changes no move.
     pub fn fixable(&self) -> usize {
         self.findings().filter(|(_, finding)| is_fixable(finding)).count()
@@ -220,9 +214,9 @@ impl Report {
         self.files.iter().flat_map(|file| file.findings.iter().map(move |finding| (file, finding)))
     }
 
-    /// The findings of a file as formats for people tell them.
-    pub(crate) fn told<'r>(&self, file: &'r File) -> Vec<Told<'r>> {
-        fold::told(file, self.folds)
+    /// Whether formats for people fold repeats.
+    pub(crate) fn folds(&self) -> bool {
+        self.folds
     }
 
     /// The rules that ran and those of findings, by id.

@@ -41,7 +41,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     let target_folder = members.target_directory.into_std_path_buf();
     let out = wishes.out.clone().unwrap_or_else(|| target_folder.join("packages"));
     fs::create_dir_all(&out).with_context(|| out.display().to_string())?;
-    let names = Names::read(workspace::root())?;
+    let names = Names::read()?;
     if wishes.release {
         return release(&names, &version, &out);
     }
@@ -52,7 +52,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
         None => build(target, wishes.target.is_some(), &target_folder)?,
     };
     let binary = fs::read(&path).with_context(|| path.display().to_string())?;
-    let papers = Papers::read(workspace::root(), completions(&path)?)?;
+    let papers = Papers::new(completions(&path)?);
     let build =
         Build { names: &names, version: &version, target, binary: &binary, papers: &papers, effort: 9 };
     let mut packages = vec![archive(&build)?, wheel(&build)?, npm_platform(&build)?];
@@ -131,7 +131,7 @@ fn release(names: &Names, version: &str, out: &Path) -> anyhow::Result<ExitCode>
     };
     let archives: Vec<Package> =
         PUBLISHED.iter().map(|target| read(target.archive_name(version))).collect::<anyhow::Result<_>>()?;
-    let papers = Papers::read(workspace::root(), BTreeMap::new())?;
+    let papers = Papers::new(BTreeMap::new());
     let mut packages = recipes(names, version, &archives)?;
     packages.extend(image(version, &archives)?);
     packages.push(npm_launcher(names, version, &papers)?);

@@ -31,7 +31,7 @@ pub(crate) fn here() -> &'static Target {
 
 pub(crate) fn names() -> &'static Names {
     static NAMES: OnceLock<Names> = OnceLock::new();
-    NAMES.get_or_init(|| Names::read(root()).unwrap())
+    NAMES.get_or_init(|| Names::read().unwrap())
 }
 
 pub(crate) fn papers() -> &'static Papers {
@@ -44,7 +44,7 @@ pub(crate) fn papers() -> &'static Papers {
                 (shell.to_owned(), String::from_utf8(output.stdout).unwrap())
             })
             .collect();
-        Papers::read(root(), completions).unwrap()
+        Papers::new(completions)
     })
 }
 

@@ -6,14 +6,14 @@ use std::io::{self, Write};
 
 use gcheck_diagnostics::Finding;
 
-use crate::fold::Told;
+use crate::fold::{Told, told};
 use crate::report::File;
 use crate::shown::one_line;
 use crate::{Colour, Report, style};
 
 pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     for file in report.files() {
-        for told in report.told(file) {
+        for told in told(report, file) {
             match told {
                 Told::One(finding) => write_line(file, finding, colour, out)?,
                 Told::Fold(fold) => line(file, fold.first, &fold.words(), colour, out)?,

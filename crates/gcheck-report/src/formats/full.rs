@@ -16,7 +16,7 @@ use gcheck_diagnostics::{Finding, Severity};
 use super::concise;
 use super::remarks::remarks;
 use crate::excerpt::Excerpt;
-use crate::fold::{Fold, Told};
+use crate::fold::{Fold, Told, told};
 use crate::report::File;
 use crate::shown::{lines, one_line};
 use crate::source::Source;
@@ -26,7 +26,7 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
     let config = Config::default();
     let mut drawn = Vec::new();
     let told =
-        report.files().iter().flat_map(|file| report.told(file).into_iter().map(move |told| (file, told)));
+        report.files().iter().flat_map(|file| told(report, file).into_iter().map(move |told| (file, told)));
     for (file, told) in told {
         let finding = match told {
             Told::One(finding) => finding,

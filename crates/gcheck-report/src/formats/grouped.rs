@@ -7,7 +7,7 @@ use std::io::{self, Write};
 
 use gcheck_diagnostics::Finding;
 
-use crate::fold::Told;
+use crate::fold::{Told, told};
 use crate::report::File;
 use crate::shown::one_line;
 use crate::{Colour, Report, style};
@@ -19,7 +19,7 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
             writeln!(out)?;
         }
         begun = true;
-        write_file(file, &report.told(file), colour, out)?;
+        write_file(file, &told(report, file), colour, out)?;
     }
     Ok(())
 }

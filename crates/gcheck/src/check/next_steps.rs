@@ -17,7 +17,7 @@ pub(super) fn after(report: &Report, options: &CheckOptions) -> String {
     let mut text = String::new();
     let shows_findings = !(options.statistics || options.summary);
     // Writing into a string does not fail.
-    if shows_findings && report.hidden() > 0 {
+    if shows_findings && gcheck_report::folded(report) > 0 {
         let _ = writeln!(
             text,
             "repeats are folded: `--show-all` shows every finding, `--statistics` counts them"
