@@ -1,10 +1,14 @@
-//! What a text output ends with: the summary line, the statistics table.
+//! What a text output ends with: the summary line; and the tables that count findings by rule and by file.
 //!
-//! Knows: sums in words. Must not know: single findings' places or texts.
+//! Knows: sums in words and columns. Must not know: single findings' places or texts.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
+use std::iter;
 
+use gcheck_diagnostics::Severity;
+
+use crate::report::is_fixable;
 use crate::shown::{number, one_line};
 use crate::{Report, Summary};
 
@@ -86,26 +90,104 @@ pub fn assumptions(summary: &Summary) -> String {
     text
 }
 
-/// Findings per rule, the most frequent first: count, id, what the rule is about. Empty without findings.
+/// What is counted of a rule at a severity.
+#[derive(Default)]
+struct RuleCount {
+    about: &'static str,
+    findings: usize,
+    files: usize,
+    fixable: usize,
+}
+
+/// Findings by rule and severity, the most frequent first: how many, in how many files, how many have a fix that changes
+/// no move (of those that are kept), and what the rule is about. Empty without findings.
 pub fn statistics(report: &Report) -> String {
-    let mut rules: BTreeMap<&str, (usize, &str)> = BTreeMap::new();
-    let kept = report.findings().map(|(_, finding)| (finding.rule, 1));
-    let omitted =
-        report.files().iter().flat_map(|file| file.omitted.iter().map(|(rule, _, count)| (*rule, *count)));
-    for (rule, count) in kept.chain(omitted) {
-        rules.entry(rule.id).or_insert((0, rule.summary)).0 += count;
+    let mut counts: BTreeMap<(&str, Severity), RuleCount> = BTreeMap::new();
+    for file in report.files() {
+        let kept = file.findings.iter().map(|f| (f.rule, f.severity, 1, usize::from(is_fixable(f))));
+        let omitted = file.omitted.iter().map(|(rule, severity, count)| (*rule, *severity, *count, 0));
+        let mut seen = BTreeSet::new();
+        for (rule, severity, findings, fixable) in kept.chain(omitted) {
+            let key = (rule.id, severity);
+            let count = counts.entry(key).or_default();
+            count.about = rule.summary;
+            count.findings += findings;
+            count.fixable += fixable;
+            count.files += usize::from(seen.insert(key));
+        }
     }
-    let mut rows: Vec<(usize, &str, &str)> =
-        rules.into_iter().map(|(id, (n, about))| (n, id, about)).collect();
-    rows.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| a.1.cmp(b.1)));
-    let digits = rows.first().map_or(0, |(n, ..)| number(*n).len());
-    let id_width = rows.iter().map(|(_, id, _)| id.len()).max().unwrap_or(0);
-    let mut table = String::new();
-    for (n, id, about) in rows {
-        // Writing into a string does not fail.
-        let _ = writeln!(table, "{:>digits$}  {id:<id_width$}  {about}", number(n));
+    let mut rows: Vec<((&str, Severity), RuleCount)> = counts.into_iter().collect();
+    rows.sort_by(|(a, x), (b, y)| y.findings.cmp(&x.findings).then_with(|| a.cmp(b)));
+    let cells = rows.into_iter().map(|((rule, severity), count)| {
+        let fixable = if count.fixable > 0 { number(count.fixable) } else { String::new() };
+        [
+            number(count.findings),
+            number(count.files),
+            fixable,
+            severity.name().to_owned(),
+            rule.to_owned(),
+            count.about.to_owned(),
+        ]
+    });
+    table(["findings", "files", "fixable", "severity", "rule", ""], 3, cells)
+}
+
+/// Findings by file, those with the worst first: how many of each severity. Files without findings are left out.
+pub fn file_counts(report: &Report) -> String {
+    let mut rows: Vec<([usize; 4], &str)> = Vec::new();
+    for file in report.files() {
+        let mut row = [0; 4];
+        let kept = file.findings.iter().map(|finding| (finding.severity, 1));
+        let omitted = file.omitted.iter().map(|(_, severity, count)| (*severity, *count));
+        for (severity, count) in kept.chain(omitted) {
+            let [errors, warnings, infos, hints] = &mut row;
+            *match severity {
+                Severity::Error => errors,
+                Severity::Warning => warnings,
+                Severity::Info => infos,
+                Severity::Hint => hints,
+            } += count;
+        }
+        if row != [0; 4] {
+            rows.push((row, &file.path));
+        }
     }
-    table
+    rows.sort_by(|(a, x), (b, y)| b.cmp(a).then_with(|| x.cmp(y)));
+    let cells = rows.into_iter().map(|([errors, warnings, infos, hints], path)| {
+        [number(errors), number(warnings), number(infos), number(hints), one_line(path).into_owned()]
+    });
+    table(["errors", "warnings", "infos", "hints", "file"], 4, cells)
+}
+
+/// Columns as wide as their cells, the first `numbers` of them to the right; empty without rows.
+fn table<const N: usize>(head: [&str; N], numbers: usize, rows: impl Iterator<Item = [String; N]>) -> String {
+    let rows: Vec<[String; N]> = rows.collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    let lines: Vec<[String; N]> = iter::once(head.map(str::to_owned)).chain(rows).collect();
+    let mut text = String::new();
+    for line in &lines {
+        let mut drawn = String::new();
+        for (column, cell) in line.iter().enumerate() {
+            let width = lines
+                .iter()
+                .filter_map(|line| line.get(column))
+                .map(|c| c.chars().count())
+                .max()
+                .unwrap_or(0);
+            let gap = if column == 0 { "" } else { "  " };
+            // Writing into a string does not fail.
+            let _ = if column < numbers {
+                write!(drawn, "{gap}{cell:>width$}")
+            } else {
+                write!(drawn, "{gap}{cell:<width$}")
+            };
+        }
+        text.push_str(drawn.trim_end());
+        text.push('\n');
+    }
+    text
 }
 
 /// `1 file`, `2 files`.
@@ -118,7 +200,7 @@ mod tests {
     use super::*;
     use crate::testing::{ARC_OFF_CIRCLE, FEED_MISSING, file};
     use expect_test::expect;
-    use gcheck_diagnostics::Finding;
+    use gcheck_diagnostics::{Finding, Fix};
 
     #[test]
     fn summaries() {
@@ -143,18 +225,40 @@ mod tests {
         );
     }
 
-    #[test]
-    fn statistics_count_by_rule() {
+    fn two_files() -> Report {
         let findings = |n: usize, rule| (0..n).map(move |_| Finding::new(rule, 0..0, "m"));
-        let report = Report::new(vec![
+        let mut fixable = Finding::new(&FEED_MISSING, 0..0, "m");
+        fixable.fixes.push(Fix::safe("write the feed", 0..0, "F1."));
+        fixable.severity = Severity::Info;
+        let mut many = file("b.nc", "", findings(1_200, &ARC_OFF_CIRCLE).chain([fixable]).collect());
+        many.omitted = vec![(&ARC_OFF_CIRCLE, Severity::Warning, 34)];
+        Report::new(vec![
             file("a.nc", "", findings(3, &FEED_MISSING).collect()),
-            file("b.nc", "", findings(1_200, &ARC_OFF_CIRCLE).chain(findings(4, &FEED_MISSING)).collect()),
-        ]);
+            file("c.nc", "", vec![]),
+            many,
+        ])
+    }
+
+    #[test]
+    fn statistics_count_by_rule_and_severity() {
         expect![[r#"
-            1,200  arc-end-off-circle  arc end point is not on the circle
-                7  feed-missing        cutting move with no feed rate in effect
+            findings  files  fixable  severity  rule
+               1,234      1           warning   arc-end-off-circle  arc end point is not on the circle
+                   3      1           error     feed-missing        cutting move with no feed rate in effect
+                   1      1        1  info      feed-missing        cutting move with no feed rate in effect
         "#]]
-        .assert_eq(&statistics(&report));
+        .assert_eq(&statistics(&two_files()));
         assert_eq!(statistics(&Report::new(vec![])), "");
+    }
+
+    #[test]
+    fn files_are_counted_with_the_worst_first() {
+        expect![[r#"
+            errors  warnings  infos  hints  file
+                 3         0      0      0  a.nc
+                 0     1,234      1      0  b.nc
+        "#]]
+        .assert_eq(&file_counts(&two_files()));
+        assert_eq!(file_counts(&Report::new(vec![file("c.nc", "", vec![])])), "");
     }
 }

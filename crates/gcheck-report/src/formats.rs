@@ -92,6 +92,11 @@ impl Format {
         Self::ALL.into_iter().find(|format| format.name() == name)
     }
 
+    /// Whether it is made for people alone: repeats may be folded, and counts may take the place of findings.
+    pub fn is_for_people(self) -> bool {
+        matches!(self, Self::Full | Self::Concise | Self::Grouped)
+    }
+
     /// Whether people read it, so that a summary line may follow; otherwise the output is one document and ends itself.
     pub fn is_text(self) -> bool {
         match self {

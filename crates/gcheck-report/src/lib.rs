@@ -5,7 +5,7 @@
 //! the only crate that may use codespan-reporting.
 //!
 //! A caller builds a [`Report`] and calls [`write()`]. For the formats that people read it also prints [`control_lines`]
-//! (to standard error), [`summary_line`] and, when asked, [`statistics`].
+//! (to standard error), [`summary_line`] and, when asked, [`statistics`] and [`file_counts`] in place of the findings.
 
 mod baseline;
 mod closing;
@@ -13,6 +13,7 @@ mod control;
 mod control_lines;
 mod excerpt;
 mod fingerprint;
+mod fold;
 mod formats;
 mod line_index;
 mod report;
@@ -23,10 +24,11 @@ mod style;
 mod testing;
 
 pub use baseline::{Baseline, Malformed, StaleEntry};
-pub use closing::{assumptions, statistics, summary_line};
+pub use closing::{assumptions, file_counts, statistics, summary_line};
 pub use control::{ControlChoice, ControlSource};
 pub use control_lines::control_lines;
 pub use fingerprint::{Fingerprint, Fingerprinter};
+pub use fold::folded;
 pub use formats::{Format, write};
 pub use line_index::{LineIndex, Position};
 pub use report::{Assumed, FileReport, RelatedFile, Report, Skipped, Summary};

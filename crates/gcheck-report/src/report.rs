@@ -10,7 +10,7 @@ use gcheck_syntax::SourceText;
 use serde::Serialize;
 
 use crate::source::Source;
-use crate::{ControlChoice, Fingerprint, Fingerprinter};
+use crate::{ControlChoice, ControlSource, Fingerprint, Fingerprinter};
 
 /// What a check found in one file.
 #[derive(Debug, Clone)]
@@ -58,6 +58,7 @@ pub struct Report {
     skipped: Vec<Skipped>,
     related: Vec<(String, Source)>,
     rules: Vec<&'static RuleMeta>,
+    folds: bool,
 }
 
 /// The rule that reports that a budget was used up.
@@ -76,6 +77,11 @@ pub struct Skipped {
 pub(crate) fn order(a: &Finding, b: &Finding) -> Ordering {
     let key = |f: &Finding| (f.range.start, f.range.end, f.rule.id);
     key(a).cmp(&key(b)).then_with(|| a.message.cmp(&b.message))
+}
+
+/// Does a fix that changes no move settle the finding?
+pub(crate) fn is_fixable(finding: &Finding) -> bool {
+    finding.fixes.iter().any(|fix| fix.safe)
 }
 
 /// A file of the report with its lines.
@@ -141,7 +147,7 @@ impl Report {
     pub fn new(files: Vec<FileReport>) -> Self {
         let mut files: Vec<File> = files.into_iter().map(File::new).collect();
         files.sort_by(|a, b| a.path.cmp(&b.path));
-        Self { files, skipped: Vec::new(), related: Vec::new(), rules: Vec::new() }
+        Self { files, skipped: Vec::new(), related: Vec::new(), rules: Vec::new(), folds: false }
     }
 
     /// With texts of files that labels point to; without its text a file is named, but no line of it is shown.
@@ -177,6 +183,25 @@ impl Report {
     pub fn with_rules(mut self, rules: impl IntoIterator<Item = &'static RuleMeta>) -> Self {
         self.rules = rules.into_iter().collect();
         self
+    }
+
+    /// With repeats of one rule in one file folded, in the formats that people read: a few, and the number of the others.
+    #[must_use]
+    pub fn folded(mut self) -> Self {
+        self.folds = true;
+        self
+    }
+
+    /// Findings that have a fix which changes no move.
+    pub fn fixable(&self) -> usize {
+        self.findings().filter(|(_, finding)| is_fixable(finding)).count()
+    }
+
+    /// Files with findings of which nobody said, and nothing in them shows, which control runs them.
+    pub fn files_by_default(&self) -> usize {
+        let is_default =
+            |file: &&File| file.control.source == ControlSource::Default && !file.findings.is_empty();
+        self.files.iter().filter(is_default).count()
     }
 
     /// The sums.
@@ -224,6 +249,11 @@ impl Report {
     /// Every finding with its file, in order.
     pub(crate) fn findings(&self) -> impl Iterator<Item = (&File, &Finding)> {
         self.files.iter().flat_map(|file| file.findings.iter().map(move |finding| (file, finding)))
+    }
+
+    /// Whether formats for people fold repeats.
+    pub(crate) fn folds(&self) -> bool {
+        self.folds
     }
 
     /// The rules that ran and those of findings, by id.

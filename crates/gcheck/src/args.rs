@@ -166,9 +166,15 @@ pub struct CheckOptions {
     /// Make all that is found known to the baseline, and forget what is not found any more
     #[arg(long, requires = "baseline", conflicts_with_all = ["select", "ignore", "extend_select", "stdin_filename"])]
     pub update_baseline: bool,
-    /// Count findings by rule
+    /// Count findings by rule instead of printing them; with a format for programs, besides and on standard error
     #[arg(long)]
     pub statistics: bool,
+    /// Count findings by file, the worst first, instead of printing them; with a format for programs, besides
+    #[arg(long)]
+    pub summary: bool,
+    /// Show every finding: formats for people fold repeats of a rule in a file after the fifth
+    #[arg(long)]
+    pub show_all: bool,
     /// Let no comment silence a rule
     #[arg(long)]
     pub no_suppressions: bool,

@@ -6,6 +6,7 @@ mod cache;
 mod fixed;
 mod job;
 mod known;
+mod next_steps;
 mod progress;
 mod round;
 mod settings_page;

@@ -15,6 +15,8 @@ mod blind;
 mod competitors;
 #[cfg(feature = "product")]
 mod corpus;
+#[cfg(feature = "packages")]
+mod dist;
 mod generate;
 #[cfg(feature = "product")]
 mod measure;
@@ -49,6 +51,10 @@ usage: cargo xtask COMMAND
                               fixtures/timing/measured.tsv
   blind seal FILE… | look draw-N | look mistakes-N | page
                               first looks at programs and mistakes that nobody tuned gcheck to (docs/dev/blind.md)
+  dist [--target TRIPLE] [--binary FILE] [--out FOLDER] [--vscode]
+                              pack gcheck for one system: archive, wheel, npm and Debian packages, with --vscode the
+                              extension; builds it in the profile `dist` unless a binary is named
+  dist release [--out FOLDER] from the packages of all systems: npm launcher, installers, manifests, checksums
   competitors                 run other checkers on the seeded mistakes and write tests/competitors.tsv";
 
 fn main() -> ExitCode {
@@ -70,6 +76,10 @@ fn main() -> ExitCode {
         #[cfg(feature = "product")]
         "precision" => precision::run(rest),
         "competitors" => competitors::run(rest),
+        #[cfg(feature = "packages")]
+        "dist" => dist::run(rest),
+        #[cfg(not(feature = "packages"))]
+        "dist" => product::rerun_with_packages("dist", rest),
         "timing" => timing::run(rest),
         #[cfg(feature = "product")]
         "measure" => measure::run(rest),

@@ -6,12 +6,21 @@ use std::io::{self, Write};
 
 use gcheck_diagnostics::Finding;
 
+use crate::fold::{Told, told};
 use crate::report::File;
 use crate::shown::one_line;
 use crate::{Colour, Report, style};
 
 pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
-    report.findings().try_for_each(|(file, finding)| write_line(file, finding, colour, out))
+    for file in report.files() {
+        for told in told(report, file) {
+            match told {
+                Told::One(finding) => write_line(file, finding, colour, out)?,
+                Told::Fold(fold) => line(file, fold.first, &fold.words(), colour, out)?,
+            }
+        }
+    }
+    Ok(())
 }
 
 /// One finding.
@@ -21,6 +30,11 @@ pub(super) fn write_line(
     colour: Colour,
     out: &mut dyn Write,
 ) -> io::Result<()> {
+    line(file, finding, &finding.message, colour, out)
+}
+
+/// The line of a finding with other words than its message.
+fn line(file: &File, finding: &Finding, words: &str, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     let at = file.source.position(finding.range.start);
     let (strong, severity, reset) = (
         colour.paint(style::STRONG),
@@ -35,7 +49,7 @@ pub(super) fn write_line(
         at.column,
         finding.severity,
         finding.rule.id,
-        one_line(&finding.message)
+        one_line(words)
     )
 }
 

@@ -16,6 +16,7 @@ use gcheck_diagnostics::{Finding, Severity};
 use super::concise;
 use super::remarks::remarks;
 use crate::excerpt::Excerpt;
+use crate::fold::{Fold, Told, told};
 use crate::report::File;
 use crate::shown::{lines, one_line};
 use crate::source::Source;
@@ -24,7 +25,16 @@ use crate::{Colour, Report, style};
 pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     let config = Config::default();
     let mut drawn = Vec::new();
-    for (file, finding) in report.findings() {
+    let told =
+        report.files().iter().flat_map(|file| told(report, file).into_iter().map(move |told| (file, told)));
+    for (file, told) in told {
+        let finding = match told {
+            Told::One(finding) => finding,
+            Told::Fold(fold) => {
+                write_fold(file, &fold, colour, out)?;
+                continue;
+            }
+        };
         drawn.clear();
         let scene = Scene::new(report, file, finding);
         let diagnostic = scene.diagnostic(finding);
@@ -36,6 +46,24 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
         }
     }
     Ok(())
+}
+
+/// The line that stands for repeats, in the form of a finding's first line.
+fn write_fold(file: &File, fold: &Fold<'_>, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
+    let (severity, strong, reset) = (
+        colour.paint(style::severity(fold.first.severity)),
+        colour.paint(style::STRONG),
+        colour.paint(style::RESET),
+    );
+    writeln!(
+        out,
+        "{severity}{}[{}]{reset}{strong}: {} in {}, {}{reset}\n",
+        fold.first.severity.name(),
+        fold.first.rule.id,
+        fold.count,
+        one_line(&file.path),
+        fold.lines
+    )
 }
 
 /// Codespan pads lines with blanks, which show up in logs that are compared.

@@ -2,8 +2,12 @@
 //!
 //! Knows: that table. Must not know: labels, notes, source text.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
+use gcheck_diagnostics::Finding;
+
+use crate::fold::{Told, told};
 use crate::report::File;
 use crate::shown::one_line;
 use crate::{Colour, Report, style};
@@ -15,32 +19,38 @@ pub(super) fn write(report: &Report, colour: Colour, out: &mut dyn Write) -> io:
             writeln!(out)?;
         }
         begun = true;
-        write_file(file, colour, out)?;
+        write_file(file, &told(report, file), colour, out)?;
     }
     Ok(())
 }
 
-fn write_file(file: &File, colour: Colour, out: &mut dyn Write) -> io::Result<()> {
+fn write_file(file: &File, told: &[Told<'_>], colour: Colour, out: &mut dyn Write) -> io::Result<()> {
     let (strong, reset) = (colour.paint(style::STRONG), colour.paint(style::RESET));
     writeln!(out, "{strong}{}{reset}", one_line(&file.path))?;
-    let places: Vec<String> = file
-        .findings
+    let rows: Vec<(&Finding, Cow<'_, str>)> = told
         .iter()
-        .map(|finding| {
+        .map(|told| match told {
+            Told::One(finding) => (*finding, Cow::from(&finding.message)),
+            Told::Fold(fold) => (fold.first, Cow::from(fold.words())),
+        })
+        .collect();
+    let places: Vec<String> = rows
+        .iter()
+        .map(|(finding, _)| {
             let at = file.source.position(finding.range.start);
             format!("{}:{}", at.line, at.column)
         })
         .collect();
     let place_width = places.iter().map(String::len).max().unwrap_or(0);
-    let rule_width = file.findings.iter().map(|finding| finding.rule.id.len()).max().unwrap_or(0);
-    for (finding, place) in file.findings.iter().zip(places) {
+    let rule_width = rows.iter().map(|(finding, _)| finding.rule.id.len()).max().unwrap_or(0);
+    for ((finding, words), place) in rows.into_iter().zip(places) {
         let severity = colour.paint(style::severity(finding.severity));
         writeln!(
             out,
             "  {place:>place_width$}  {severity}{:<7}{reset}  {:<rule_width$}  {}",
             finding.severity.name(),
             finding.rule.id,
-            one_line(&finding.message)
+            one_line(&words)
         )?;
     }
     Ok(())

@@ -24,6 +24,7 @@ use super::cache::Cache;
 use super::fixed;
 use super::job::{self, Bench, Change, Checked, Target};
 use super::known::KnownFindings;
+use super::next_steps;
 use super::progress::Progress;
 use super::settings_page;
 
@@ -125,6 +126,7 @@ impl<'o> Check<'o> {
         let report = Report::new(reports)
             .with_skipped(problems.iter().map(Problem::as_skipped).collect())
             .with_rules(RULES.iter().map(|rule| rule.meta));
+        let report = if options.show_all { report } else { report.folded() };
         write(global, options, &self.outputs, &report, &problems)?;
         let is_incomplete = options.fail_on_incomplete && report.is_incomplete();
         Ok(finish(&problems, u8::from(is_incomplete || fails(&report.summary(), options))))
@@ -371,28 +373,47 @@ fn write(
         output::to_file(path, |out| gcheck_report::write(report, format, gcheck_report::Colour::Plain, out))
     };
     outputs.besides.iter().try_for_each(|(format, path)| to_file(*format, path))?;
-    match outputs.main {
-        Some(path) => to_file(format, path)?,
-        None => {
-            let colour = output::colour(global.color);
-            output::to_stdout(|out| gcheck_report::write(report, format, colour, out))?;
-        }
-    }
+    let counts = counts(options, report);
     let mut closing = String::new();
-    if options.statistics {
-        closing.push_str(&gcheck_report::statistics(report));
+    match (counts, outputs.main) {
+        // A program that reads a format gets it whole.
+        (Some(counts), main) if format.is_for_people() => match main {
+            Some(path) => output::to_file(path, |out| out.write_all(counts.as_bytes()))?,
+            None => output::to_stdout(|out| out.write_all(counts.as_bytes()))?,
+        },
+        (counts, main) => {
+            match main {
+                Some(path) => to_file(format, path)?,
+                None => {
+                    let colour = output::colour(global.color);
+                    output::to_stdout(|out| gcheck_report::write(report, format, colour, out))?;
+                }
+            }
+            closing.push_str(&counts.unwrap_or_default());
+        }
     }
     // Where programs could not be read, it is the problems that say why there are none.
     if !global.quiet && (report.summary().files > 0 || problems.is_empty()) {
         closing.push_str(&closing_line(report));
+        if format.is_for_people() {
+            closing.push_str(&next_steps::after(report, options));
+        }
     }
     // Only the format for people has room for a closing line; a parser reads the others.
     if format == Format::Full && outputs.main.is_none() {
         output::print(&closing)?;
-    } else if format.is_text() || options.statistics {
+    } else if format.is_text() || options.statistics || options.summary {
         say(&closing);
     }
     Ok(())
+}
+
+/// The tables that were asked for, if any was.
+fn counts(options: &CheckOptions, report: &Report) -> Option<String> {
+    let by_rule = options.statistics.then(|| gcheck_report::statistics(report));
+    let by_file = options.summary.then(|| gcheck_report::file_counts(report));
+    let tables: Vec<String> = by_rule.into_iter().chain(by_file).collect();
+    (!tables.is_empty()).then(|| tables.join(if tables.iter().any(String::is_empty) { "" } else { "\n" }))
 }
 
 fn closing_line(report: &Report) -> String {

@@ -17,18 +17,21 @@ pub(crate) fn run(global: &Global) -> Result<u8, Problem> {
     if let Some(existing) = FILE_NAMES.iter().map(Path::new).find(|path| path.symlink_metadata().is_ok()) {
         return Err(Problem::with_file(existing, "is here already; it was left as it is"));
     }
-    let line = match &global.control {
+    let (line, remark) = match &global.control {
         Some(name) => {
             validate_control(name).map_err(Problem::new)?;
-            format!("control = \"{name}\"")
+            (format!("control = \"{name}\""), format!("the control is {name}"))
         }
-        None => control_line(&detected()?),
+        None => {
+            let counts = detected()?;
+            (control_line(&counts), remark(&counts))
+        }
     };
     let names = gcheck_controls::names().join(", ");
     let text = TEMPLATE.replace("{control}", &line).replace("{names}", &names);
     let path = Path::new(FILE_NAMES.first().copied().unwrap_or_default());
     output::to_file(path, |out| out.write_all(text.as_bytes()))?;
-    output::print(&format!("wrote {}\n", path.display()))
+    output::print(&format!("wrote {}: {remark}\nnext: `gcheck check`\n", path.display()))
 }
 
 /// The controls that programs of the folder show of themselves, with how many do.
@@ -47,15 +50,33 @@ fn detected() -> Result<BTreeMap<String, usize>, Problem> {
     Ok(counts)
 }
 
+/// The control that nine of ten programs show.
+fn agreed(counts: &BTreeMap<String, usize>) -> Option<(&String, usize)> {
+    let all: usize = counts.values().sum();
+    let (name, count) = counts.iter().max_by_key(|(_, count)| **count)?;
+    (count * 10 >= all * 9).then_some((name, *count))
+}
+
+/// What the user should know about the control of the new file.
+fn remark(counts: &BTreeMap<String, usize>) -> String {
+    match agreed(counts) {
+        Some((name, 1)) => format!("the control is {name}, detected from 1 program"),
+        Some((name, count)) => format!("the control is {name}, detected from {count} programs"),
+        None if counts.is_empty() => {
+            "write the control into it, because no program here shows one (`gcheck controls` lists them)".to_owned()
+        }
+        None => "the programs here look like those of several controls, and it lists them".to_owned(),
+    }
+}
+
 /// Says the control where the programs agree on one. Where they do not, a line for all would be wrong for many of them.
 fn control_line(counts: &BTreeMap<String, usize>) -> String {
-    let all: usize = counts.values().sum();
-    let Some((name, count)) = counts.iter().max_by_key(|(_, count)| **count) else {
-        return format!("# control = \"{}\"", gcheck_controls::fallback());
-    };
-    if count * 10 >= all * 9 {
+    if let Some((name, count)) = agreed(counts) {
         return format!("control = \"{name}\"  # detected from {count} of the programs here");
     }
+    let Some((name, _)) = counts.iter().max_by_key(|(_, count)| **count) else {
+        return format!("# control = \"{}\"", gcheck_controls::fallback());
+    };
     let mut counts: Vec<(&String, &usize)> = counts.iter().collect();
     counts.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
     let list: Vec<String> = counts.iter().map(|(name, count)| format!("{name} ({count})")).collect();

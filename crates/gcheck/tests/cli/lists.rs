@@ -163,7 +163,12 @@ fn controls_are_listed() {
 fn init_writes_a_configuration_that_is_valid() {
     let shop = Shop::with(&[("part.nc", "%\nO0001 (PART FOR HAAS VF-2)\nM30\n%\n")]);
     let run = shop.gcheck("init");
-    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "wrote gcheck.toml\n", ""));
+    expect![[r#"
+        wrote gcheck.toml: the control is haas-mill, detected from 1 program
+        next: `gcheck check`
+        exit 0
+    "#]]
+    .assert_eq(&run.to_string());
     assert!(
         shop.read("gcheck.toml")
             .contains("\ncontrol = \"haas-mill\"  # detected from 1 of the programs here\n")
@@ -182,7 +187,12 @@ fn init_chooses_no_control_for_a_mixed_folder() {
         ("b.nc", "%\nO0002 (PART FOR HAAS VF-2)\nM30\n%\n"),
         ("c.ngc", "o<sub> sub\n#<_x> = 1\no<sub> endsub\nM2\n"),
     ]);
-    assert_eq!(shop.gcheck("init").code, 0);
+    let run = shop.gcheck("init");
+    assert_eq!(
+        run.stdout.lines().next(),
+        Some("wrote gcheck.toml: the programs here look like those of several controls, and it lists them"),
+        "{run}"
+    );
     let text = shop.read("gcheck.toml");
     assert!(text.contains("# The programs here look like several: haas-mill (2), linuxcnc (1).\n"), "{text}");
     assert!(text.contains("\n# control = \"haas-mill\"\n"), "{text}");

@@ -153,19 +153,124 @@ fn quiet_says_findings_only() {
 }
 
 #[test]
-fn statistics_count_by_rule() {
+fn statistics_are_counts_alone() {
     let shop = Shop::with(&[("a.nc", BAD), ("b.nc", BAD), ("c.nc", WARNED)]);
-    let run = shop.gcheck("check --control haas-mill --statistics --output-format concise");
+    let run = shop.gcheck("check --control haas-mill --statistics");
     expect![[r#"
-        a.nc and 2 more files: control haas-mill, set by `--control`
-        2  unknown-code           code that the control does not have
-        1  missing-decimal-point  no decimal point where the control counts least increments
+        findings  files  fixable  severity  rule
+               2      2           error     unknown-code           code that the control does not have
+               1      1           warning   missing-decimal-point  no decimal point where the control counts least increments
         2 errors, 1 warning in 3 files (15 lines)
+        ! a.nc and 2 more files: control haas-mill, set by `--control`
+        exit 1
     "#]]
-    .assert_eq(&run.stderr);
-    let run = shop.gcheck("check --control haas-mill --statistics --output-format json");
-    assert_eq!(run.json()["summary"]["errors"], 2, "the document stays whole");
-    assert!(run.stderr.contains("2  unknown-code"), "{run}");
+    .assert_eq(&run.to_string());
+    let concise = shop.gcheck("check --control haas-mill --statistics --output-format concise -o counts.txt");
+    assert_eq!((concise.code, concise.stdout.as_str()), (1, ""), "{concise}");
+    assert!(run.stdout.starts_with(&shop.read("counts.txt")), "a file takes them as well");
+}
+
+#[test]
+fn a_summary_has_the_worst_file_first() {
+    let shop = Shop::with(&[("a.nc", WARNED), ("b.nc", GOOD), ("c.nc", BAD)]);
+    let run = shop.gcheck("check --control haas-mill --summary");
+    expect![[r#"
+        errors  warnings  infos  hints  file
+             1         0      0      0  c.nc
+             0         1      0      0  a.nc
+        1 error, 1 warning in 3 files (16 lines)
+        ! a.nc and 2 more files: control haas-mill, set by `--control`
+        exit 1
+    "#]]
+    .assert_eq(&run.to_string());
+    let both =
+        shop.gcheck("check --control haas-mill --summary --statistics --quiet --output-format grouped");
+    expect![[r#"
+        findings  files  fixable  severity  rule
+               1      1           warning   missing-decimal-point  no decimal point where the control counts least increments
+               1      1           error     unknown-code           code that the control does not have
+
+        errors  warnings  infos  hints  file
+             1         0      0      0  c.nc
+             0         1      0      0  a.nc
+        exit 1
+    "#]]
+    .assert_eq(&both.to_string());
+}
+
+#[test]
+fn counts_leave_formats_for_programs_whole() {
+    let shop = Shop::with(&[("a.nc", BAD)]);
+    for format in ["json", "jsonl", "sarif", "github", "gitlab", "checkstyle", "junit", "rdjson", "azure"] {
+        let run = |counts: &str| {
+            shop.gcheck(&format!("check --control haas-mill --quiet {counts} --output-format {format}"))
+        };
+        let counted = run("--statistics --summary");
+        assert_eq!(counted.stdout, run("").stdout, "{format}");
+        assert!(counted.stderr.contains("unknown-code") && counted.stderr.contains("a.nc"), "{counted}");
+    }
+    let run = shop.gcheck("check --control haas-mill --quiet --statistics -o concise=all.txt");
+    assert!(shop.read("all.txt").starts_with("a.nc:3:1: error[unknown-code]"), "{run}");
+}
+
+#[test]
+fn repeats_are_folded_and_everything_is_shown_on_request() {
+    let program = format!("%\nO0001\n{}M30\n%\n", "G999\n".repeat(1_198));
+    let shop = Shop::with(&[("part.nc", &program)]);
+    let check = "check --control haas-mill --select unknown-code";
+    let run = shop.gcheck(&format!("{check} --output-format concise"));
+    expect![[r#"
+        part.nc:3:1: error[unknown-code] unknown code `G999`
+        part.nc:4:1: error[unknown-code] unknown code `G999`
+        part.nc:5:1: error[unknown-code] unknown code `G999`
+        part.nc:6:1: error[unknown-code] unknown code `G999`
+        part.nc:7:1: error[unknown-code] unknown code `G999`
+        part.nc:8:1: error[unknown-code] … and 1,193 more, lines 8 to 1,200
+        ! part.nc: control haas-mill, set by `--control`
+        ! 1,198 errors in 1 file (1,202 lines)
+        ! repeats are folded: `--show-all` shows every finding, `--statistics` counts them
+        exit 1
+    "#]]
+    .assert_eq(&run.to_string());
+    let full = shop.gcheck(check);
+    assert_eq!(full.stdout.matches("error[unknown-code]: unknown code").count(), 5, "{full}");
+    assert!(
+        full.stdout.contains("error[unknown-code]: … and 1,193 more in part.nc, lines 8 to 1,200\n"),
+        "{full}"
+    );
+    let whole = shop.gcheck(&format!("{check} --show-all --output-format concise"));
+    assert_eq!(whole.stdout.lines().count(), 1_198);
+    assert!(!whole.stderr.contains("folded"), "{}", whole.stderr);
+}
+
+#[test]
+fn a_check_ends_with_what_to_do_next() {
+    let shop = Shop::with(&[("part.nc", WARNED), ("open.nc", "%\nO0001 (PART\nG21 G90 G17\nM30\n%\n")]);
+    for number in 0..25 {
+        shop.file(&format!("old/{number}.nc"), format!("%\nO0001\n{}M30\n%\n", "G999\n".repeat(4)));
+    }
+    let last = |arguments: &str| {
+        let stdout = shop.gcheck(&format!("check {arguments}")).stdout;
+        format!("{}\n", stdout.lines().last().unwrap_or_default())
+    };
+    let said = [
+        "part.nc --control haas-mill",
+        "part.nc --extend-select house-style",
+        "open.nc --control haas-mill",
+        "old --control haas-mill",
+    ]
+    .map(last);
+    expect![[r#"
+        1 warning in 1 file (5 lines)
+        nothing shows which control runs a program: name it with `--control` (`gcheck controls` lists them) or in a `gcheck.toml` (`gcheck init`)
+        1 finding has a fix that changes no move: `--diff` shows, `--fix` applies
+        old programs: `--baseline gcheck-baseline.json --update-baseline` accepts what is found today, and later checks with that baseline show only what is new
+    "#]]
+    .assert_eq(&said.concat());
+    let run = shop.gcheck("check --control haas-mill old --quiet --output-format concise");
+    assert_eq!(run.stderr, "", "who asks for findings alone gets no advice");
+    let run = shop.gcheck("check old part.nc open.nc --output-format json");
+    assert_eq!(run.stderr, "", "nor does a program");
 }
 
 #[test]
@@ -191,7 +296,7 @@ fn a_thousand_findings() {
         1_000 - json["summary"]["omitted"].as_u64().unwrap()
     );
     let run = shop.gcheck("check --control haas-mill --select unknown-code --statistics");
-    assert!(run.stdout.contains("1,000  unknown-code"));
+    assert!(run.stdout.contains("   1,000      1           error     unknown-code"), "{run}");
     assert!(run.stdout.contains("1,000 errors in 1 file"));
 }
 
@@ -268,8 +373,7 @@ fn a_thousand_files_with_a_thousand_findings() {
     for number in 0..1_000 {
         shop.file(&format!("{number:03}.nc"), &program);
     }
-    let arguments =
-        "check --control haas-mill --select unknown-code -o concise=findings.txt --output-format junit";
+    let arguments = "check --control haas-mill --select unknown-code -o concise=findings.txt --show-all --output-format junit";
     let run = |jobs: usize| {
         // Half a gigabyte is more than it takes, and half of what all findings would.
         let mut command = shop.command();

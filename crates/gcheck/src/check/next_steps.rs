@@ -1,0 +1,54 @@
+//! What a check suggests to do next, after its last line.
+//!
+//! Knows: which option helps when. Must not know: how findings look.
+
+use std::fmt::Write as _;
+
+use gcheck_report::Report;
+
+use crate::args::CheckOptions;
+
+/// From so many files and findings on a folder is one of old programs, for which there is the baseline.
+const MANY_FILES: usize = 20;
+const MANY_FINDINGS: usize = 100;
+
+/// A line for each suggestion; empty when there is none.
+pub(super) fn after(report: &Report, options: &CheckOptions) -> String {
+    let mut text = String::new();
+    let shows_findings = !(options.statistics || options.summary);
+    // Writing into a string does not fail.
+    if shows_findings && gcheck_report::folded(report) > 0 {
+        let _ = writeln!(
+            text,
+            "repeats are folded: `--show-all` shows every finding, `--statistics` counts them"
+        );
+    }
+    let by_default = report.files_by_default();
+    if by_default > 0 {
+        let these = if by_default == 1 { "a program".to_owned() } else { format!("{by_default} programs") };
+        let _ = writeln!(
+            text,
+            "nothing shows which control runs {these}: name it with `--control` (`gcheck controls` lists them) or \
+             in a `gcheck.toml` (`gcheck init`)"
+        );
+    }
+    let fixable = report.fixable();
+    if fixable > 0 && !options.fix {
+        let these = if fixable == 1 {
+            "1 finding has a fix that changes".to_owned()
+        } else {
+            format!("{fixable} findings have fixes that change")
+        };
+        let _ = writeln!(text, "{these} no move: `--diff` shows, `--fix` applies");
+    }
+    let summary = report.summary();
+    let findings = summary.errors + summary.warnings + summary.infos + summary.hints;
+    if options.baseline.is_none() && summary.files >= MANY_FILES && findings >= MANY_FINDINGS {
+        let _ = writeln!(
+            text,
+            "old programs: `--baseline gcheck-baseline.json --update-baseline` accepts what is found today, and later \
+             checks with that baseline show only what is new"
+        );
+    }
+    text
+}
