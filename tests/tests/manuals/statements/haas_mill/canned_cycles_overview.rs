@@ -188,8 +188,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 146",
-            "G84 taps right-hand threads: the spindle turns clockwise in and the other way out; G74 taps left-hand threads.",
-            "effects of `G84`, `G74`; rule tap-in-wrong-direction",
+            "G84 taps right-hand threads, G74 left-hand threads: so the spindle turns clockwise into the hole for the one, the other way for the other, and out again in reverse.",
+            "effects of `G84`, `G74`",
             &[
                 run(
                     "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nS500\nG84 X1. Z-.5 R.1 F25.\nG80\nM30\n",
@@ -262,7 +262,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 147",
-            "G77 moves off, goes through the hole, comes back to its axis and bores from below.",
+            "G77 moves the tool off the wall before it goes down into the hole, then bores to depth.",
             "effect of `G77`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nS500 M3\nG98 G77 X1. Z-.5 R-1. I.02 J0. F10.\nG80\nM30\n",

@@ -151,8 +151,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         gap(
             "p. 137, 140",
-            "A program may not end by M30 or M2, nor stop by M0 or M1, with compensation on: it raises an alarm.",
-            "error[compensation-left-on] at M30, M2 and M0 (alarm 349), a warning at M1, which stops only with OPT STOP on; no note may say that the end switches it off",
+            "A program may not end by M30, M2, M0 or M1 with compensation on; one that is terminated so raises an alarm.",
+            "error[compensation-left-on] at M30, M2 and M0 (the alarm is 349 as far as other books tell; this manual gives no number), a warning at M1, which stops only with OPT STOP on; no note may say that the end switches it off",
             &[
                 rule_told(
                     "error[compensation-left-on]",

@@ -146,7 +146,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         not_modelled(
             "p. 188",
-            "Setting 85 is 0.05 for 5-axis work; smaller values come near to an exact stop.",
+            "Setting 85 should be 0.05 for 5-axis cutting; smaller values come nearer to an exact stop and make the motion uneven.",
             "corner rounding is below what runs and plots show",
         ),
         gap(

@@ -1,9 +1,11 @@
 //! G74, G76, G77, G84 to G86, G89, G174 and G184 (p. 288 to 292, 298 to 302, 334): the sentences of these pages and
 //! what proves them.
 //!
-//! Of G77 the manual says that the tool moves by Q in the direction of Setting 27 when it has reached R, and back
-//! towards the centre after the cut. Both readings of that (it enters on the centre, or off it as G76 leaves) share
-//! the levels and the length of the shifts, which is what the proofs assert.
+//! Of G77 the manual says three things: the shift comes before the cut and after it, so that the tool clears the hole on
+//! its way in and out (p. 147, 291); Setting 27 is the direction that clears the tool (p. 377); and, in an example, the
+//! tool moves by Q when it has reached R and back towards the centre after the cut (p. 292). The first two are taken: the
+//! tool is off the axis on its way through the hole and cuts on it. Taken at its word, the example would cut Q off the
+//! axis of the hole.
 //!
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
@@ -330,16 +332,25 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 291, p. 292",
-            "G77 goes down to R below the part, shifts by Q, feeds up to Z, shifts again and comes out.",
+            "G77 shifts by Q before it goes in and again after the cut, to clear the tool both ways; the cut goes from R, past the bottom of the part, up to Z. (The example shifts at R and back towards the centre after the cut, which would put the cut off the hole's axis.)",
             "effect `cycle-back-bore`",
-            &[Run {
+            &[Makes {
                 program: cut!("G77 Z-.5 R-1.6 Q.1 F10.\n").with(&["settings.27=\"x+\""]),
-                prints: &[
-                    "rapid",
-                    "-1.6000",
-                    "feed 0.0000 0.0000 -0.5000 10",
-                    "rapid 0.1000 0.0000 -0.5000",
-                    "rapid 0.1000 0.0000 0.1000",
+                block: "G77 Z-.5 R-1.6 Q.1 F10.",
+                events: &[
+                    "spindle stop",
+                    "spindle orient",
+                    "rapid X0.1",
+                    "rapid Z-1.6",
+                    "rapid X0",
+                    "spindle clockwise",
+                    "feed Z-0.5 F10",
+                    "spindle stop",
+                    "spindle orient",
+                    "rapid X0.1",
+                    "rapid Z0.1",
+                    "rapid X0",
+                    "spindle clockwise",
                 ],
             }],
         ),
@@ -488,11 +499,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "p. 334",
             "The control starts the spindle for G174 and G184.",
             "effect `tap-here`",
-            &[Legal {
-                program: mill(
-                    "%\nO1 (A)\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y0.\nG43 H1 Z.1\nG184 Z-.6 F20. S400\nG28 G91 Z0.\nG90\nM30\n%\n",
-                ),
-            }],
+            &[
+                Legal {
+                    program: mill(
+                        "%\nO1 (A)\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y0.\nG43 H1 Z.1\nG184 Z-.6 F20. S400\nG28 G91 Z0.\nG90\nM30\n%\n",
+                    ),
+                },
+                Legal {
+                    program: mill(
+                        "%\nO1 (A)\nG20 G17 G40 G49 G80 G90\nT1 M6\nG0 G54 X0. Y0.\nG43 H1 Z.1\nG174 Z-.6 F20. S400\nG28 G91 Z0.\nG90\nM30\n%\n",
+                    ),
+                },
+            ],
         ),
     ],
 };

@@ -441,7 +441,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         gap(
             "p. 285",
-            "Compensation within rotation follows the turned path.",
+            "Compensation goes on after rotation and off before it: in between it acts on the turned path (the manual gives the order only).",
             "rotation and cutter compensation together: at present the compensated path is not turned at all",
             &[
                 Makes {

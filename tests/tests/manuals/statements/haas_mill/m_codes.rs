@@ -33,10 +33,13 @@ pub(crate) const CHAPTER: Chapter = Chapter {
     file: "haas_mill/m_codes.rs",
     statements: &[
         held(
-            "p. 345",
-            "M codes move no axis.",
+            "p. 345, p. 349",
+            "M codes move no axis, but M06 moves Z to where tools are changed.",
             "effects of M codes",
-            &[Makes { program: cut!("M8\nG0 X1.\n"), block: "M8", events: &["coolant flood-on"] }],
+            &[
+                Makes { program: cut!("M8\nG0 X1.\n"), block: "M8", events: &["coolant flood-on"] },
+                Makes { program: cut!("M5\nG0 X1.\n"), block: "M5", events: &["spindle stop"] },
+            ],
         ),
         held(
             "p. 345",
@@ -408,7 +411,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         not_modelled(
             "p. 276, p. 352",
-            "Whether M30 cancels the tool length depends on the software.",
+            "M30 cancels the tool length, but no longer from software 100.16.000.1041 on.",
             "a program that begins with G43 does not depend on it; `tool-length-missing` speaks of one that does not",
         ),
         held(
@@ -768,11 +771,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "p. 361",
             "Numbers between the two ranges are no variables of M109.",
             "P550 to P10499 are refused: error",
-            &[Rule {
-                finding: "error[number-out-of-range]",
-                violates: short!("M109 P550\nM30\n"),
-                conforms: short!("M109 P549\nM30\n"),
-            }],
+            &[
+                Rule {
+                    finding: "error[number-out-of-range]",
+                    violates: short!("M109 P550\nM30\n"),
+                    conforms: short!("M109 P549\nM30\n"),
+                },
+                Rule {
+                    finding: "error[number-out-of-range]",
+                    violates: short!("M109 P10499\nM30\n"),
+                    conforms: short!("M109 P10500\nM30\n"),
+                },
+            ],
         ),
         gap(
             "p. 361",

@@ -488,7 +488,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 203, 216",
+            "p. 203, 215",
             "#6198 can only be read and tells the control's generation.",
             "variable 6198",
             &[

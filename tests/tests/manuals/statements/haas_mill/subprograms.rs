@@ -204,7 +204,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 152",
-            "Local subprograms are written after M30, so that the program does not run into them.",
+            "The main program ends with M30, and local subprograms are written after it.",
             "rule fall-into-subprogram",
             &[rule(
                 "warning[fall-into-subprogram]",

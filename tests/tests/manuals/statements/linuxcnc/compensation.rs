@@ -375,12 +375,19 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#cha:important-user-concepts",
-        "A straight slot narrower than the cutter is not found: each wall is judged alone",
-        "`[semantics.compensation]`",
-        &[runs(
-            "G17 G21 G90\nF100\nG0 X0 Y0\nG41.1 D12\nG1 X20\nX40\nX60 Y20\nX80\nG40\nG1 X120 Y60\nM2\n",
-            &["STRAIGHT_FEED("],
-        )],
+        "Each move is judged against the two beside it: a slot whose walls and bottom follow each other is refused when it is narrower than the cutter; a neck whose walls do not follow each other is not found",
+        "`[semantics.compensation]`, rule compensation-gouge",
+        &[
+            refused(
+                "error[compensation-gouge]",
+                "G17 G21 G90\nF100\nG0 X-20 Y20\nG41.1 D12\nG1 X-20 Y0\nX40\nY-30\nX46\nY0\nX80\nG40\nG1 X120 Y60\nM2\n",
+                "G17 G21 G90\nF100\nG0 X-20 Y20\nG41.1 D4\nG1 X-20 Y0\nX40\nY-30\nX46\nY0\nX80\nG40\nG1 X120 Y60\nM2\n",
+            ),
+            runs(
+                "G17 G21 G90\nF100\nG0 X-20 Y20\nG41.1 D12\nG1 X-20 Y0\nX40\nY-30\nX20\nY-60\nX66\nY-30\nX46\nY0\nX80\nG40\nG1 X120 Y60\nM2\n",
+                &["STRAIGHT_FEED(46.0000, -30.0000", "STRAIGHT_FEED(40.0000, 0.0000"],
+            ),
+        ],
     ),
     held(
         "#sec:cutter-radius-compensation",

@@ -140,13 +140,16 @@ const STATEMENTS: &[Statement] = &[
         )],
     ),
     held(
-        "#gcode:g54-g59.3",
-        "Choosing a system moves nothing; the position reads anew",
+        "#cha:coordinate-system",
+        "Choosing a system shifts the zero for the moves that follow; the block itself moves nothing (interpreter 2.9)",
         "effect `work-offset`",
-        &[runs(
-            "G10 L2 P2 X3\nG0 X10\nG55\nG0 Y#5420\nM2\n",
-            &["STRAIGHT_TRAVERSE(10.0000", "STRAIGHT_TRAVERSE(7.0000, 7.0000"],
-        )],
+        &[
+            runs(
+                "G10 L2 P2 X3\nG0 X10\nG55\nG0 Y#5420\nM2\n",
+                &["STRAIGHT_TRAVERSE(10.0000", "STRAIGHT_TRAVERSE(7.0000, 7.0000"],
+            ),
+            Proof::Moves { program: ngc("G21 G90\nG10 L2 P2 X3\nG0 X10\nG55\nM2\n"), are: &["rapid X10."] },
+        ],
     ),
     held(
         "#gcode:g54-g59.3",

@@ -137,7 +137,7 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#gcode:numbers",
-        "A point changes no value: 5 is 5.",
+        "A point changes no value: X6. is X6",
         "`unpointed = \"as-written\"`",
         &[runs("G0 X5\nX6.\nM2\n", &["STRAIGHT_TRAVERSE(5.0000", "STRAIGHT_TRAVERSE(6.0000"])],
     ),

@@ -74,7 +74,7 @@ const STATEMENTS: &[Statement] = &[
     ),
     unmodelled(
         "#gcode:g64",
-        "Moves closer to a line than Q are joined into one, short arcs too",
+        "Straight feed moves in X, Y and Z at one feed that lie closer to a line than Q are joined into one; an arc in G17 that lies closer to a line than P becomes two lines before that",
         "the canonical functions are those of the program; the planner joins them afterwards",
     ),
     held(
@@ -220,7 +220,7 @@ const STATEMENTS: &[Statement] = &[
         ],
     ),
     held(
-        "#gcode:g93-g94-g95",
+        "#gcode:g93-g94-g95, #sub:feed-rate",
         "Under G94 F is units a minute, or degrees where only rotary axes move",
         "effect `feed-per-minute`",
         &[

@@ -90,8 +90,8 @@ const STATEMENTS: &[Statement] = &[
         )],
     ),
     held(
-        "#gcode:g38",
-        "#5021 to #5029 less #5420 to #5428 lead from work to machine coordinates, says the documentation; #5021 is not in the interpreter of 2.9",
+        "#gcode:probe-machine-coordinates",
+        "#5021 to #5029 less #5420 to #5428 lead from work to machine coordinates while nothing is rotated, by the documentation; #5021 reads 0 in the interpreter of 2.9",
         "variables `5021` to `5029`",
         &[runs("G0 X5\nG0 Y#5021\nM2\n", &["STRAIGHT_TRAVERSE(5.0000, 0.0000"])],
     ),

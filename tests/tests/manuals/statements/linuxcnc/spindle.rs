@@ -82,10 +82,11 @@ const STATEMENTS: &[Statement] = &[
         &[legal("S100 M3\nM3\nM4\nM5\nM5\nM2\n")],
     ),
     held(
-        "#mcode:m3-m4-m5",
-        "M3 with M4, M5 or M19 in one block is refused",
+        "#tbl:mcodes-modal-groups, #mcode:m19",
+        "M3 with M4, M5 or M19 in one block is refused: they are one modal group",
         "rule `two-codes-of-one-group`",
         &[
+            refused("error[two-codes-of-one-group]", "S1 M3 M4\nM2\n", "S1 M3\nM4\nM2\n"),
             refused("error[two-codes-of-one-group]", "S1 M3 M5\nM2\n", "S1 M3\nM5\nM2\n"),
             refused("error[two-codes-of-one-group]", "S1 M3 M19 R5\nM2\n", "S1 M3\nM19 R5\nM2\n"),
         ],

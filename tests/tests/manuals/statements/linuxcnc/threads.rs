@@ -65,9 +65,13 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#gcode:g33",
-        "$ chooses the spindle, 0 without it",
+        "$ chooses the spindle, 0 without it; a machine with one spindle refuses $1 (interpreter 2.9)",
         "words of `G33`",
-        &[runs("S100 M3\nG33 Z-2 K1 $0\nM2\n", &["START_SPEED_FEED_SYNC(1.000000, 0)"])],
+        &[
+            runs("S100 M3\nG33 Z-2 K1\nM2\n", &["START_SPEED_FEED_SYNC(1.000000, 0)"]),
+            runs("S100 M3\nG33 Z-2 K1 $0\nM2\n", &["START_SPEED_FEED_SYNC(1.000000, 0)"]),
+            stops("S100 M3\nG33 Z-2 K1 $1\nM2\n"),
+        ],
     ),
     gap(
         "#gcode:g33",

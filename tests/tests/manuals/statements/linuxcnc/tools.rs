@@ -171,7 +171,7 @@ const STATEMENTS: &[Statement] = &[
     unmodelled("#sub:tool-io", "Signals between changer and control", "hardware"),
     held(
         "#mcode:m61",
-        "M61 Q makes Q the number of the tool in the spindle without a change",
+        "M61 Q makes Q the number of the tool in the spindle without a change; meant for MDI and manual mode, it works in a program as well (interpreter 2.9)",
         "effect `set-tool-number`",
         &[
             runs("M61 Q2\nM2\n", &["CHANGE_TOOL_NUMBER(2)"]),

@@ -344,10 +344,13 @@ const STATEMENTS: &[Statement] = &[
     held(
         "#cha:lathe-user-information",
         "Arcs in ZX take I along X and K along Z, and G2 and G3 turn as seen along Y: for a tool before the centre they look exchanged",
-        "effect `arc-clockwise`",
+        "effects `arc-clockwise`, `arc-counter-clockwise`",
         &[runs(
-            "G18 G0 X10 Z0\nF10 G2 X12 Z-2 I2\nM2\n",
-            &["ARC_FEED(-2.0000, 12.0000, 0.0000, 12.0000, -1"],
+            "G18 G0 X10 Z0\nF10 G2 X12 Z-2 I2\nG3 X14 Z-4 K-2\nM2\n",
+            &[
+                "ARC_FEED(-2.0000, 12.0000, 0.0000, 12.0000, -1",
+                "ARC_FEED(-4.0000, 14.0000, -4.0000, 12.0000, 1",
+            ],
         )],
     ),
     held(
@@ -373,7 +376,7 @@ const STATEMENTS: &[Statement] = &[
     unmodelled("#cha:lathe-user-information", "`LATHE = TRUE` changes the display", "user interface"),
     gap(
         "#gcode:g71-g72",
-        "Layers of a turning cycle are no holes",
+        "The cycles remove layers of material: none of them is a hole",
         "`stats` counts no holes for G70 to G72 (it counts each layer as one today)",
         &[Proof::Stats {
             program: ngc(
