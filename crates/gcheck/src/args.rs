@@ -422,7 +422,8 @@ pub enum ListFormat {
 
 /// Reads the name of a format; help and completions list them.
 fn format() -> impl TypedValueParser<Value = Format> {
-    PossibleValuesParser::new(Format::ALL.map(Format::name)).map(|name| Format::parse(&name).unwrap_or_default())
+    PossibleValuesParser::new(Format::ALL.map(Format::name))
+        .map(|name| Format::parse(&name).unwrap_or_default())
 }
 
 /// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is not a format belongs to the file's name.
