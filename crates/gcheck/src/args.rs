@@ -5,6 +5,7 @@
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use gcheck_diagnostics::Severity;
 use gcheck_format::Numbering;
@@ -145,7 +146,7 @@ pub struct CheckOptions {
     #[arg(long, value_name = "N")]
     pub max_warnings: Option<usize>,
     /// How findings are printed
-    #[arg(long, value_parser = format, default_value = "full", env = "GCHECK_OUTPUT_FORMAT", value_name = "FORMAT")]
+    #[arg(long, value_parser = format(), default_value = "full", env = "GCHECK_OUTPUT_FORMAT", value_name = "FORMAT")]
     pub output_format: Format,
     /// Write to this file instead of standard output; with a format before it, besides (may be repeated):
     /// `-o sarif=gcheck.sarif -o junit=gcheck.xml`
@@ -445,11 +446,10 @@ pub enum ListFormat {
     Json,
 }
 
-fn format(name: &str) -> Result<Format, String> {
-    Format::parse(name).ok_or_else(|| {
-        let names: Vec<&str> = Format::ALL.iter().map(|f| f.name()).collect();
-        format!("there are {}", names.join(", "))
-    })
+/// Reads the name of a format; help and completions list them.
+fn format() -> impl TypedValueParser<Value = Format> {
+    PossibleValuesParser::new(Format::ALL.map(Format::name))
+        .map(|name| Format::parse(&name).unwrap_or_default())
 }
 
 /// Reads `FILE` or `FORMAT=FILE`; a name before `=` that is not a format belongs to the file's name.

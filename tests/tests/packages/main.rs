@@ -5,7 +5,7 @@
 //! take minutes.
 
 #![cfg(target_os = "linux")]
-#![expect(clippy::unwrap_used, clippy::expect_used, reason = "a test that meets the unexpected is to fail")]
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 #![expect(clippy::print_stderr, reason = "what was passed over")]
 
 mod place;
@@ -37,13 +37,13 @@ fn pip_installs_the_wheel_and_takes_it_away_again() {
     if !place.has_environment() {
         return;
     }
-    place.runs("venv/bin/python", &["-m", "pip", "install", "--quiet", "--no-index", &package.name]);
+    place.pip(&["install", "--quiet", "--no-index", &package.name]);
     place.works(&["venv/bin/gcheck"]);
     place.works(&["venv/bin/python", "-m", "gcheck"]);
-    place.runs("venv/bin/python", &["-m", "pip", "check"]);
-    let shown = place.runs("venv/bin/python", &["-m", "pip", "show", "gcheck"]);
+    place.pip(&["check"]);
+    let shown = place.pip(&["show", "gcheck"]);
     assert!(shown.contains(&format!("Version: {VERSION}")), "{shown}");
-    place.runs("venv/bin/python", &["-m", "pip", "uninstall", "--quiet", "--yes", "gcheck"]);
+    place.pip(&["uninstall", "--quiet", "--yes", "gcheck"]);
     assert!(!place.path("venv/bin/gcheck").exists());
 }
 
@@ -54,7 +54,7 @@ fn a_published_wheel_installs_on_every_linux_of_its_processor() {
     assert!(package.name.contains("manylinux") && package.name.contains("musllinux"), "{}", package.name);
     let place = Place::with(std::slice::from_ref(&package));
     if place.has_environment() {
-        place.runs("venv/bin/python", &["-m", "pip", "install", "--quiet", "--no-index", &package.name]);
+        place.pip(&["install", "--quiet", "--no-index", &package.name]);
         place.works(&["venv/bin/gcheck"]);
     }
 }
@@ -66,7 +66,7 @@ fn a_wheel_whose_binary_cannot_run_says_so() {
     if !place.has_environment() {
         return;
     }
-    place.runs("venv/bin/python", &["-m", "pip", "install", "--quiet", "--no-index", &package.name]);
+    place.pip(&["install", "--quiet", "--no-index", &package.name]);
     fs::set_permissions(place.path("venv/bin/gcheck"), fs::Permissions::from_mode(0o644)).unwrap();
     let (code, said) = place.run("venv/bin/python", &["-m", "gcheck", "--version"]);
     assert_eq!(code, 1, "{said}");
@@ -76,7 +76,7 @@ fn a_wheel_whose_binary_cannot_run_says_so() {
     );
 }
 
-/// pre-commit installs the repository of a hook with pip; here the wheel comes from a folder in place of PyPI.
+/// pre-commit installs the repository of a hook with pip; here the wheel comes from a folder in place of a registry.
 #[test]
 fn the_hook_of_pre_commit_installs_the_wheel_of_its_version() {
     let file = |name: &str| Package {
@@ -88,8 +88,7 @@ fn the_hook_of_pre_commit_installs_the_wheel_of_its_version() {
     if !place.has_environment() {
         return;
     }
-    let install = ["-m", "pip", "install", "--quiet", "--no-index", "--find-links", ".", "./hook"];
-    place.runs("venv/bin/python", &install);
+    place.pip(&["install", "--quiet", "--no-index", "--find-links", ".", "./hook"]);
     place.works(&["venv/bin/gcheck"]);
 }
 

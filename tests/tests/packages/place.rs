@@ -154,13 +154,20 @@ impl Place {
         has
     }
 
-    /// Makes a virtual environment, where Python can.
+    /// Makes a virtual environment, where Python can. It has no pip of its own: that would take seconds.
     pub(crate) fn has_environment(&self) -> bool {
-        let has = self.has("python3") && self.run("python3", &["-m", "venv", "venv"]).0 == 0;
+        let has = self.has("python3")
+            && self.run("python3", &["-m", "venv", "--without-pip", "venv"]).0 == 0
+            && self.run("python3", &["-m", "pip", "--python", "venv/bin/python", "--version"]).0 == 0;
         if !has {
-            eprintln!("passed over: python3 cannot make a virtual environment (Debian: python3-venv)");
+            eprintln!("passed over: python3 has no pip from 22.3 on, or no virtual environments");
         }
         has
+    }
+
+    /// Runs pip on the virtual environment.
+    pub(crate) fn pip(&self, arguments: &[&str]) -> String {
+        self.runs("python3", &[&["-m", "pip", "--python", "venv/bin/python"], arguments].concat())
     }
 
     /// Installs tarballs with npm and no registry.

@@ -63,7 +63,8 @@ fn remark(counts: &BTreeMap<String, usize>) -> String {
         Some((name, 1)) => format!("the control is {name}, detected from 1 program"),
         Some((name, count)) => format!("the control is {name}, detected from {count} programs"),
         None if counts.is_empty() => {
-            "write the control into it, because no program here shows one (`gcheck controls` lists them)".to_owned()
+            "write the control into it, because no program here shows one (`gcheck controls` lists them)"
+                .to_owned()
         }
         None => "the programs here look like those of several controls, and it lists them".to_owned(),
     }

@@ -515,7 +515,8 @@ fn wrong_arguments() {
     check_arguments(
         "check --output-format xml",
         &expect![[r#"
-            ! error: invalid value 'xml' for '--output-format <FORMAT>': there are full, concise, grouped, json, jsonl, sarif, github, gitlab, checkstyle, junit, rdjson, azure
+            ! error: invalid value 'xml' for '--output-format <FORMAT>'
+            !   [possible values: full, concise, grouped, json, jsonl, sarif, github, gitlab, checkstyle, junit, rdjson, azure]
             ! 
             ! For more information, try '--help'.
             exit 2

@@ -19,6 +19,7 @@ mod control;
 mod determinism;
 mod diff;
 mod exit_codes;
+mod first_minutes;
 mod fixes;
 mod formats;
 mod formatting;

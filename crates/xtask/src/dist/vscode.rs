@@ -25,7 +25,7 @@ pub(super) fn extension(work: &Path) -> anyhow::Result<Vec<u8>> {
     let packed = work.join("gcheck-vscode-without-server.vsix");
     let out = packed.display().to_string();
     let vsce = modules.join("@vscode/vsce/vsce").display().to_string();
-    run(&folder, "node", &[&vsce, "package", "--no-dependencies", "--out", &out])?;
+    run(&folder, "node", &[&vsce, "package", "--no-dependencies", "--skip-license", "--out", &out])?;
     let bytes = fs::read(&packed).with_context(|| packed.display().to_string())?;
     fs::remove_file(&packed)?;
     Ok(bytes)
