@@ -1,7 +1,7 @@
 //! All paths of a program: what may be active before every block, and which blocks can be reached.
 //!
-//! Knows: exact execution while every condition is known, forks, joins, widening, fuel. Must not know: what blocks do (`step`),
-//! findings.
+//! Knows: exact execution while every condition is known, forks, joins, widening, the budget. Must not know: what blocks do
+//! (`step`), findings.
 //!
 //! There is always a set of pending states, each at a block. As long as it holds one state only, the program is executed
 //! exactly as a run would, loops turn by turn, and what is seen holds on every path (*solo*). A condition that nobody knows
@@ -10,18 +10,27 @@
 //!
 //! Observers see every block once for each stretch with its final state: what happens between a fork and its end is executed
 //! silently until nothing changes, then shown.
+//!
+//! Time and memory follow the text, not the running time of the program: work is counted and limited ([`Budget`]), states that
+//! wait or that later ones are compared with are counted and limited, and what a call needed goes when it returns. A limit that
+//! is reached is named in the result ([`GivenUp`]).
 
+mod budget;
 mod checkpoint;
+mod heads;
 mod marks;
 mod trace;
 
-use std::collections::BTreeSet;
+use std::cmp::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 use std::rc::Rc;
 
 use rustc_hash::FxHashMap;
 
+pub use budget::{Budget, GivenUp, Limit};
 pub use checkpoint::{Checkpoint, Leg};
+use heads::Heads;
 use marks::Marks;
 pub use trace::{Decision, Fact, Facts, Trace};
 
@@ -124,22 +133,27 @@ pub enum Reach {
 pub struct FlowResult {
     reached: Marks,
     always: Marks,
-    /// The fuel ran out, so what was not seen may still be reached.
-    pub out_of_fuel: bool,
-    /// Blocks executed.
-    pub blocks: u64,
+    /// Where it was given up: what was not seen may still be reached.
+    pub given_up: Vec<GivenUp>,
+    /// What it cost, in blocks executed; copies, joins and comparisons of states count as blocks, too.
+    pub work: u64,
     /// What it rests on.
     pub assumptions: BTreeSet<Assumption>,
 }
 
 impl FlowResult {
+    /// Did it end before it had seen all paths?
+    pub fn is_incomplete(&self) -> bool {
+        !self.given_up.is_empty()
+    }
+
     /// Whether a block can be reached.
     pub fn reach(&self, at: At) -> Reach {
         if self.always.contains(at) {
             Reach::Always
         } else if self.reached.contains(at) {
             Reach::Some
-        } else if self.out_of_fuel {
+        } else if self.is_incomplete() {
             Reach::Unknown
         } else {
             Reach::Never
@@ -152,9 +166,9 @@ impl FlowResult {
     }
 
     /// Takes in what a leg did but for what it reached.
-    pub fn add_leg(&mut self, blocks: u64, out_of_fuel: bool, assumptions: &BTreeSet<Assumption>) {
-        self.blocks += blocks;
-        self.out_of_fuel |= out_of_fuel;
+    pub fn add_leg(&mut self, work: u64, given_up: &[GivenUp], assumptions: &BTreeSet<Assumption>) {
+        self.work += work;
+        self.given_up.extend_from_slice(given_up);
         if !self.assumptions.is_superset(assumptions) {
             self.assumptions.extend(assumptions.iter().cloned());
         }
@@ -171,7 +185,7 @@ impl FlowResult {
 }
 
 /// A block in a chain of calls.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 struct Key {
     /// Blocks of the calls under way, the outermost first, then the block. Compared in this order, "earlier" means: comes
     /// first in the program as it is called.
@@ -190,10 +204,25 @@ impl Key {
         Self { path, at, wanted: state.frames().last().is_some_and(|frame| frame.wants(at)) }
     }
 
+    /// The blocks of the calls, then the block.
+    fn way(&self) -> impl Iterator<Item = &At> {
+        self.path.iter().chain([&self.at])
+    }
+
     fn is_before(&self, other: &Self) -> bool {
-        let own = self.path.iter().chain([&self.at]);
-        let others = other.path.iter().chain([&other.at]);
-        own.lt(others)
+        self.way().lt(other.way())
+    }
+}
+
+impl PartialOrd for Key {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Key {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.way().cmp(other.way()).then(self.wanted.cmp(&other.wanted))
     }
 }
 
@@ -201,9 +230,9 @@ fn calls(state: &State<Abstract>) -> Rc<[At]> {
     state.frames().iter().skip(1).map(|frame| frame.caller).collect()
 }
 
+/// A state that waits at a block.
 #[derive(Debug, Clone)]
 struct Pending {
-    key: Key,
     state: State<Abstract>,
     trace: Trace,
 }
@@ -216,17 +245,6 @@ struct Met {
     visits: u32,
 }
 
-/// The start of a loop met in a solo stretch.
-#[derive(Debug)]
-struct Head {
-    state: State<Abstract>,
-    /// How many forks there were when it was met.
-    forks: u64,
-    visits: u32,
-    /// The visit at which `state` was taken: compared with later ones to find a loop that repeats its state.
-    taken: u32,
-}
-
 /// States that come to one block more often are widened.
 const JOINS_BEFORE_WIDENING: u32 = 3;
 /// States that come to one block more often are given up: the widening of some part does not settle.
@@ -235,37 +253,46 @@ const MOST_VISITS: u32 = 200;
 pub const MOST_EXACT_TURNS: u32 = 10_000;
 /// States pending at once; a program that forks more often is given up.
 const MOST_PENDING: usize = 4096;
+/// What a copy of a state costs at least, in blocks.
+const COPY: u64 = 4;
+/// What it costs at least to join two states and to see whether that changed anything, in blocks.
+const JOIN: u64 = 8;
+
+/// States that are kept of blocks that were met, beside one for each block of the program's file.
+const MOST_MET: usize = 2048;
+/// Places at which an analysis was given up that are named.
+const MOST_NAMED: usize = 8;
 
 /// Blocks between two questions whether the analysis is to be given up.
 const ASKED_EVERY: u64 = 8192;
 
-/// Analyses all paths of a program, executing at most `fuel` blocks.
+/// Analyses all paths of a program with at most so much work.
 pub fn flow<O: FlowObserver>(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     options: Options,
-    fuel: u64,
+    work: u64,
     observer: &mut O,
 ) -> FlowResult {
-    let leg = flow_from(program, model, machine, options, fuel, None, observer);
+    let leg = flow_from(program, model, machine, options, work, None, observer);
     FlowResult {
         reached: leg.reached,
         always: leg.always,
-        out_of_fuel: leg.out_of_fuel,
-        blocks: leg.blocks,
+        given_up: leg.given_up,
+        work: leg.work,
         assumptions: leg.assumptions,
     }
 }
 
-/// Analyses all paths from a checkpoint on, or from the beginning, executing at most `fuel` blocks: what was done since the
-/// last checkpoint that the observer was told of.
+/// Analyses all paths from a checkpoint on, or from the beginning, with at most so much work: what was done since the last
+/// checkpoint that the observer was told of.
 pub fn flow_from<O: FlowObserver>(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
     options: Options,
-    fuel: u64,
+    work: u64,
     from: Option<Checkpoint>,
     observer: &mut O,
 ) -> Leg {
@@ -278,6 +305,7 @@ pub fn flow_from<O: FlowObserver>(
         muted: false,
         also: Vec::new(),
         stepping: None,
+        events: 0,
     };
     let mut executor = Executor::new(program, model, machine, options, shown);
     executor.lenient = true;
@@ -290,23 +318,27 @@ pub fn flow_from<O: FlowObserver>(
     let Checkpoint { at, state, trace, parted } = from;
     trace.begin_leg();
     let facts = trace.clone();
+    let most_met = MOST_MET + executor.file(0).map_or(0, |file| file.loaded.outline().blocks() as usize);
     let mut flow = Flow {
         chunk: executor.chunk_of(at.block),
         executor,
-        fuel,
-        blocks: 0,
+        limit: work,
+        work: 0,
+        most_met,
         asked_at: 0,
         forks: 0,
         parted,
-        pending: vec![Pending { key: Key::of(at, &state), state, trace }],
+        pending: BTreeMap::from([(Key::of(at, &state), Pending { state, trace })]),
         met: FxHashMap::default(),
         order: Vec::new(),
-        heads: FxHashMap::default(),
+        heads: Heads::default(),
         offers,
         last_offer: at.block,
         leg: Leg::default(),
         leg_began: 0,
         stopped: false,
+        at,
+        path: Rc::default(),
     };
     flow.explore();
     flow.end_leg(&facts)
@@ -314,18 +346,23 @@ pub fn flow_from<O: FlowObserver>(
 
 struct Flow<'a, 'p, 'o, O: FlowObserver> {
     executor: Executor<'a, 'p, Abstract, Shown<'a, 'o, O>>,
-    fuel: u64,
-    blocks: u64,
-    /// How many blocks were executed when the observer was asked last whether to go on.
+    /// The work that may be done.
+    limit: u64,
+    /// The work done.
+    work: u64,
+    /// So many states are kept of blocks that were met.
+    most_met: usize,
+    /// How much work was done when the observer was asked last whether to go on.
     asked_at: u64,
     forks: u64,
     /// A path ended while others went on: what comes is no longer on every path.
     parted: bool,
-    pending: Vec<Pending>,
+    /// The earliest first.
+    pending: BTreeMap<Key, Pending>,
     met: FxHashMap<Key, Met>,
     /// Keys of `met` in the order in which they were met.
     order: Vec<Key>,
-    heads: FxHashMap<Key, Head>,
+    heads: Heads,
     /// The observer is told of checkpoints.
     offers: bool,
     /// Blocks of the chunk of the main file that is executed alone.
@@ -333,31 +370,34 @@ struct Flow<'a, 'p, 'o, O: FlowObserver> {
     /// The block of the last checkpoint.
     last_offer: u32,
     leg: Leg,
-    /// How many blocks were executed when the leg began.
+    /// How much work was done when the leg began.
     leg_began: u64,
     /// The observer said that this is enough.
     stopped: bool,
+    /// The block under way, and the calls that led there.
+    at: At,
+    path: Rc<[At]>,
 }
 
 /// What a stretch of blocks came to.
 enum Stretch {
     /// Its end was handled.
     Done,
-    /// The fuel is gone.
-    OutOfFuel,
+    /// The work that may be done is done.
+    WorkIsDone,
     /// The observer wants no more.
     Stopped,
 }
 
 impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     fn explore(&mut self) {
-        while let Some(next) = self.take_earliest() {
+        while let Some((key, next)) = self.pending.pop_first() {
             let solo = self.pending.is_empty();
             let stretch = if solo {
-                self.show_met(Some(&next.key));
-                self.alone(next)
+                self.show_met(Some(&key));
+                self.alone(key, next)
             } else {
-                self.among_others(next)
+                self.among_others(key, next)
             };
             match stretch {
                 Stretch::Done if self.stopped => return,
@@ -366,8 +406,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     self.stopped = true;
                     return;
                 }
-                Stretch::OutOfFuel => {
-                    self.leg.out_of_fuel = true;
+                Stretch::WorkIsDone => {
+                    self.give_up(Limit::Work);
+                    // What was executed silently is shown once, with work of its own.
+                    self.limit = self.limit.saturating_add(self.limit / 4);
                     self.show_met(None);
                     return;
                 }
@@ -378,8 +420,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
 
     /// Is this the end, because the observer wants no more? Asked once in many blocks.
     fn is_stopped(&mut self) -> bool {
-        if self.blocks - self.asked_at >= ASKED_EVERY {
-            self.asked_at = self.blocks;
+        if self.work - self.asked_at >= ASKED_EVERY {
+            self.asked_at = self.work;
             self.stopped |= self.executor.observer.observer.stops();
         }
         self.stopped
@@ -408,8 +450,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     /// What was done since the last checkpoint. `trace` is the one under way, or shares its notes.
     fn end_leg(&mut self, trace: &Trace) -> Leg {
         let mut leg = std::mem::take(&mut self.leg);
-        leg.blocks = self.blocks - self.leg_began;
-        self.leg_began = self.blocks;
+        leg.work = self.work - self.leg_began;
+        self.leg_began = self.work;
         leg.assumptions = std::mem::take(&mut self.executor.assumptions);
         leg.stopped = self.stopped;
         (leg.asked, leg.set) = trace.notes();
@@ -422,14 +464,21 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     }
 
     fn step(&mut self, at: At, state: &mut State<Abstract>) -> Outcome<Abstract> {
+        self.at = at;
         self.executor.observer.stepping = Some(at);
+        self.executor.observer.events = 0;
         let outcome = self.executor.step(at, state);
+        // The first event of a block is the block's own work.
+        self.work += 1 + self.executor.observer.events.saturating_sub(1);
         for also in std::mem::take(&mut self.executor.observer.also) {
             self.leg.reached.insert(also);
         }
         match &outcome {
             Outcome::Jump(to) => self.note_in_front(*to),
-            Outcome::Fork(ways) => ways.iter().for_each(|(to, _)| self.note_in_front(*to)),
+            Outcome::Fork(ways) => {
+                self.work += ways.len() as u64 * (COPY + weight(state));
+                ways.iter().for_each(|(to, _)| self.note_in_front(*to));
+            }
             _ => {}
         }
         outcome
@@ -445,20 +494,31 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         }
     }
 
-    fn take_earliest(&mut self) -> Option<Pending> {
-        let mut earliest = 0;
-        for (index, item) in self.pending.iter().enumerate() {
-            if self.pending.get(earliest).is_some_and(|first| item.key.is_before(&first.key)) {
-                earliest = index;
-            }
+    /// Keeps the calls under way. True when they are others than before.
+    fn follow_calls(&mut self, state: &State<Abstract>) -> bool {
+        let callers = state.frames().iter().skip(1).map(|frame| frame.caller);
+        let differ = !callers.eq(self.path.iter().copied());
+        if differ {
+            self.path = calls(state);
         }
-        if self.pending.is_empty() { None } else { Some(self.pending.swap_remove(earliest)) }
+        differ
+    }
+
+    /// A limit is reached at the block under way.
+    fn give_up(&mut self, limit: Limit) {
+        let given_up = GivenUp { at: self.at, calls: Rc::clone(&self.path), limit };
+        let is_known = self.leg.given_up.iter().any(|known| known.at == given_up.at && known.limit == limit);
+        if !is_known && self.leg.given_up.len() < MOST_NAMED {
+            self.leg.given_up.push(given_up);
+        }
     }
 
     /// Executes exactly, showing everything, until the paths part or end.
-    fn alone(&mut self, from: Pending) -> Stretch {
-        let Pending { key, mut state, trace } = from;
+    fn alone(&mut self, key: Key, from: Pending) -> Stretch {
+        let Pending { mut state, trace } = from;
         let mut at = key.at;
+        self.path = key.path;
+        self.heads.are_in(&self.path);
         self.executor.observer.trace = trace;
         self.executor.observer.solo = !self.parted;
         self.executor.observer.muted = false;
@@ -467,13 +527,12 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             if at.file == 0 && !self.chunk.contains(&at.block) && !self.enter_chunk(at, &state) {
                 return Stretch::Stopped;
             }
-            if self.blocks >= self.fuel {
-                return Stretch::OutOfFuel;
+            if self.work >= self.limit {
+                return Stretch::WorkIsDone;
             }
             if self.is_stopped() {
                 return Stretch::Stopped;
             }
-            self.blocks += 1;
             self.leg.reached.insert(at);
             if !self.parted {
                 self.leg.always.insert(at);
@@ -484,6 +543,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     let back = to.file == at.file && to.block <= at.block;
                     at = to;
                     self.note_way(to, &state);
+                    if self.follow_calls(&state) {
+                        self.heads.are_in(&self.path);
+                    }
                     if back && !self.turn(at, &mut state) {
                         return Stretch::Done;
                     }
@@ -511,12 +573,12 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     fn move_on(&mut self, from: At, state: &mut State<Abstract>) -> At {
         let Some(moves) = self.executor.plain_moves(from, state) else { return from };
         let mut at = from;
-        while self.blocks < self.fuel {
+        while self.work < self.limit {
             self.executor.observer.stepping = Some(at);
             if !self.executor.plain_move(&moves, at, state) {
                 break;
             }
-            self.blocks += 1;
+            self.work += 1;
             at = at.next();
         }
         self.leg.reached.insert_all(from, at);
@@ -528,10 +590,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
 
     /// A loop's head is met again in a solo stretch. `false` ends the stretch: the loop has nothing new to show.
     fn turn(&mut self, at: At, state: &mut State<Abstract>) -> bool {
-        let key = Key::of(at, state);
-        let Some(head) = self.heads.get_mut(&key) else {
-            let head = Head { state: state.clone(), forks: self.forks, visits: 1, taken: 1 };
-            self.heads.insert(key, head);
+        let wanted = state.frames().last().is_some_and(|frame| frame.wants(at));
+        self.work += COPY + weight(state);
+        let Some(head) = self.heads.at(at, wanted) else {
+            self.heads.meet(at, wanted, state, self.forks);
             return true;
         };
         head.visits += 1;
@@ -539,12 +601,14 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             // The paths parted and met again inside the loop: its turns are not exact, so they are one.
             let never_parts = head.forks == self.forks;
             head.forks = self.forks;
-            let widen = head.visits > JOINS_BEFORE_WIDENING;
+            head.joins += 1;
+            let widen = head.visits - head.before > JOINS_BEFORE_WIDENING || head.visits > MOST_EXACT_TURNS;
             let joined = if widen { head.state.widen(state) } else { head.state.join(state) };
-            let gives_up = head.visits > MOST_EXACT_TURNS + MOST_VISITS
-                || head.visits <= MOST_EXACT_TURNS && head.visits > MOST_VISITS;
+            let gives_up = head.joins > MOST_VISITS;
             if joined == head.state || gives_up {
-                self.leg.out_of_fuel |= gives_up;
+                if gives_up {
+                    self.give_up(Limit::Turns);
+                }
                 if never_parts && !gives_up {
                     // Whatever the turn, no condition leads out.
                     let origin = self.executor.origin();
@@ -562,29 +626,28 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             return false;
         }
         // Compared with a state that is taken ever more seldom: a loop that repeats itself is found, whatever its period.
-        if head.visits >= head.taken.saturating_mul(2) {
+        if head.visits - head.before >= head.taken.saturating_mul(2) {
             head.state = state.clone();
-            head.taken = head.visits;
+            head.taken = head.visits - head.before;
         }
         true
     }
 
     /// Executes silently, one of several states, until it is no longer the earliest.
-    fn among_others(&mut self, from: Pending) -> Stretch {
-        let Pending { key, mut state, trace } = from;
+    fn among_others(&mut self, key: Key, from: Pending) -> Stretch {
+        let Pending { mut state, trace } = from;
         let mut at = key.at;
-        let mut path = key.path;
+        self.path = key.path;
         self.executor.observer.trace = trace;
         self.executor.observer.solo = false;
         self.executor.observer.muted = true;
         loop {
-            if self.blocks >= self.fuel {
-                return Stretch::OutOfFuel;
+            if self.work >= self.limit {
+                return Stretch::WorkIsDone;
             }
             if self.is_stopped() {
                 return Stretch::Stopped;
             }
-            self.blocks += 1;
             self.leg.reached.insert(at);
             let next = match self.step(at, &mut state) {
                 Outcome::Jump(to) => {
@@ -607,13 +670,12 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 Outcome::Next | Outcome::Fault(_) => at.next(),
             };
             at = next;
-            if calls_differ(&path, &state) {
-                path = calls(&state);
-            }
-            let key = Key::on(Rc::clone(&path), at, &state);
+            self.follow_calls(&state);
+            let key = Key::on(Rc::clone(&self.path), at, &state);
             let meets = self.met.contains_key(&key)
                 || self.is_entry(at)
-                || self.pending.iter().any(|other| other.key == key || other.key.is_before(&key));
+                || self.pending.contains_key(&key)
+                || self.pending.first_key_value().is_some_and(|(first, _)| first.is_before(&key));
             if meets {
                 let trace = self.executor.observer.trace.clone();
                 self.arrive(at, state, trace);
@@ -645,16 +707,18 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     fn arrive(&mut self, at: At, state: State<Abstract>, trace: Trace) {
         self.note_way(at, &state);
         let key = Key::of(at, &state);
+        let is_kept = self.met.contains_key(&key);
+        self.work += weight(&state) + if is_kept { JOIN } else { COPY };
+        if !is_kept && (self.pending.len() >= MOST_PENDING || self.met.len() >= self.most_met) {
+            self.give_up(Limit::States);
+            return;
+        }
         let item = match self.met.get_mut(&key) {
             None => {
-                if self.pending.len() >= MOST_PENDING {
-                    self.leg.out_of_fuel = true;
-                    return;
-                }
                 self.order.push(key.clone());
                 let met = Met { state: state.clone(), trace: trace.clone(), visits: 1 };
                 self.met.insert(key.clone(), met);
-                Pending { key, state, trace }
+                Pending { state, trace }
             }
             Some(met) => {
                 met.visits += 1;
@@ -664,18 +728,15 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     return;
                 }
                 if met.visits > MOST_VISITS {
-                    self.leg.out_of_fuel = true;
+                    self.give_up(Limit::Turns);
                     return;
                 }
                 met.state = joined.clone();
                 met.trace.join(&trace);
-                Pending { key, state: joined, trace: met.trace.clone() }
+                Pending { state: joined, trace: met.trace.clone() }
             }
         };
-        match self.pending.iter_mut().find(|other| other.key == item.key) {
-            Some(other) => *other = item,
-            None => self.pending.push(item),
-        }
+        self.pending.insert(key, item);
     }
 
     /// Shows what was executed silently, each stretch once, in its final state.
@@ -684,7 +745,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         let met = std::mem::take(&mut self.met);
         for key in &order {
             // What still waits is shown when it is executed.
-            if next == Some(key) || self.pending.iter().any(|item| item.key == *key) {
+            if next == Some(key) || self.pending.contains_key(key) {
                 continue;
             }
             if let Some(from) = met.get(key) {
@@ -696,19 +757,18 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
     fn show(&mut self, key: &Key, from: &Met, met: &FxHashMap<Key, Met>) {
         let mut state = from.state.clone();
         let mut at = key.at;
-        let mut path = Rc::clone(&key.path);
+        self.path = Rc::clone(&key.path);
         self.executor.observer.trace = from.trace.clone();
         self.executor.observer.solo = false;
         self.executor.observer.muted = false;
         loop {
-            if self.blocks >= self.fuel {
-                self.leg.out_of_fuel = true;
+            if self.work >= self.limit {
+                self.give_up(Limit::Work);
                 return;
             }
             if self.is_stopped() {
                 return;
             }
-            self.blocks += 1;
             match self.step(at, &mut state) {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(_) | Outcome::Fork(_) => return,
@@ -724,18 +784,17 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                     at = at.next();
                 }
             }
-            if calls_differ(&path, &state) {
-                path = calls(&state);
-            }
-            if met.contains_key(&Key::on(Rc::clone(&path), at, &state)) {
+            self.follow_calls(&state);
+            if met.contains_key(&Key::on(Rc::clone(&self.path), at, &state)) {
                 return;
             }
         }
     }
 }
 
-fn calls_differ(path: &Rc<[At]>, state: &State<Abstract>) -> bool {
-    path.len() + 1 != state.frames().len()
+/// What a copy of a state costs beside what every copy does, in blocks.
+fn weight(state: &State<Abstract>) -> u64 {
+    state.values_held() as u64 / 16
 }
 
 /// Faults after which nothing that follows can be told from what would have happened.
@@ -789,6 +848,8 @@ struct Shown<'a, 'o, O: FlowObserver> {
     also: Vec<At>,
     /// The block whose step is under way.
     stepping: Option<At>,
+    /// What happened in the block under way.
+    events: u64,
 }
 
 impl<O: FlowObserver> Shown<'_, '_, O> {
@@ -810,6 +871,7 @@ impl<O: FlowObserver> Observer<Abstract> for Shown<'_, '_, O> {
     }
 
     fn event(&mut self, origin: Origin, state: &State<Abstract>, event: &Event) {
+        self.events += 1;
         self.trace.see(origin.at, event, self.model);
         if !self.muted {
             let cx = FlowCx { origin, state, trace: &self.trace, solo: self.solo };

@@ -29,8 +29,8 @@ pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{
-    Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, Leg, MOST_EXACT_TURNS, Reach, Trace,
-    flow, flow_from,
+    Budget, Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp, Leg, Limit,
+    MOST_EXACT_TURNS, Reach, Trace, flow, flow_from,
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;

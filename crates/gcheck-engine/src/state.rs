@@ -115,39 +115,6 @@ impl<D: Domain> State<D> {
         self.join(other)
     }
 
-    /// The first part in which this does not stand for all that `inner` stands for; `None` where it [covers](Lattice::covers) it.
-    pub fn uncovered(&self, inner: &Self) -> Option<&'static str> {
-        macro_rules! first_uncovered {
-            ($($part:ident),*) => {{
-                // Each part once, and none left out.
-                let Self { $($part: _),* } = self;
-                $( if !self.$part.covers(&inner.$part) { return Some(stringify!($part)); } )*
-                None
-            }};
-        }
-        first_uncovered!(
-            points,
-            variables,
-            calls,
-            modes,
-            offsets,
-            tool,
-            feed,
-            spindle,
-            coolant,
-            cycle,
-            turning,
-            transform,
-            mapping,
-            compensation,
-            blending,
-            curve,
-            probe,
-            tool_shift,
-            bar
-        )
-    }
-
     /// Is nothing under way but the main program: no call, no counted loop, no branch to be found, no move held back?
     pub(crate) fn is_in_main_program_alone(&self) -> bool {
         let idle = |kept: &Kept| {
@@ -210,6 +177,11 @@ impl<D: Domain> State<D> {
         let shift = tool_shift.or_none();
         tool_shift.put(shift);
         bar.put(Bar::UNKNOWN);
+    }
+
+    /// How many values of programs and variables it holds: what a copy or a comparison costs.
+    pub(crate) fn values_held(&self) -> usize {
+        self.calls.values_held() + self.variables.values_held()
     }
 
     // ---- what a call reads and changes ----

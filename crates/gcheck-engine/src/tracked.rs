@@ -131,6 +131,11 @@ impl<T> Tracked<T> {
         self.value = value;
     }
 
+    /// The value, without a note.
+    pub(crate) const fn look(&self) -> &T {
+        &self.value
+    }
+
     /// Another value with the same marks.
     pub(crate) fn map<U>(&self, change: impl FnOnce(&T) -> U) -> Tracked<U> {
         Tracked { value: change(&self.value), marks: self.marks.clone() }

@@ -388,7 +388,7 @@ M99
     for told in [Machine::default(), bars(300.0, 3)] {
         let mut allowed = Allowed::default();
         let result = flow(&program, &model, &told, Options::NONE, 50_000, &mut allowed);
-        assert!(!result.out_of_fuel);
+        assert!(!result.is_incomplete());
         for (branch, limit) in [(0.0, 0.0), (1.0, 1.0)] {
             let machine = with(bars(300.0, 3), &[(500, branch), (501, limit), (3100, 12.0)]);
             let mut passed = Passed::default();

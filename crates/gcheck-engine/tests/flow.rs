@@ -249,8 +249,8 @@ fn a_computed_jump_leads_to_every_label_it_may_be() {
 fn a_loop_with_unknown_turns_is_widened() {
     let seen = analyse("fanuc-mill", "#1=0\nWHILE [#1 LT #500] DO1\n#1=#1+1\nEND1\nG0 X#1\nM30\n");
     assert_eq!(Abstract::bounds(seen.state(5).local(1).unwrap()), Some((0.0, f64::INFINITY)));
-    assert!(seen.result.blocks < 200, "{} blocks", seen.result.blocks);
-    assert!(!seen.result.out_of_fuel);
+    assert!(seen.result.work < 1_000, "{} blocks", seen.result.work);
+    assert!(!seen.result.is_incomplete());
 }
 
 #[test]
@@ -269,7 +269,7 @@ fn a_loop_that_parts_inside_comes_to_an_end() {
         "fanuc-mill",
         "#1=0\nN10 IF [#500 EQ #1] GOTO 20\nG91 X1.\nN20 #1=#1+1\nIF [#1 LT 1000] GOTO 10\nM30\n",
     );
-    assert!(seen.result.blocks < 5_000, "{} blocks", seen.result.blocks);
+    assert!(seen.result.work < 20_000, "{} blocks", seen.result.work);
     assert_ne!(seen.reach(6), Reach::Never);
 }
 
@@ -287,7 +287,7 @@ fn a_state_that_comes_back_never_ends() {
     let seen = analyse("fanuc-mill", "#1=0\nWHILE [#1 LT 5] DO1\nG0 X1.\nG0 X0.\nEND1\nM30\n");
     assert_eq!(seen.watcher.endless, [2]);
     assert_eq!(seen.reach(6), Reach::Never);
-    assert!(seen.result.blocks < 100, "{} blocks", seen.result.blocks);
+    assert!(seen.result.work < 1_000, "{} blocks", seen.result.work);
 }
 
 #[test]
@@ -299,8 +299,8 @@ fn states_that_take_turns_never_end_either() {
 #[test]
 fn a_jump_to_itself_by_a_number_that_nobody_knows_settles() {
     let seen = analyse("fanuc-mill", "N10 GOTO #500\nM30\n");
-    assert!(!seen.result.out_of_fuel);
-    assert!(seen.result.blocks < 100, "{} blocks", seen.result.blocks);
+    assert!(!seen.result.is_incomplete());
+    assert!(seen.result.work < 1_000, "{} blocks", seen.result.work);
 }
 
 #[test]
@@ -314,8 +314,8 @@ fn a_return_in_the_main_program_ends_after_one_pass() {
 fn out_of_fuel_is_unknown_and_not_unreachable() {
     let program = "#1=1\nWHILE [#1 NE 10] DO1\n#1=#1+2\nEND1\nG0 X1.\nM30\n";
     let seen = analyse_with("fanuc-mill", program, Options::NONE, 1_000);
-    assert!(seen.result.out_of_fuel);
-    assert_eq!(seen.result.blocks, 1_000);
+    assert!(seen.result.is_incomplete());
+    assert!((1_000..1_100).contains(&seen.result.work), "{}", seen.result.work);
     assert_eq!(seen.reach(3), Reach::Always);
     assert_eq!(seen.reach(5), Reach::Unknown);
 }
@@ -366,13 +366,13 @@ fn calls_from_two_places_do_not_mix() {
 fn a_recursion_without_end_is_a_fault() {
     let seen = analyse("fanuc-mill", "O1\nM98 P2\nM30\nO2\nM98 P2\nM99\n");
     assert_eq!(seen.watcher.faults, [(5, Fault::TooDeep)]);
-    assert!(!seen.result.out_of_fuel);
+    assert!(!seen.result.is_incomplete());
 }
 
 #[test]
 fn a_recursion_on_an_unknown_condition_comes_to_an_end() {
     let seen = analyse("fanuc-mill", "O1\nM98 P2\nM30\nO2\nIF [#500 GT 5] GOTO 9\nM98 P2\nN9 M99\n");
-    assert!(!seen.result.out_of_fuel);
+    assert!(!seen.result.is_incomplete());
     assert_ne!(seen.reach(3), Reach::Never);
 }
 

@@ -630,7 +630,7 @@ fn check(control: &str, style: Style, choices: &[u8], inputs: &[u8], skip: bool)
     let mut visits = Visits::default();
     let done = run(&program, &model, &machine, options, 3_000, &mut visits);
 
-    if result.out_of_fuel {
+    if result.is_incomplete() {
         return Ok(Stopped::OutOfFuel);
     }
     let fail = |at: At, why: String| {

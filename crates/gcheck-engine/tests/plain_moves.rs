@@ -58,7 +58,7 @@ fn executed(control: &str, text: &str) -> (String, String) {
     let result = flow(&program, &model, &machine, Options::NONE, 10_000, &mut all);
     let blocks = program.file(0).unwrap().loaded.outline().blocks();
     let reached = (0..blocks).map(|block| result.reach(gcheck_engine::At { file: 0, block }));
-    let _ = writeln!(all.0, "{:?} after {} blocks", reached.collect::<Vec<_>>(), result.blocks);
+    let _ = writeln!(all.0, "{:?} after {} blocks", reached.collect::<Vec<_>>(), result.work);
     (ran.0, all.0)
 }
 

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use gcheck_controls::{Control, Ends};
 use gcheck_diagnostics::{Finding, RuleMeta, Severity};
-use gcheck_engine::{Assumption, Model, Options, Program, flow};
+use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, flow};
 use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
 use gcheck_syntax::SourceText;
 
@@ -39,15 +39,25 @@ pub struct Job<'a> {
 /// How the paths of a program are analysed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Execution {
-    /// Blocks that may be executed.
+    /// Blocks that may be executed: by a run, and, where it is not [`Execution::FUEL`], by an analysis of all paths.
     pub fuel: u64,
     /// The switch of block delete; `None` analyses every position.
     pub block_skip: Option<bool>,
 }
 
+impl Execution {
+    /// What a run may execute when nobody says otherwise. An analysis then gets what the text of its program is worth.
+    pub const FUEL: u64 = 50_000_000;
+
+    /// The work that an analysis of all paths may do.
+    pub(crate) fn work(&self, program: &Program<'_>) -> u64 {
+        if self.fuel == Self::FUEL { Budget::DEFAULT.of(program) } else { self.fuel }
+    }
+}
+
 impl Default for Execution {
     fn default() -> Self {
-        Self { fuel: 50_000_000, block_skip: None }
+        Self { fuel: Self::FUEL, block_skip: None }
     }
 }
 
@@ -315,9 +325,9 @@ fn check_paths(
             watchers.restart();
         }
         let options = Options { skip, ..Options::NONE };
-        results.push(flow(&program, &model, machine, options, job.execution.fuel, &mut watchers));
+        results.push(flow(&program, &model, machine, options, job.execution.work(&program), &mut watchers));
     }
-    let out_of_fuel = results.iter().any(|result| result.out_of_fuel);
+    let out_of_fuel = results.iter().any(FlowResult::is_incomplete);
     let mut assumptions = Assumptions::new();
     for result in &results {
         assumptions.extend(result.assumptions.iter().cloned());

@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 
+use super::budget::GivenUp;
 use super::marks::Marks;
 use super::trace::{Facts, Trace};
 use crate::assumption::Assumption;
@@ -37,14 +38,14 @@ impl Checkpoint {
 pub struct Leg {
     pub(super) reached: Marks,
     pub(super) always: Marks,
-    /// The fuel ran out, or something was given up, so what was not seen may still be reached.
-    pub out_of_fuel: bool,
+    /// Where it was given up: what was not seen may still be reached.
+    pub given_up: Vec<GivenUp>,
     /// The observer ended it.
     pub stopped: bool,
     /// It came back over a checkpoint, which therefore was none.
     pub went_back: bool,
-    /// Blocks executed.
-    pub blocks: u64,
+    /// What it cost, in blocks.
+    pub work: u64,
     /// What it rests on.
     pub assumptions: BTreeSet<Assumption>,
     /// Facts that somebody asked for while they still were as the leg began.

@@ -115,15 +115,16 @@ impl Counters {
 
 impl Lattice for Counters {
     fn join(&self, other: &Self) -> Self {
-        let mut joined = Self::default();
-        for (block, _) in self.0.iter().chain(&other.0) {
-            let turns = match (self.get(*block), other.get(*block)) {
-                (Some(a), Some(b)) => a.join(&b),
-                _ => Flat::Unknown,
-            };
-            joined.set(*block, turns);
+        let mut joined = Vec::with_capacity(self.0.len().max(other.0.len()));
+        let (mut left, mut right) = (self.0.iter().peekable(), other.0.iter().peekable());
+        while let Some(block) =
+            [left.peek(), right.peek()].into_iter().flatten().map(|(block, _)| *block).min()
+        {
+            let own = left.next_if(|(at, _)| *at == block);
+            let with = right.next_if(|(at, _)| *at == block);
+            joined.push((block, own.zip(with).map_or(Flat::Unknown, |((_, a), (_, b))| a.join(b))));
         }
-        joined
+        Self(joined)
     }
 
     fn widen(&self, newer: &Self) -> Self {
@@ -440,6 +441,13 @@ impl<D: Domain> Calls<D> {
     /// Is it known who called the program under way?
     pub(crate) fn is_known(&self) -> bool {
         !self.elsewhere.0
+    }
+
+    /// How many values are held: local variables, counters.
+    pub(crate) fn values_held(&self) -> usize {
+        let locals = |frame: &Frame<D>| frame.locals.yes().map_or(0, Locals::values_held);
+        let frames = self.frames.iter().map(|frame| 8 + locals(frame) + frame.kept.look().counters.0.len());
+        frames.sum()
     }
 
     /// The program under way.

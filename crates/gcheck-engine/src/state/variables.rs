@@ -181,6 +181,11 @@ impl<D: Domain> Noted for Named<D> {
 }
 
 impl<D: Domain> Locals<D> {
+    /// How many there are: a copy shares those that have numbers.
+    pub(crate) fn values_held(&self) -> usize {
+        self.numbered.len() / 8 + self.named.values.len()
+    }
+
     /// All of `count` locals hold `value`.
     pub(crate) fn new(count: u32, value: &D::Value) -> Self {
         let numbered = Rc::new(vec![value.clone(); count as usize + 1]);
@@ -317,6 +322,11 @@ impl<D: Domain> Noted for Locals<D> {
 }
 
 impl<D: Domain> Variables<D> {
+    /// How many were written.
+    pub(crate) fn values_held(&self) -> usize {
+        self.common.len() + self.named.values.len()
+    }
+
     /// Variables of which only `known` are known; the others hold `unwritten`.
     pub(crate) fn new(unwritten: D::Value, known: impl Iterator<Item = (u32, f64)>) -> Self {
         let common = known.map(|(number, value)| (number, Variable::written(D::number(value)))).collect();

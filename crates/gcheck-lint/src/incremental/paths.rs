@@ -14,8 +14,8 @@ use std::rc::Rc;
 
 use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
-    Assumption, At, Checkpoint, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, Leg, Machine,
-    Model, Options, Program, ProgramFile, Trace, flow_from,
+    Assumption, At, Checkpoint, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, GivenUp, Leg,
+    Machine, Model, Options, Program, ProgramFile, Trace, flow_from,
 };
 use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
@@ -60,8 +60,8 @@ struct Entry {
 struct Segment {
     /// `None` for the first.
     entry: Option<Entry>,
-    blocks: u64,
-    out_of_fuel: bool,
+    work: u64,
+    given_up: Vec<GivenUp>,
     assumptions: BTreeSet<Assumption>,
     asked: Facts,
     set: Facts,
@@ -177,7 +177,7 @@ impl Paths {
                     }
                     done => done?,
                 };
-                self.unsure |= chain.segments.iter().any(|segment| segment.out_of_fuel);
+                self.unsure |= chain.segments.iter().any(|segment| !segment.given_up.is_empty());
                 if !went_back {
                     break;
                 }
@@ -185,8 +185,7 @@ impl Paths {
                 self.unsure = true;
                 chain.segments.clear();
             }
-            if chain.segments.iter().map(|segment| segment.blocks).sum::<u64>() >= inputs.fuel
-                && work.kept > 0
+            if chain.segments.iter().map(|segment| segment.work).sum::<u64>() >= inputs.fuel && work.kept > 0
             {
                 return Err(Broken::Useless);
             }
@@ -210,7 +209,7 @@ impl Paths {
         for result in &results {
             assumptions.extend(result.assumptions.iter().cloned());
         }
-        Ok((assumptions, results.iter().any(|result| result.out_of_fuel)))
+        Ok((assumptions, results.iter().any(FlowResult::is_incomplete)))
     }
 
     /// Executes again what came by any of the blocks, with every switch of block delete off, and shows it to an observer.
@@ -244,7 +243,7 @@ impl Paths {
                 let fuel = inputs.fuel.saturating_sub(spent);
                 flow_from(inputs.program, inputs.model, machine, Options::NONE, fuel, checkpoint, &mut once);
             }
-            spent += segment.blocks;
+            spent += segment.work;
         }
         true
     }
@@ -289,7 +288,7 @@ impl Chain {
     fn result(&self, layout: &Layout) -> FlowResult {
         let mut result = FlowResult::default();
         for segment in &self.segments {
-            result.add_leg(segment.blocks, segment.out_of_fuel, &segment.assumptions);
+            result.add_leg(segment.work, &segment.given_up, &segment.assumptions);
             for run in &segment.reached {
                 let (file, blocks) = match run.place {
                     RunPlace::Slot(slot) => (0, layout.run_outside(slot, &run.blocks)),
@@ -405,7 +404,7 @@ fn advance(
             }
         }
         file.loaded.note_touched();
-        let fuel = inputs.fuel.saturating_sub(chain.segments.iter().map(|segment| segment.blocks).sum());
+        let fuel = inputs.fuel.saturating_sub(chain.segments.iter().map(|segment| segment.work).sum());
         let mut recorder = Recorder {
             watchers: &mut *watchers,
             file: &file,
@@ -457,8 +456,8 @@ impl Segment {
     fn gap(entry: Option<Entry>) -> Self {
         Self {
             entry,
-            blocks: 0,
-            out_of_fuel: false,
+            work: 0,
+            given_up: Vec::new(),
             assumptions: BTreeSet::new(),
             asked: Facts::default(),
             set: Facts::default(),
@@ -543,8 +542,8 @@ impl Recorder<'_, '_, '_> {
         self.executed += 1;
         self.segments.push(Segment {
             entry: self.entry.take(),
-            blocks: leg.blocks,
-            out_of_fuel: leg.out_of_fuel,
+            work: leg.work,
+            given_up: leg.given_up,
             asked: leg.asked,
             set: leg.set,
             assumptions: leg.assumptions,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Assumption, At, Fault, Reach};
+use gcheck_engine::{Assumption, At, Fault, FlowResult, Reach};
 use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
 use crate::declare::declare_rule;
@@ -89,7 +89,7 @@ impl PathRule for UnreachableBlock {
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
-        if self.cut_short || cx.result.out_of_fuel || cx.others.iter().any(|other| other.out_of_fuel) {
+        if self.cut_short || cx.result.is_incomplete() || cx.others.iter().any(FlowResult::is_incomplete) {
             return;
         }
         // With only one position of the switch, the other paths are not known.
