@@ -477,7 +477,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             Outcome::Jump(to) => self.note_in_front(*to),
             Outcome::Fork(ways) => {
                 self.work += ways.len() as u64 * (COPY + weight(state));
-                ways.iter().for_each(|(to, _)| self.note_in_front(*to));
+                for (to, _) in ways {
+                    self.note_in_front(*to);
+                }
             }
             _ => {}
         }
