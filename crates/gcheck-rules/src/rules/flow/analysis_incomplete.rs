@@ -18,10 +18,6 @@ declare_rule! {
     /// O0001
     /// IF [#500 EQ 1] GOTO 10
     /// M98 P2
-    /// M98 P2
-    /// M98 P2
-    /// M98 P2
-    /// M98 P2
     /// N10 M30
     /// O0002
     /// M98 P3
@@ -52,6 +48,13 @@ declare_rule! {
     /// M98 P6
     /// M99
     /// O0006
+    /// M98 P7
+    /// M98 P7
+    /// M98 P7
+    /// M98 P7
+    /// M98 P7
+    /// M99
+    /// O0007
     /// G0 X1.
     /// M99
     /// ```
@@ -153,10 +156,15 @@ mod tests {
 
     #[test]
     fn the_block_at_which_the_work_is_done_is_named() {
-        check_rule(&RULE, "fanuc-mill", &calls_of_calls(), &expect![[r#"
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            &calls_of_calls(),
+            &expect![[r#"
             104 | M98 P1009
                 | ^^^^^^^^^ info[analysis-incomplete] not everything after this block is checked
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
