@@ -260,6 +260,8 @@ const JOIN: u64 = 8;
 
 /// States that are kept of blocks that were met, beside one for each block of the program's file.
 const MOST_MET: usize = 2048;
+/// States that are kept of blocks that were met before those that no path comes back to are looked for.
+const MOST_UNSETTLED: usize = 256;
 /// Places at which an analysis was given up that are named.
 const MOST_NAMED: usize = 8;
 
@@ -325,6 +327,7 @@ pub fn flow_from<O: FlowObserver>(
         limit: work,
         work: 0,
         most_met,
+        settle_at: MOST_UNSETTLED,
         asked_at: 0,
         forks: 0,
         parted,
@@ -352,6 +355,8 @@ struct Flow<'a, 'p, 'o, O: FlowObserver> {
     work: u64,
     /// So many states are kept of blocks that were met.
     most_met: usize,
+    /// When so many are kept, those that no path comes back to are looked for.
+    settle_at: usize,
     /// How much work was done when the observer was asked last whether to go on.
     asked_at: u64,
     forks: u64,
@@ -397,6 +402,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
                 self.show_met(Some(&key));
                 self.alone(key, next)
             } else {
+                self.settle_before(&key);
                 self.among_others(key, next)
             };
             match stretch {
@@ -477,7 +483,9 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
             Outcome::Jump(to) => self.note_in_front(*to),
             Outcome::Fork(ways) => {
                 self.work += ways.len() as u64 * (COPY + weight(state));
-                ways.iter().for_each(|(to, _)| self.note_in_front(*to));
+                for (to, _) in ways {
+                    self.note_in_front(*to);
+                }
             }
             _ => {}
         }
@@ -739,10 +747,37 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         self.pending.insert(key, item);
     }
 
+    /// Shows what no path comes back to, and drops it, when many states are kept: the earliest path is at a block that nothing
+    /// leads back over.
+    fn settle_before(&mut self, earliest: &Key) {
+        let here = earliest.at;
+        let is_due = self.met.len() >= self.settle_at
+            && earliest.path.is_empty()
+            && here.file == 0
+            && self.executor.file(0).is_some_and(|file| file.loaded.outline().is_passed_for_good(here.block));
+        if !is_due {
+            return;
+        }
+        let is_passed = |key: &Key| key.way().next().is_some_and(|first| *first < here);
+        let (passed, later): (Vec<Key>, Vec<Key>) =
+            std::mem::take(&mut self.order).into_iter().partition(is_passed);
+        self.order = later;
+        let met = std::mem::take(&mut self.met);
+        for key in &passed {
+            if let Some(from) = met.get(key) {
+                self.show(key, from, &met);
+            }
+        }
+        self.met = met;
+        self.met.retain(|key, _| !is_passed(key));
+        self.settle_at = MOST_UNSETTLED.max(self.met.len() * 2);
+    }
+
     /// Shows what was executed silently, each stretch once, in its final state.
     fn show_met(&mut self, next: Option<&Key>) {
         let order = std::mem::take(&mut self.order);
         let met = std::mem::take(&mut self.met);
+        self.settle_at = MOST_UNSETTLED;
         for key in &order {
             // What still waits is shown when it is executed.
             if next == Some(key) || self.pending.contains_key(key) {

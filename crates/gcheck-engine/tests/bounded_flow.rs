@@ -2,10 +2,12 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
 
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use gcheck_engine::{
-    At, Budget, FlowObserver, FlowResult, Limit, Machine, Model, NoLibrary, Options, Program, Reach, flow,
+    At, Budget, FlowCx, FlowObserver, FlowResult, Limit, Machine, Model, NoLibrary, Options, Program, Reach,
+    flow,
 };
 use gcheck_program::{Dialect, Loaded};
 
@@ -177,4 +179,35 @@ fn one_computed_jump_costs_its_targets() {
     check_growth("fanuc-mill", |size| {
         format!("O1\nG21 G90\nGOTO #500\n{}M30\n", lines(size, |line| format!("N{} G0 X{line}.\n", line + 1)))
     });
+}
+
+// ---- what is kept goes when no path comes back to it ----
+
+/// Counts how often each block is shown.
+#[derive(Default)]
+struct Counter(BTreeMap<u32, u32>);
+
+impl FlowObserver for Counter {
+    fn before(&mut self, cx: &FlowCx<'_>) {
+        *self.0.entry(cx.origin.at.block).or_default() += 1;
+    }
+}
+
+#[test]
+fn each_block_of_a_long_program_with_parted_paths_is_shown_once() {
+    // The paths part in the first block and meet in the last; in between are more states than are kept for long.
+    let conditions =
+        lines(1_000, |line| format!("IF [#501 EQ {line}] GOTO {}\nX{line}.\nN{} Y1.\n", line + 1, line + 1));
+    let text = format!("O1\nIF [#500 EQ 1] GOTO 9999\n{conditions}N9999 M30\n");
+    let control = gcheck_controls::load("fanuc-mill").unwrap();
+    let dialect = Dialect::new(&control);
+    let loaded = Loaded::new(text.as_str(), &dialect, |_, _, _| ());
+    let model = Model::new(&control);
+    let program = Program::new(loaded, &dialect, &NoLibrary);
+    let mut counter = Counter::default();
+    let work = Budget::DEFAULT.of(&program);
+    let result = flow(&program, &model, &Machine::default(), Options::NONE, work, &mut counter);
+    assert_eq!(limits(&result), []);
+    assert_eq!(counter.0.len(), text.lines().count());
+    assert!(counter.0.values().all(|times| *times == 1), "{:?}", counter.0);
 }

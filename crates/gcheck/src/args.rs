@@ -14,7 +14,7 @@ use gcheck_report::Format;
 use crate::Problem;
 
 /// Blocks that may be executed when nobody says otherwise.
-pub(crate) const FUEL: u64 = 50_000_000;
+pub(crate) const FUEL: u64 = gcheck_lint::Execution::FUEL;
 
 /// Reads CNC part programs (G-code) the way the control will, before the control does.
 #[derive(Debug, Parser)]
@@ -185,8 +185,8 @@ pub struct CheckOptions {
     /// The block delete switch: whether blocks with `/` are skipped; every position is looked at without it
     #[arg(long, value_enum, value_name = "on|off")]
     pub block_skip: Option<Switch>,
-    /// Blocks of a program that may be executed
-    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL)]
+    /// Blocks of a program that may be executed; by default 2,000,000, and 64 more for each block of the program
+    #[arg(long, value_name = "BLOCKS", default_value_t = FUEL, hide_default_value = true)]
     pub fuel: u64,
     /// Files checked at a time; the number of processors without it
     #[arg(long, value_name = "N")]

@@ -85,6 +85,7 @@ pub(crate) mod five_axis {
 
 pub(crate) mod flow {
     pub(crate) mod alarm_reached;
+    pub(crate) mod analysis_incomplete;
     pub(crate) mod calls_nested_too_deep;
     pub(crate) mod endless_loop;
     pub(crate) mod fall_into_subprogram;
@@ -412,6 +413,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
     &flow::alarm_reached::RULE,
+    &flow::analysis_incomplete::RULE,
     &flow::calls_nested_too_deep::RULE,
     &flow::endless_loop::RULE,
     &flow::fall_into_subprogram::RULE,
