@@ -46,5 +46,5 @@ pub use state::{
     Transform, Variables, Way, Ways, Wrapped,
 };
 pub use step::look::{Look, Trial};
-pub use step::{Ending, Options};
+pub use step::{Ending, Options, owns_axes};
 pub use value::*;

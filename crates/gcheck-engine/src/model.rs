@@ -3,8 +3,8 @@
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
 use gcheck_controls::{
-    CodeIx, CodeNumber, Control, Effect, GroupIx, HelixFeed, Letter, LetterSet, Semantics, SystemVariable,
-    Unpointed, WordKind,
+    Code, CodeIx, CodeNumber, Control, Effect, GroupIx, Handling, HelixFeed, Letter, LetterSet, Need,
+    Semantics, SystemVariable, Unpointed, WordKind,
 };
 use rustc_hash::FxHashMap;
 
@@ -190,6 +190,8 @@ pub struct Model<'c> {
     pub(crate) axes: Vec<Axis>,
     /// Addresses that name an axis or its increment.
     pub(crate) axis_letters: LetterSet,
+    /// Addresses of offset numbers that stay for a later code when no code of their block reads them: `D01` before `G41`.
+    pub(crate) lasting: LetterSet,
     pub(crate) argument_letters: Vec<(Letter, u32)>,
     numbered: Vec<(u32, usize)>,
     named: FxHashMap<String, usize>,
@@ -270,6 +272,7 @@ impl<'c> Model<'c> {
             axis_of,
             axes,
             axis_letters,
+            lasting: lasting_letters(control),
             argument_letters,
             numbered: Vec::new(),
             named: FxHashMap::default(),
@@ -418,4 +421,23 @@ impl<'c> Model<'c> {
     pub(crate) fn named_variable(&self, name: &str) -> Option<&'c SystemVariable> {
         self.named.get(name).and_then(|index| self.semantics().system_variables.get(*index))
     }
+}
+
+/// Numbers of cutter offsets that outlast their block: the data call the word modal for a code that compensates, and the
+/// control does not refuse a block where nobody reads it.
+fn lasting_letters(control: &Control) -> LetterSet {
+    if control.block_rules().unread_word == Handling::Refused {
+        return LetterSet::EMPTY;
+    }
+    let compensates = |code: &Code<'_>| {
+        matches!(
+            code.effect(),
+            Effect::CompensationLeft | Effect::CompensationRight | Effect::CompensationVector
+        )
+    };
+    let is_lasting = |code: Code<'_>| {
+        let mut words = code.entry().words.iter();
+        words.any(|word| word.letter == "D" && word.need == Need::Modal)
+    };
+    if control.codes().filter(compensates).any(is_lasting) { LetterSet::of("D") } else { LetterSet::EMPTY }
 }

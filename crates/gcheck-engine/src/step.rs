@@ -535,6 +535,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if state.tool_shift.is_on() {
             self.words_of_tool_shift(state)?;
         }
+        if self.words.present().intersects(self.model.lasting) {
+            self.remember_lasting_words(state)?;
+        }
         let present = self.words.present();
         let codes = self.words.codes();
         let turns = self.turns_about_centre(state);
@@ -1224,7 +1227,7 @@ fn opposite(op: BinaryOp) -> Option<BinaryOp> {
 }
 
 /// Axis words belong to the operation, not to the motion mode.
-fn owns_axes(effect: Effect) -> bool {
+pub fn owns_axes(effect: Effect) -> bool {
     use Effect as E;
     matches!(
         effect,

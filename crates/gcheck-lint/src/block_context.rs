@@ -138,24 +138,32 @@ impl<'a> BlockCx<'a> {
     /// `None` for `G` and `M` words, for addresses the control does not have, and where a code of the block may read
     /// anything (a macro call), so that its words mean what the macro says.
     pub fn facts(&self, word: &Word) -> Option<WordFacts<'a>> {
-        if matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner() {
-            return None;
-        }
-        let general = self.control().letter(word.letter);
-        let mut anything = false;
-        for (_, code) in self.codes() {
-            if code.reads().contains(word.letter) {
-                let entry =
-                    code.entry().words.iter().find(|w| Letter::parse(&w.letter) == Some(word.letter))?;
-                return Some(of_code(code, entry, general));
-            }
-            anything |= code.entry().any_words;
-        }
-        if anything && !general.is_some_and(|g| matches!(g.kind, WordKind::Label) && g.free) {
-            return None;
-        }
-        general.map(of_letter)
+        facts_of(self.control(), self.codes().map(|(_, code)| code), word.letter)
     }
+}
+
+/// What a word of an address means beside the codes of its block; see [`BlockCx::facts`].
+pub(crate) fn facts_of<'a>(
+    control: &'a Control,
+    codes: impl Iterator<Item = Code<'a>>,
+    letter: Letter,
+) -> Option<WordFacts<'a>> {
+    if matches!(letter.ascii(), b'G' | b'M') && !letter.is_corner() {
+        return None;
+    }
+    let general = control.letter(letter);
+    let mut anything = false;
+    for code in codes {
+        if code.reads().contains(letter) {
+            let entry = code.entry().words.iter().find(|w| Letter::parse(&w.letter) == Some(letter))?;
+            return Some(of_code(code, entry, general));
+        }
+        anything |= code.entry().any_words;
+    }
+    if anything && !general.is_some_and(|g| matches!(g.kind, WordKind::Label) && g.free) {
+        return None;
+    }
+    general.map(of_letter)
 }
 
 fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterEntry>) -> WordFacts<'a> {

@@ -11,14 +11,15 @@ use std::rc::Rc;
 use gcheck_controls::{Code, CodeIx, CodeNumber, Control, Effect, Ends, Letter, LetterSet, Machine};
 use gcheck_diagnostics::{Certainty, Finding, RuleMeta, Severity};
 use gcheck_engine::{
-    Abstract, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Model, Origin, Program, Role, State, Trace,
-    Units,
+    Abstract, AbstractValue, At, Domain, Fact, FlowCx, FlowResult, FrameKind, Look, Model, Origin, Program,
+    Role, State, Trace, Units,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{BlockFlags, BlockTable, ExprIx, OKeyword, Place, Survey, Word};
 
+use crate::block_context::facts_of;
 use crate::shared_memory::SharedMemories;
-use crate::{Environment, SharedMemory};
+use crate::{Environment, SharedMemory, WordFacts};
 
 /// What a rule of the path tier may ask while a program is executed.
 #[derive(Clone, Copy)]
@@ -308,6 +309,21 @@ impl<'a> PathCx<'a> {
         let control = self.control();
         let names = &self.model.semantics().at_end;
         names.iter().filter_map(move |name| control.code_at(control.code_ix(CodeNumber::parse(name)?)))
+    }
+
+    /// What a word of an address means in the block; see [`BlockCx::facts`](crate::BlockCx::facts).
+    pub fn facts(&self, letter: Letter) -> Option<WordFacts<'a>> {
+        let codes = self.codes();
+        let control = self.control();
+        facts_of(control, codes.iter().filter_map(|ix| control.code_at(*ix)), letter)
+    }
+
+    /// The computed words of the block before it is executed, each with the values that it may have on the paths that come
+    /// here; those that have no value are left out.
+    pub fn computed_words(&self) -> Vec<(Word, AbstractValue)> {
+        let Some(place) = self.place() else { return Vec::new() };
+        let mut look = Look::new(self.program, self.model, &self.environment.machine.engine);
+        look.words(&place, self.origin().at, self.state())
     }
 
     /// A length as the program counts, rounded to what controls resolve: `1.75 in`.

@@ -7,6 +7,7 @@ pub(crate) mod arcs;
 pub(crate) mod bar_feed;
 pub(crate) mod boundary;
 pub(crate) mod compensation;
+pub(crate) mod computed_words;
 pub(crate) mod coolant;
 pub(crate) mod cuts;
 pub(crate) mod cutting;

@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CompensationStyle, Effect, Letter, Semantics};
+use gcheck_controls::{CodeIx, CompensationStyle, Effect, Letter, Semantics};
 use gcheck_geometry::{
     Arc, CompensationConfig, CompensationError, Compensator, Cutter, CutterSide, LineKind, Mm, OffsetCourse,
     OffsetEvent, OffsetSegment, PathPoint, Plane,
@@ -120,6 +120,31 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let tool = state.tool().clone();
             state.tool.d.put(tool);
         }
+        Ok(())
+    }
+
+    /// A `D` that no code of its block reads stays for the code that compensates: `D01`, then `G41`.
+    ///
+    /// Under compensation the path goes on beside another size; how the control comes over to it is not known.
+    pub(super) fn remember_lasting_words(&mut self, state: &mut State<D>) -> Step {
+        let letter = Letter::of('D');
+        let reads = |ix: &CodeIx| {
+            let contract = self.model.contracts.get(ix.index());
+            contract.is_some_and(|contract| contract.reads_all || contract.reads.contains(letter))
+        };
+        if self.words.codes().iter().any(reads) || !state.calls.modal.is_off() {
+            return Ok(());
+        }
+        let Some(value) = self.words.get(letter) else { return Ok(()) };
+        self.count(letter)?;
+        if *state.d() == value {
+            return Ok(());
+        }
+        if state.compensation.is_followed() {
+            self.flush_compensation(state)?;
+            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+        }
+        state.tool.d.put(value);
         Ok(())
     }
 

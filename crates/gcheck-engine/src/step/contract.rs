@@ -63,9 +63,9 @@ fn is_whole(value: f64) -> bool {
 #[expect(clippy::struct_excessive_bools, reason = "independent facts of a code")]
 pub(crate) struct CodeContract {
     /// Addresses that it reads.
-    reads: LetterSet,
+    pub(super) reads: LetterSet,
     /// It reads any address.
-    reads_all: bool,
+    pub(super) reads_all: bool,
     required: LetterSet,
     /// Of each set one address must stand.
     one_of: Vec<LetterSet>,

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use gcheck_controls::Letter;
-use gcheck_program::{ExprIx, Value};
+use gcheck_program::{ExprIx, Place, Value, Word};
 
 use super::{Executor, Options, Outcome};
 use crate::event::{Event, Units};
@@ -98,6 +98,21 @@ impl<'a, 'p> Look<'a, 'p> {
             let expr = table.expr(ix);
             if let Ok(value) = self.executor.evaluate(&place, table, expr, state) {
                 values.push((place.base + expr.range.start..place.base + expr.range.end, value));
+            }
+        }
+        values
+    }
+
+    /// The computed words of a block with their values in the state before it; those that have no value are left out.
+    pub fn words(&mut self, place: &Place, at: At, state: &State<Abstract>) -> Vec<(Word, AbstractValue)> {
+        self.executor.origin.at = at;
+        let table = &*place.table;
+        let mut values = Vec::new();
+        for word in table.words(place.block()).iter().take(MOST_EXPRESSIONS) {
+            if let Value::Expr(expr) = word.value
+                && let Ok(value) = self.executor.evaluate(place, table, table.expr(expr), state)
+            {
+                values.push((*word, value));
             }
         }
         values

@@ -167,9 +167,11 @@ pub(crate) mod modal {
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
     pub(crate) mod corner_before_rapid;
+    pub(crate) mod dwell_beside_motion;
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
     pub(crate) mod dwell_very_short;
+    pub(crate) mod dwell_without_time;
     pub(crate) mod feed_implausible;
     pub(crate) mod feed_missing;
     pub(crate) mod feed_of_another_mode;
@@ -322,10 +324,12 @@ pub(crate) mod tool {
 pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod axis_given_twice;
+    pub(crate) mod axis_word_passed_over;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod dwell_time_in_other_word;
     pub(crate) mod lasting_word_never_given;
+    pub(crate) mod maybe_computed_value_out_of_range;
     pub(crate) mod missing_decimal_point;
     pub(crate) mod number_out_of_range;
     pub(crate) mod required_word_missing;
@@ -480,9 +484,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
     &motion::corner_before_rapid::RULE,
+    &motion::dwell_beside_motion::RULE,
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
     &motion::dwell_very_short::RULE,
+    &motion::dwell_without_time::RULE,
     &motion::feed_implausible::RULE,
     &motion::feed_missing::RULE,
     &motion::feed_of_another_mode::RULE,
@@ -608,10 +614,12 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::tool_length_missing::RULE,
     &words::arc_without_centre::RULE,
     &words::axis_given_twice::RULE,
+    &words::axis_word_passed_over::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::dwell_time_in_other_word::RULE,
     &words::lasting_word_never_given::RULE,
+    &words::maybe_computed_value_out_of_range::RULE,
     &words::missing_decimal_point::RULE,
     &words::number_out_of_range::RULE,
     &words::required_word_missing::RULE,

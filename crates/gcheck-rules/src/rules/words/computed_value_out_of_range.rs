@@ -5,12 +5,14 @@ use gcheck_engine::{Fault, FrameKind};
 use gcheck_program::Value;
 
 use crate::declare::declare_rule;
+use crate::facts::computed_words::{self, refused};
 use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
     /// A word's value is computed, and the code cannot use it: a fraction or a negative number for a count, a feed or
-    /// speed below zero.
+    /// speed below zero, a value outside the range of the word. It is judged by the facts that `number-out-of-range`
+    /// judges a written number by.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the block, or uses a wrong value.
@@ -42,15 +44,28 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(ComputedValueOutOfRange) },
+        run: Run::Path {
+            watch: Watch::FAULTS.union(Watch::ALL_BLOCKS),
+            make: || Box::new(ComputedValueOutOfRange),
+        },
     }
 }
 
 struct ComputedValueOutOfRange;
 
 impl PathRule for ComputedValueOutOfRange {
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        for one in refused(cx).iter().filter(|one| one.is_certain) {
+            report.add(computed_words::finding(cx, &META, one));
+        }
+    }
+
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::WordRange(letter) = fault else { return };
+        // What the data refuse was reported before the block was executed.
+        if refused(cx).iter().any(|one| one.is_certain && one.word.letter == *letter) {
+            return;
+        }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
         if is_main && is_called_from_elsewhere(cx.survey) {
             return;
@@ -97,7 +112,7 @@ mod tests {
             "O1\n#1= 2.5\nM98 P#1\nM30\n",
             &expect![[r#"
             3 | M98 P#1
-              |     ^^^ error[computed-value-out-of-range] computed value of `P` cannot be used here
+              |     ^^^ error[computed-value-out-of-range] computed value is not a whole number for `M98`: `P2.5`
         "#]],
         );
         check_rule(
@@ -106,7 +121,7 @@ mod tests {
             "#1=-5\nM3 S#1\nM2\n",
             &expect![[r#"
             2 | M3 S#1
-              |    ^^^ error[computed-value-out-of-range] computed value of `S` cannot be used here
+              |    ^^^ error[computed-value-out-of-range] computed value is too small: `S-5`
         "#]],
         );
     }
@@ -118,20 +133,20 @@ mod tests {
             "fanuc-mill",
             "#1=-1\nG4 X[#1]\nM30\n",
             &expect![[r#"
-            2 | G4 X[#1]
-              |    ^^^^^ warning[computed-value-out-of-range] computed value of `X` cannot be used here
-        "#]],
+                2 | G4 X[#1]
+                  |    ^^^^^ warning[computed-value-out-of-range] computed value is too small for `G4`: `X-1`
+            "#]],
         );
         check_rule(
             &RULE,
             "generic-mill",
             "#1=-1\nG4 P[#1]\nG4 U[#1]\nM30\n",
             &expect![[r#"
-            2 | G4 P[#1]
-              |    ^^^^^ warning[computed-value-out-of-range] computed value of `P` cannot be used here
-            3 | G4 U[#1]
-              |    ^^^^^ error[computed-value-out-of-range] computed value of `U` cannot be used here
-        "#]],
+                2 | G4 P[#1]
+                  |    ^^^^^ warning[computed-value-out-of-range] computed value is too small for `G4`: `P-1`
+                3 | G4 U[#1]
+                  |    ^^^^^ error[computed-value-out-of-range] computed value is too small for `G4`: `U-1`
+            "#]],
         );
     }
 

@@ -4,6 +4,7 @@ use gcheck_controls::{Code, WordEntry, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
+use crate::facts::computed_words::range_of;
 use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
 
 declare_rule! {
@@ -63,21 +64,9 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> 
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
     Finding::new(&META, cx.range(word), format!("value too {side}{of}: `{text}`"))
         .label(facts.is)
-        .note(format!("`{}`{of} takes {}  [{}]", word.letter, range(facts), facts.source))
+        .note(format!("`{}`{of} takes {}  [{}]", word.letter, range_of(facts), facts.source))
         .help("correct the value")
         .at_most(limit(facts.range_confidence))
-}
-
-/// "0 to 99", "1 or more", "more than 0".
-fn range(facts: &WordFacts<'_>) -> String {
-    match (facts.min, facts.above, facts.max) {
-        (Some(min), _, Some(max)) => format!("{min} to {max}"),
-        (Some(min), _, None) => format!("{min} or more"),
-        (None, Some(above), Some(max)) => format!("more than {above}, up to {max}"),
-        (None, Some(above), None) => format!("more than {above}"),
-        (None, None, Some(max)) => format!("{max} or less"),
-        (None, None, None) => "any number".to_owned(),
-    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,142 @@
+//! Computed words: which of the values that they may have their code takes.
+//!
+//! Knows: the same ranges, signs and whole numbers that written words are judged by. Must not know: any rule.
+
+use gcheck_controls::{Confidence, WordKind};
+use gcheck_engine::AbstractValue;
+use gcheck_program::{BlockFlags, Word};
+
+use crate::facts::usage::is_called_from_elsewhere;
+use crate::{Finding, PathCx, RuleMeta, Severity, WordFacts, limit};
+
+/// So far from a whole number a count may be: what arithmetic leaves over.
+const WHOLE_WITHIN: f64 = 1e-4;
+
+/// A computed word with a value that its code does not take.
+pub(crate) struct Refused<'a> {
+    /// The word.
+    pub(crate) word: Word,
+    facts: WordFacts<'a>,
+    value: f64,
+    why: Why,
+    /// Every value that the word may have is refused, and it has one.
+    pub(crate) is_certain: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Why {
+    Small,
+    Large,
+    Fraction,
+}
+
+/// The computed words of the block that have, or may have, a value that their code does not take.
+///
+/// Nothing is known of a value in an interval unless the whole interval is refused.
+pub(crate) fn refused<'a>(cx: &PathCx<'a>) -> Vec<Refused<'a>> {
+    let flags = cx.origin().flags;
+    if !flags.contains(BlockFlags::EXPRESSION)
+        || flags.intersects(BlockFlags::UNKNOWN_CODE | BlockFlags::ERROR)
+    {
+        return Vec::new();
+    }
+    // The caller may give other values.
+    if cx.depth() == 1 && is_called_from_elsewhere(cx.survey) {
+        return Vec::new();
+    }
+    let mut found = Vec::new();
+    for (word, value) in cx.computed_words() {
+        if matches!(word.letter.ascii(), b'N' | b'O' | b'G' | b'M') && !word.letter.is_corner() {
+            continue;
+        }
+        let Some(facts) = cx.facts(word.letter).filter(|facts| facts.kind != WordKind::Flag) else {
+            continue;
+        };
+        if let Some((value, why, is_certain)) = judged(&value, &facts) {
+            found.push(Refused { word, facts, value, why, is_certain });
+        }
+    }
+    found
+}
+
+/// A value that is refused, why, and whether every value is.
+fn judged(value: &AbstractValue, facts: &WordFacts<'_>) -> Option<(f64, Why, bool)> {
+    match value {
+        AbstractValue::Vacant | AbstractValue::Unknown => None,
+        AbstractValue::Number(x) => why(*x, facts).map(|why| (*x, why, true)),
+        AbstractValue::Set(set) => {
+            let (value, first) = set.numbers().iter().find_map(|x| Some((*x, why(*x, facts)?)))?;
+            let all = set.numbers().iter().all(|x| why(*x, facts).is_some());
+            Some((value, first, all && !set.vacant()))
+        }
+        AbstractValue::Interval { lo, hi, vacant } => {
+            let nearest = [(*hi, Why::Small), (*lo, Why::Large)];
+            let (value, why) =
+                nearest.into_iter().find(|(x, side)| x.is_finite() && why(*x, facts) == Some(*side))?;
+            (!vacant).then_some((value, why, true))
+        }
+    }
+}
+
+fn why(value: f64, facts: &WordFacts<'_>) -> Option<Why> {
+    let low = facts.min.is_some_and(|min| value < min) || facts.above.is_some_and(|above| value <= above);
+    let is_count = matches!(facts.kind, WordKind::Integer | WordKind::Program | WordKind::Label);
+    if low || value < 0.0 && !facts.negative {
+        Some(Why::Small)
+    } else if facts.max.is_some_and(|max| value > max) {
+        Some(Why::Large)
+    } else {
+        (is_count && (value - value.round()).abs() > WHOLE_WITHIN).then_some(Why::Fraction)
+    }
+}
+
+/// What both rules of computed words report: `sure` says "is" or "may be".
+pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refused<'_>) -> Finding {
+    let Refused { word, facts, value, why, is_certain } = refused;
+    let letter = word.letter;
+    let range = cx.find_word(cx.origin().at, |other| other.range() == word.range());
+    let of = facts.code.map(|code| format!(" for `{}`", code.number())).unwrap_or_default();
+    let sure = if *is_certain { "is" } else { "may be" };
+    let (what, takes, confidence) = match why {
+        Why::Small => ("too small", range_of(facts), range_confidence(cx, refused)),
+        Why::Large => ("too large", range_of(facts), range_confidence(cx, refused)),
+        Why::Fraction => ("not a whole number", "whole numbers".to_owned(), facts.confidence),
+    };
+    let finding = cx
+        .finding(
+            rule,
+            range.unwrap_or_else(|| cx.range()),
+            format!("computed value {sure} {what}{of}: `{letter}{value}`"),
+        )
+        .label(facts.is)
+        .note(format!("`{letter}`{of} takes {takes}  [{}]", facts.source))
+        .help("correct the expression, or the variables that it reads")
+        .at_most(limit(confidence));
+    // A control may round a fraction; the number of a program it cannot.
+    let rounds = *why == Why::Fraction && facts.kind != WordKind::Program;
+    let finding = if rounds { finding.at_most(Severity::Warning) } else { finding };
+    if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+}
+
+/// How sure a bound is: the code's own, or that of the address about its sign.
+fn range_confidence(cx: &PathCx<'_>, refused: &Refused<'_>) -> Confidence {
+    let facts = &refused.facts;
+    let is_bound = facts.min.is_some() || facts.max.is_some() || facts.above.is_some();
+    if refused.value < 0.0 && !facts.negative && !is_bound {
+        return cx.control().letter(refused.word.letter).map_or(facts.confidence, |entry| entry.confidence);
+    }
+    facts.range_confidence
+}
+
+/// "0 to 99", "1 or more", "more than 0".
+pub(crate) fn range_of(facts: &WordFacts<'_>) -> String {
+    match (facts.min, facts.above, facts.max) {
+        (Some(min), _, Some(max)) => format!("{min} to {max}"),
+        (Some(min), _, None) => format!("{min} or more"),
+        (None, Some(above), Some(max)) => format!("more than {above}, up to {max}"),
+        (None, Some(above), None) => format!("more than {above}"),
+        (None, None, Some(max)) => format!("{max} or less"),
+        (None, None, None) if !facts.negative => "no negative number".to_owned(),
+        (None, None, None) => "any number".to_owned(),
+    }
+}
