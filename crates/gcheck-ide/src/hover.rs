@@ -930,12 +930,17 @@ mod tests {
 
     #[test]
     fn text_of_a_program_is_never_more_than_text() {
-        check(
-            "haas-mill",
-            "O1\nM98 P$02\nM30\nO2 ([HELP](http://evil) ` <img src=x>)\nM99\n",
-            &expect![[r#""#]],
-        );
-        check("linuxcnc", "#<a](http://evil)>=1\n#1=#<a]$0(http://evil)>\nM2\n", &expect![[r#""#]]);
+        let shown = |control: &str, text: &str| {
+            let mut fixture = Fixture::new(control, text);
+            let found = hover(&mut fixture.database, fixture.document, fixture.offset, &|| false).unwrap();
+            found.unwrap().markdown
+        };
+        let called = "O1\nM98 P$02\nM30\nO2 ([HELP]`evil` ![a] <img src=x>)\nM99\n";
+        let text = shown("haas-mill", called);
+        assert!(text.contains(r"(\[HELP\]\`evil\` \!\[a\] \<img src\=x\>)"), "{text}");
+        assert!(text.contains("`` O2 ([HELP]`evil` ![a] <img src=x>) ``"), "{text}");
+        let text = shown("linuxcnc", "#<d$0epth> = 2\nM2\n");
+        assert!(text.starts_with(r"**#\<depth\>** "), "{text}");
     }
 
     #[test]

@@ -50,7 +50,7 @@ impl Layer {
             settings: facts.settings(&file.settings)?,
             codes: facts.codes(&file.codes)?,
             execution: facts.execution(&file.machine, &file.variables, &file.offsets, &file.tools)?,
-            search: text.search(&file.search),
+            search: text.search(&file.search)?,
             rules: facts.rules(&file.rules)?,
             format: file.format.clone(),
         };
@@ -98,7 +98,7 @@ fn overriding(
         settings: facts.settings(&table.settings)?,
         codes: facts.codes(&table.codes)?,
         execution,
-        search: text.search(&table.search),
+        search: text.search(&table.search)?,
         rules: facts.rules(&table.rules)?,
         format: table.format.clone(),
     };

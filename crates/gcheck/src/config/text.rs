@@ -9,6 +9,9 @@ use super::pattern::PathPattern;
 use super::placed::Placed;
 use crate::Problem;
 
+/// Folders in which called programs are looked for: each is read, and up to 64 MB of what is in it.
+const MAX_SEARCHED: usize = 64;
+
 /// Where a text came from.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Text<'t> {
@@ -35,8 +38,11 @@ impl Text<'_> {
         })
     }
 
-    pub(super) fn search(&self, table: &SearchTable) -> Vec<PathBuf> {
-        table.paths.iter().map(|path| self.path(&path.value)).collect()
+    pub(super) fn search(&self, table: &SearchTable) -> Result<Vec<PathBuf>, Problem> {
+        if let Some(path) = table.paths.get(MAX_SEARCHED) {
+            return Err(self.problem(path, format!("more than {MAX_SEARCHED} folders to search")));
+        }
+        Ok(table.paths.iter().map(|path| self.path(&path.value)).collect())
     }
 
     /// A path that the text names.

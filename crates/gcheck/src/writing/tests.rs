@@ -236,3 +236,29 @@ fn other_files_with_such_names_are_not_removed() {
     leftovers::clean(folder.path(), later);
     assert_eq!(names(folder.path()).len(), 3);
 }
+
+/// What changes files, and where it is called besides the layer: on folders, and on times of use.
+#[test]
+fn nothing_else_writes_files() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut folders = vec![source.clone()];
+    let mut writers = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+            let calls =
+                ["fs::write(", "fs::rename(", "File::create", "create_new(", ".set_len(", "fs::copy("];
+            if calls.iter().any(|call| code.contains(call)) {
+                writers.push(path.strip_prefix(&source).unwrap().to_string_lossy().into_owned());
+            }
+        }
+    }
+    writers.sort();
+    assert_eq!(writers, ["writing/disk.rs", "writing/tests.rs"]);
+}

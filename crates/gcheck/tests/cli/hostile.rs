@@ -20,6 +20,11 @@ const CHECK: &str = "check --no-cache --quiet --output-format concise --control 
 
 /// Checks a folder with a finding beside a folder with this configuration, which is put there by `put`.
 fn check_configuration(put: impl FnOnce(&Shop), expected: &Expect) {
+    expected.assert_eq(&refused(put));
+}
+
+/// What is said of a configuration that is refused.
+fn refused(put: impl FnOnce(&Shop)) -> String {
     let shop = Shop::with(&[("theirs/a.nc", BAD), ("sound/a.nc", BAD)]);
     put(&shop);
     let start = Instant::now();
@@ -27,7 +32,7 @@ fn check_configuration(put: impl FnOnce(&Shop), expected: &Expect) {
     assert!(start.elapsed() < PATIENCE, "{run}");
     assert_eq!(run.findings(), ["sound/a.nc:3:1: error[unknown-code]"], "the other folder is checked: {run}");
     assert_eq!(run.code, 2, "{run}");
-    expected.assert_eq(&run.stderr);
+    run.stderr
 }
 
 #[test]
@@ -65,13 +70,17 @@ fn a_configuration_that_is_too_large_is_refused() {
 
 #[test]
 fn a_pattern_of_braces_in_braces_is_refused() {
-    check_configuration(
-        |shop| {
-            let pattern = format!("{}a{}", "{a,".repeat(240), "}".repeat(240));
-            shop.file("theirs/gcheck.toml", format!("files.include = [\n'{pattern}']\n"));
-        },
-        &expect![[r#""#]],
-    );
+    let pattern = format!("{}a{}", "{a,".repeat(240), "}".repeat(240));
+    let said = refused(|shop| shop.file("theirs/gcheck.toml", format!("files.include = [\n'{pattern}']\n")));
+    assert!(said.starts_with("error: theirs/gcheck.toml:2:1: "), "{said}");
+    assert!(said.contains("its braces are nested deeper than 10"), "{said}");
+}
+
+#[test]
+fn folders_to_search_are_counted() {
+    let table = format!("search.paths = [\n{}]\n", "'/usr',\n".repeat(65));
+    let said = refused(|shop| shop.file("theirs/gcheck.toml", &table));
+    assert!(said.starts_with("error: theirs/gcheck.toml:66:1: more than 64 folders to search"), "{said}");
 }
 
 /// A line of this file is shown neither by a link to it nor by a configuration that names it.
@@ -173,6 +182,21 @@ fn names_of_files_do_not_steer_the_terminal() {
     }
     let run = shop.gcheck("check --no-cache --control haas-mill");
     assert!(!run.stdout.contains('\u{1b}') && run.stdout.contains("unknown-code"), "{run}");
+}
+
+#[test]
+fn a_plot_shows_text_as_text() {
+    let text = "</script><script>alert`1`</script> <img src=x> ]]> --> \u{1b}[31m";
+    let program = format!("O1 ({text})\nT1 M6 ({text})\nG0 G90 G54 X0. Y0.\nG1 X10. F100.\nM30\n");
+    let shop = Shop::with(&[("a<b>.nc", program.as_str())]);
+    for picture in ["out.html", "out.svg"] {
+        let run = shop.gcheck(&format!("plot a<b>.nc -o {picture} --control haas-mill"));
+        assert_eq!(run.code, 0, "{run}");
+        let picture = shop.read(picture);
+        for raw in ["<script>alert", "<img", "\u{1b}", "a<b>"] {
+            assert!(!picture.contains(raw), "{raw}");
+        }
+    }
 }
 
 #[test]

@@ -6,7 +6,6 @@ use gcheck_engine::Fault;
 use gcheck_program::{BlockFlags, Op, Place, StatementKind, Target};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::blocks_with;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
@@ -61,10 +60,9 @@ impl PathRule for NamedParameterUnset {
         let text = file.loaded.chunk_text(place.chunk);
         let names = names(&place, text);
         // Of several names, those that the file sets somewhere are unlikely to be the cause.
-        let set = names_set(cx);
         let suspects: Vec<_> = match names.as_slice() {
             [only] => vec![only],
-            several => several.iter().filter(|(name, _)| !set.contains(name)).collect(),
+            several => several.iter().filter(|(name, _)| !is_set(cx, name)).collect(),
         };
         let finding = match suspects.as_slice() {
             // The control has a value for its own names.
@@ -79,7 +77,7 @@ impl PathRule for NamedParameterUnset {
                     report.add(finding.help("close the bracket `[` of the name"));
                     return;
                 }
-                let is_local_elsewhere = !name.starts_with('_') && set.contains(name);
+                let is_local_elsewhere = !name.starts_with('_') && is_set(cx, name);
                 if is_local_elsewhere {
                     finding.note("a name that does not begin with `_` belongs to one subroutine, or to the main program")
                 } else if name.starts_with('_') {
@@ -116,24 +114,28 @@ fn names(place: &Place, text: &str) -> Vec<(String, Range<u32>)> {
     names
 }
 
-/// Names that the file sets anywhere.
-fn names_set(cx: &PathCx<'_>) -> Vec<String> {
-    let Some(file) = cx.program.file(0) else { return Vec::new() };
-    let mut set = Vec::new();
-    for (_, place) in blocks_with(cx.program, cx.environment, BlockFlags::STATEMENT) {
+/// Does the file set a name anywhere? A program may read thousands of names that nothing has set, so nothing is collected.
+fn is_set(cx: &PathCx<'_>, name: &str) -> bool {
+    let Some(file) = cx.program.file(0) else { return false };
+    file.loaded.blocks_with(BlockFlags::STATEMENT, cx.environment.dialect).any(|(_, place)| {
         let text = file.loaded.chunk_text(place.chunk);
-        for statement in place.table.statements(place.ix) {
-            if let StatementKind::Assign { target: Target::Named(range), .. } = &statement.kind {
-                set.push(key(text, range));
+        place.table.statements(place.ix).any(|statement| match &statement.kind {
+            StatementKind::Assign { target: Target::Named(range), .. } => {
+                letters(text, range).eq(name.chars())
             }
-        }
-    }
-    set
+            _ => false,
+        })
+    })
 }
 
 fn key(text: &str, range: &Range<u32>) -> String {
+    letters(text, range).collect()
+}
+
+/// A name as the control compares it: without blanks, in small letters.
+fn letters(text: &str, range: &Range<u32>) -> impl Iterator<Item = char> {
     let name = text.get(range.start as usize..range.end as usize).unwrap_or_default();
-    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase).collect()
+    name.chars().filter(|c| !c.is_whitespace()).flat_map(char::to_lowercase)
 }
 
 #[cfg(test)]
