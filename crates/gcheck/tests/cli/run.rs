@@ -554,3 +554,9 @@ fn a_speed_under_constant_surface_speed_is_one_and_its_limit_holds_at_once() {
     "#]]
     .assert_eq(&run.to_string());
 }
+
+#[test]
+fn past_alarms_every_block_is_reported_and_the_rest_is_run() {
+    let program = "G21 G90 F200\nG0 X10 Y5\nG2 X20 Y5 I3\nG1 X30 Q7\nM30\n";
+    check(program, "--past-alarms", &expect![[""]]);
+}
