@@ -40,7 +40,7 @@ pub use observer::{Nobody, Observer};
 pub use origin::{At, Origin};
 pub use position::{Axis, Position};
 pub use program::{Library, LookedUp, NoLibrary, Program, ProgramFile, SourceFile};
-pub use run::{RunResult, Stopped, run};
+pub use run::{Alarm, MOST_ALARMS, RunResult, Stopped, run};
 pub use state::{
     Bar, CycleWords, Diameters, Frame, FrameKind, ModeSet, NameId, State, Tables, ToolData, ToolShift, Touch,
     Transform, Variables, Way, Ways, Wrapped,

@@ -1,6 +1,6 @@
 //! A run: one execution from a configured start, with every value known or said to be unknown.
 //!
-//! Knows: fuel, how a run ends. Must not know: other paths than the one taken.
+//! Knows: fuel, how a run ends, that it may go on after an alarm. Must not know: other paths than the one taken.
 
 use std::collections::BTreeSet;
 
@@ -13,6 +13,7 @@ use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
 use crate::state::State;
+use crate::step::past_alarm::{Counting, choose_way};
 use crate::step::{Ending, Executor, Options, Outcome};
 use crate::value::Concrete;
 
@@ -40,12 +41,28 @@ pub struct RunResult {
     pub blocks: u64,
     /// What it rests on.
     pub assumptions: BTreeSet<Assumption>,
+    /// Where the control would have stopped, each block once in the order of the run; only [`Options::past_alarms`] leaves any,
+    /// and at most [`MOST_ALARMS`].
+    pub alarms: Vec<Alarm>,
 }
+
+/// A block that cannot be executed, after which the run went on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alarm {
+    /// The block.
+    pub origin: Origin,
+    /// Why.
+    pub fault: Fault,
+}
+
+/// Alarms that are kept of one run.
+pub const MOST_ALARMS: usize = 1_000;
 
 /// The observer is asked so often, in blocks, whether it wants to see more.
 const ASKED_EVERY: u64 = 4096;
 
-/// Executes a program until it ends, faults, has executed `fuel` blocks, or the observer wants no more.
+/// Executes a program until it ends, faults, has executed `fuel` blocks, or the observer wants no more. With
+/// [`Options::past_alarms`] a fault does not end it: the observer is told ([`Observer::fault`]), and the run goes on.
 pub fn run<O: Observer<Concrete>>(
     program: &Program<'_>,
     model: &Model<'_>,
@@ -54,7 +71,10 @@ pub fn run<O: Observer<Concrete>>(
     fuel: u64,
     observer: O,
 ) -> RunResult {
-    let mut executor = Executor::new(program, model, machine, options, observer);
+    let mut executor = Executor::new(program, model, machine, options, Counting::new(observer));
+    executor.lenient = options.past_alarms;
+    let mut alarms = Alarms::default();
+    let mut undecided = BTreeSet::new();
     let mut state = start_state::<Concrete>(model, machine, &mut executor.assumptions);
     let mut at = At { file: 0, block: 0 };
     let mut blocks = 0;
@@ -77,7 +97,15 @@ pub fn run<O: Observer<Concrete>>(
             break Stopped::OutOfFuel;
         }
         blocks += 1;
-        match executor.step(at, &mut state) {
+        let before = options.past_alarms.then(|| executor.before_block(&state));
+        let outcome = executor.step(at, &mut state);
+        if before.is_some()
+            && let Some(fault) = executor.refused_in_passing.take()
+        {
+            let origin = executor.origin();
+            alarms.add(&mut executor.observer, origin, &state, fault);
+        }
+        match outcome {
             Outcome::Next => at = at.next(),
             Outcome::Jump(to) => at = to,
             Outcome::End(Ending::Restart) if executor.starts_again(&state) && executor.bar_feeds > feeds => {
@@ -85,13 +113,52 @@ pub fn run<O: Observer<Concrete>>(
                 at = At { file: 0, block: 0 };
             }
             Outcome::End(ending) => break Stopped::Ended(ending),
-            Outcome::Fork(_) => break Stopped::Faulted(Fault::Undecidable),
-            Outcome::Fault(fault) => break Stopped::Faulted(fault),
+            Outcome::Fork(ways) => {
+                let chosen = before.and_then(|_| choose_way(at, ways, &mut undecided));
+                let Some((to, way)) = chosen else { break Stopped::Faulted(Fault::Undecidable) };
+                let origin = executor.origin();
+                alarms.add(&mut executor.observer, origin, &state, Fault::Undecidable);
+                (at, state) = (to, way);
+            }
+            Outcome::Fault(fault) => {
+                let Some(before) = before else { break Stopped::Faulted(fault) };
+                let origin = executor.origin();
+                alarms.add(&mut executor.observer, origin, &state, fault.clone());
+                match executor.go_on(at, &before, &fault, &mut state) {
+                    Some(next) => at = next,
+                    None => break Stopped::Faulted(fault),
+                }
+            }
         }
     };
     let origin = executor.origin();
-    if let Stopped::Faulted(fault) = &stopped {
+    if let Stopped::Faulted(fault) = &stopped
+        && !options.past_alarms
+    {
         executor.observer.fault(origin, &state, fault);
     }
-    RunResult { stopped, origin, state, blocks, assumptions: executor.assumptions }
+    RunResult { stopped, origin, state, blocks, assumptions: executor.assumptions, alarms: alarms.list }
+}
+
+/// Alarms that a run went past.
+#[derive(Debug, Default)]
+struct Alarms {
+    list: Vec<Alarm>,
+    at: BTreeSet<At>,
+}
+
+impl Alarms {
+    /// Tells the observer of an alarm, and keeps it; a block in a loop counts once.
+    fn add<O: Observer<Concrete>>(
+        &mut self,
+        observer: &mut O,
+        origin: Origin,
+        state: &State<Concrete>,
+        fault: Fault,
+    ) {
+        if self.list.len() < MOST_ALARMS && self.at.insert(origin.at) {
+            observer.fault(origin, state, &fault);
+            self.list.push(Alarm { origin, fault });
+        }
+    }
 }

@@ -19,6 +19,7 @@ mod motion;
 mod notes;
 mod offsets;
 mod operation;
+pub(crate) mod past_alarm;
 pub(crate) mod plain;
 mod probe;
 mod program_end;
@@ -59,13 +60,15 @@ pub struct Options {
     pub skip: u16,
     /// `M1` stops.
     pub optional_stop: bool,
+    /// A run goes on after a fault as the programmer would after correcting it, and where it cannot decide a condition.
+    pub past_alarms: bool,
 }
 
 impl Options {
     /// Nothing is skipped.
-    pub const NONE: Self = Self { skip: 0, optional_stop: false };
+    pub const NONE: Self = Self { skip: 0, optional_stop: false, past_alarms: false };
     /// Every `/` block is skipped.
-    pub const SKIP_ALL: Self = Self { skip: u16::MAX, optional_stop: false };
+    pub const SKIP_ALL: Self = Self { skip: u16::MAX, ..Self::NONE };
 
     fn skips(self, level: u8) -> bool {
         level > 0 && self.skip & (1 << (level - 1).min(15)) != 0
@@ -130,6 +133,8 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     pub(crate) lenient: bool,
     /// What was refused in the block under way.
     refused: Option<Fault>,
+    /// What was refused in a block that leads elsewhere all the same, where a run goes on past alarms.
+    pub(crate) refused_in_passing: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
     passes_exactly: bool,
     /// A code of the block made the control forget the rest of it.
@@ -212,6 +217,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             machine_coordinates: false,
             lenient: false,
             refused: None,
+            refused_in_passing: None,
             passes_exactly: false,
             rest_is_lost: false,
             nested: FxHashMap::default(),
@@ -306,7 +312,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         match (self.refused.take(), outcome) {
             // The first thing wrong with a block is what the control stops for; what the block means to do is done all the same.
             (Some(fault), Outcome::Next | Outcome::Fault(_)) => Outcome::Fault(fault),
-            (_, outcome) => outcome,
+            (refused, outcome) => {
+                self.refused_in_passing = refused;
+                outcome
+            }
         }
     }
 
@@ -469,6 +478,11 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         Ok(())
+    }
+
+    /// Does an analysis of all paths leave this check to rules of lower tiers? A run past alarms makes it.
+    pub(crate) fn leaves_to_rules(&self) -> bool {
+        self.lenient && !self.options.past_alarms
     }
 
     /// Something about the block is refused. A run stops there; an analysis goes on with what else the block means.

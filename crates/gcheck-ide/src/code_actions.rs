@@ -350,17 +350,22 @@ mod tests {
             let rounded = |position: &gcheck_engine::Position| {
                 position.values().map(|value| (value * 1_000.0).round() / 1_000.0 + 0.0)
             };
-            crate::running::run_through(&snapshot, 10_000, &|| false, &mut |step| match step.event {
-                gcheck_engine::Event::Travel(travel) if travel.from != travel.to => {
-                    moves.push(format!("{:?} {:?}", travel.kind, rounded(&travel.to)));
+            let mut show = |shown: &crate::running::Shown<'_>| {
+                let crate::running::Shown::Event(step) = shown else { return };
+                match step.event {
+                    gcheck_engine::Event::Travel(travel) if travel.from != travel.to => {
+                        moves.push(format!("{:?} {:?}", travel.kind, rounded(&travel.to)));
+                    }
+                    gcheck_engine::Event::Arc(arc) => {
+                        moves.push(format!("arc {:.2} {:?}", arc.sweep, rounded(&arc.to)));
+                    }
+                    gcheck_engine::Event::Dwell(time) => moves.push(format!("dwell {}", time.0)),
+                    _ => {}
                 }
-                gcheck_engine::Event::Arc(arc) => {
-                    moves.push(format!("arc {:.2} {:?}", arc.sweep, rounded(&arc.to)));
-                }
-                gcheck_engine::Event::Dwell(time) => moves.push(format!("dwell {}", time.0)),
-                _ => {}
-            })
-            .unwrap();
+            };
+            let machine = &snapshot.settings().machine.engine;
+            let options = gcheck_engine::Options::NONE;
+            crate::running::run_through(&snapshot, machine, options, 10_000, &|| false, &mut show).unwrap();
             moves
         };
         for (control, text) in [

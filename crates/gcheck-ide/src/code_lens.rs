@@ -5,13 +5,13 @@
 use std::ops::Range;
 
 use gcheck_db::{Cancelled, Snapshot};
-use gcheck_engine::{Axis, Model, Units};
+use gcheck_engine::{Axis, Model, Options, Units};
 use gcheck_geometry::Bounds;
 use gcheck_toolpath::{Section, Statistics, Timing, Values, View};
 
 use crate::figures::{clock, coordinate, plain, unit};
 use crate::parts::{ToolPart, parts};
-use crate::running::{LINEAR, run_through, view};
+use crate::running::{LINEAR, Ran, Shown, run_through, view};
 
 /// What one run of a document amounts to. It takes a while: whoever shows it keeps it, and shows it until the next is there.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -59,9 +59,14 @@ pub struct CodeLens {
 pub fn figures(snapshot: &Snapshot, fuel: u64, stop: &dyn Fn() -> bool) -> Result<RunFigures, Cancelled> {
     let model = Model::new(snapshot.control());
     let view = view(snapshot, &model);
-    let timing = Timing::of_machine(&model, &snapshot.settings().machine.engine);
+    let machine = &snapshot.settings().machine.engine;
+    let timing = Timing::of_machine(&model, machine);
     let mut statistics = Statistics::new(view, timing, model.work_at_power_on());
-    let stopped = run_through(snapshot, fuel, stop, &mut |seen| statistics.add(seen))?;
+    let Ran { stopped, .. } = run_through(snapshot, machine, Options::NONE, fuel, stop, &mut |shown| {
+        if let Shown::Event(step) = shown {
+            statistics.add(step);
+        }
+    })?;
     let units = statistics.units();
     let total = statistics.total();
     // Sections that began in a called program belong to lines of other files.

@@ -76,6 +76,6 @@ pub use signature_help::{Parameter, Signature, TRIGGERS as SIGNATURE_TRIGGERS, s
 pub use state_at::{AxisPlaces, ModeView, StateSide, StateView, VariableView, state_at};
 pub use syntax_tree::syntax_tree;
 pub use things::ReferenceKind;
-pub use toolpath::{MAX_SEGMENTS, Toolpath, toolpath};
+pub use toolpath::{MAX_SEGMENTS, PassedAlarm, Toolpath, toolpath};
 pub use workspace::{FileEdits, Place, Workspace, WorkspaceFile};
 pub use workspace_symbols::{MAX_SYMBOLS, WorkspaceSymbol, workspace_symbols};

@@ -176,6 +176,13 @@ impl<'a> Reading<'a> {
 
     /// The tip lies where the work position says while the tool's own length is in effect; else the difference away.
     fn tip(&self, state: &State<Abstract>, work: Position) -> Position {
+        if state.tool_shift().along_tool().is_some() {
+            let h = Abstract::known(state.h()).filter(|h| *h >= 0.0);
+            let machine = &self.snapshot.settings().machine.engine;
+            #[expect(clippy::cast_sign_loss, reason = "not negative")]
+            let tip = h.and_then(|h| gcheck_toolpath::tip_of_posted(machine, h as u32, state.position()));
+            return tip.map_or(Position::UNKNOWN, |tip| state.position().with_xyz(tip));
+        }
         // A tool that tilts, or is shifted along itself, has its tip elsewhere.
         let tilts = state.tool_shift().along_tool().is_some() || state.tool_shift().along_vectors().is_some();
         let turned = self.snapshot.settings().machine.engine.kinematics.is_some()

@@ -1,44 +1,64 @@
 //! A run of a document, event by event, for what is made of its moves.
 //!
-//! Knows: which file and line an event belongs to, what the machine's times are. Must not know: what is made of the moves.
+//! Knows: which file and line an event belongs to, where the control would stop. Must not know: what is made of the moves.
 
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use gcheck_controls::Machine as MachineKind;
 use gcheck_db::{Cancelled, Snapshot};
 use gcheck_engine::{
-    Axis, Concrete, Ending, Event, Model, Observer, Options, Origin, Program, State, Stop, Stopped, Units,
-    run,
+    Assumption, Axis, Concrete, Ending, Event, Fault, Machine, Model, Observer, Options, Origin, Program,
+    State, Stop, Stopped, Units, run,
 };
 use gcheck_syntax::line_len;
-use gcheck_toolpath::{Spot, Step, View};
+use gcheck_toolpath::{Beside, Spot, Step, View};
 
 use crate::reading::Reading;
 
-/// Runs a document, at most so many blocks; `show` is shown every event. Says why the run did not reach the program's end, in a
-/// few words.
+/// What a run shows.
+pub(crate) enum Shown<'s> {
+    /// Something happened.
+    Event(&'s Step<'s>),
+    /// A run past alarms comes to a block at which the control would stop, or to a decision that nobody knows.
+    Alarm { file: &'s str, line: u32, fault: &'s Fault },
+}
+
+/// How a run of a document came to its end.
+pub(crate) struct Ran {
+    /// Why it did not reach the program's end, in a few words.
+    pub(crate) stopped: Option<String>,
+    /// It ended as a subprogram does, with nobody to return to.
+    pub(crate) is_subprogram: bool,
+    /// What the run has no moves of, one sentence each: passes of a cycle, a program that is not there.
+    pub(crate) without: Vec<String>,
+}
+
+/// Runs a document on a machine, at most so many blocks; `show` is shown every event.
 ///
 /// # Errors
 /// [`Cancelled`] when `stop`, which is asked now and then, said yes.
 pub(crate) fn run_through(
     snapshot: &Snapshot,
+    machine: &Machine,
+    options: Options,
     fuel: u64,
     stop: &dyn Fn() -> bool,
-    show: &mut dyn FnMut(&Step<'_>),
-) -> Result<Option<String>, Cancelled> {
+    show: &mut dyn FnMut(&Shown<'_>),
+) -> Result<Ran, Cancelled> {
     if stop() {
         return Err(Cancelled);
     }
     snapshot.with_program(|program, model| {
-        let machine = &snapshot.settings().machine.engine;
         let units = machine.units.or_else(|| model.units_at_power_on(&machine.settings)).unwrap_or(Units::Mm);
-        let mut watcher = Watcher { program, model, units, files: Vec::new(), stop, stopped: false, show };
-        let result = run(program, model, machine, Options::NONE, fuel, &mut watcher);
+        let files = Vec::new();
+        let mut watcher = Watcher { program, model, machine, units, files, stop, stopped: false, show };
+        let result = run(program, model, machine, options, fuel, &mut watcher);
         if watcher.stopped {
             return Err(Cancelled);
         }
         let line = watcher.line(result.origin);
-        Ok(match &result.stopped {
+        let stopped = match &result.stopped {
             Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => None,
             Stopped::Ended(Ending::Text) => Some("the text ends without a program end".to_owned()),
             Stopped::Ended(Ending::Alarm(number)) => {
@@ -46,7 +66,20 @@ pub(crate) fn run_through(
             }
             Stopped::Faulted(_) => Some(format!("the control would stop in line {line}")),
             Stopped::OutOfFuel => Some(format!("ended after {} blocks", result.blocks)),
-        })
+        };
+        let is_subprogram = matches!(result.stopped, Stopped::Ended(Ending::Restart));
+        let lost = |assumption: &&Assumption| {
+            matches!(
+                assumption,
+                Assumption::Passes(_)
+                    | Assumption::MissingProgram(_)
+                    | Assumption::MissingSubroutine(_)
+                    | Assumption::Code(_)
+            )
+        };
+        let lost: BTreeSet<Assumption> = result.assumptions.iter().filter(lost).cloned().collect();
+        let without = gcheck_lint::describe_all(&lost, model).into_iter().map(|stated| stated.text).collect();
+        Ok(Ran { stopped, is_subprogram, without })
     })
 }
 
@@ -67,12 +100,13 @@ pub(crate) const LINEAR: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 struct Watcher<'a> {
     program: &'a Program<'a>,
     model: &'a Model<'a>,
+    machine: &'a Machine,
     units: Units,
     files: Vec<Option<Lines>>,
     stop: &'a dyn Fn() -> bool,
     /// It said yes.
     stopped: bool,
-    show: &'a mut dyn FnMut(&Step<'_>),
+    show: &'a mut dyn FnMut(&Shown<'_>),
 }
 
 /// Name and begins of the lines of a file.
@@ -119,6 +153,13 @@ impl Watcher<'_> {
         slot.as_mut()
     }
 
+    fn place(&mut self, origin: Origin) -> (Rc<str>, u32) {
+        match self.lines(origin.at.file) {
+            Some(lines) => (Rc::clone(&lines.name), lines.line(origin.start)),
+            None => (Rc::from(""), 0),
+        }
+    }
+
     fn line(&mut self, origin: Origin) -> u32 {
         self.lines(origin.at.file).map_or(0, |lines| lines.line(origin.start))
     }
@@ -130,13 +171,18 @@ impl Observer<Concrete> for Watcher<'_> {
         if matches!(event, Event::Stop(Stop::Optional)) {
             return;
         }
-        let (name, line) = match self.lines(origin.at.file) {
-            Some(lines) => (Rc::clone(&lines.name), lines.line(origin.start)),
-            None => (Rc::from(""), 0),
-        };
+        let (name, line) = self.place(origin);
         let spot = Spot { file: &name, line, n: origin.n };
-        (self.show)(&Step::seen(event, state, self.model, spot, self.units));
+        let seen = Step::seen(event, state, self.model, spot, self.units);
+        let step = Step { beside: Beside::of(state, self.machine, event), ..seen };
+        (self.show)(&Shown::Event(&step));
     }
+
+    fn fault(&mut self, origin: Origin, _: &State<Concrete>, fault: &Fault) {
+        let (name, line) = self.place(origin);
+        (self.show)(&Shown::Alarm { file: &name, line, fault });
+    }
+
     fn stops(&mut self) -> bool {
         self.stopped |= (self.stop)();
         self.stopped

@@ -38,7 +38,7 @@ pub use plan::Plan;
 pub use record::Kind;
 pub use slowest::{MAX_PLACES, Place as SlowPlace};
 pub use statistics::{Assumption, Feeds, MAX_SECTIONS, OffsetUse, Section, Statistics, Times, Unaccounted};
-pub use step::{Beside, Spot, Step, View};
+pub use step::{Beside, Spot, Step, View, tip_of_posted};
 pub use summary::Names;
 pub use text::Text;
 pub use time::{Clock, DEFAULT_RAPID, DEFAULT_ROTARY_RAPID, DEFAULT_TOOL_CHANGE, Timing, Untimed};

@@ -18,9 +18,9 @@ pub use page::{Finding, Page, Source};
 
 use crate::motion::{Motion, Way};
 use crate::placing::{Placing, WorkCoordinates};
-use crate::step::{Step, View};
+use crate::step::{Beside, Step, View};
 use crate::time::{Clock, Timing};
-use drawing::{Kind, Point};
+use drawing::{Alarm, Kind, Point};
 
 /// Points kept of a run for the page, when the caller does not say otherwise. More are thinned.
 pub const MAX_POINTS: usize = 500_000;
@@ -56,7 +56,17 @@ pub struct Plot {
     turned: bool,
     pockets: u64,
     thinned: Option<Thinned>,
+    /// Lines of blocks at which the control would stop.
+    alarms: Vec<Alarm>,
+    /// The end of the last move as it is drawn.
+    last: Option<Seen>,
+    /// Moves that are drawn where the block aims, and not where the axes go: along a tilting tool, and beside a contour.
+    posted: u64,
+    on_contour: u64,
 }
+
+/// Alarms that are marked.
+const MOST_ALARMS: usize = 1_000;
 
 impl Plot {
     /// At the begin of a run, with the work coordinates in effect there. At most `limit` points are kept ([`MAX_POINTS`]).
@@ -82,6 +92,19 @@ impl Plot {
             turned: false,
             pockets: 0,
             thinned: None,
+            alarms: Vec::new(),
+            last: None,
+            posted: 0,
+            on_contour: 0,
+        }
+    }
+
+    /// The control would stop at a block, and the run goes on: the place where the tool is gets a mark.
+    pub fn alarm(&mut self, file: &str, line: u32) {
+        if self.alarms.len() < MOST_ALARMS {
+            self.find_file(file);
+            let at = self.points.last().map(|point| point.at);
+            self.alarms.push(Alarm { file: self.file as u8, line, at });
         }
     }
 
@@ -150,6 +173,16 @@ impl Plot {
             }
         }
         self.points.truncate(kept);
+        for alarm in &mut self.alarms {
+            alarm.at = alarm.at.and_then(|mut at| {
+                for (axis, value) in at.iter_mut().enumerate() {
+                    if !drawn.contains(&axis) {
+                        *value = 0.0;
+                    }
+                }
+                at.iter().all(|value| value.is_finite()).then_some(at)
+            });
+        }
         // Paths of one point are not seen.
         let mut next = self.points.iter().skip(1).map(|point| point.kind == Kind::Start).collect::<Vec<_>>();
         next.push(true);
@@ -179,6 +212,9 @@ impl Plot {
             turned: self.turned,
             pockets: self.pockets,
             thinned: self.thinned,
+            alarms: self.alarms,
+            posted: self.posted,
+            on_contour: self.on_contour,
         }
     }
 
@@ -191,8 +227,14 @@ impl Plot {
     }
 
     fn motion(&mut self, step: &Step<'_>, motion: &Motion) {
-        let from = self.placing.placed(&motion.from);
-        let to = self.placing.placed(&motion.to);
+        let seen = self.seen(step, motion);
+        let from = match self.last {
+            // Where the axes are was not drawn, so that the move begins where the drawing is.
+            Some(last) if last.aims || seen.aims => last.to,
+            _ => self.placing.placed(&motion.from),
+        };
+        let to = self.placing.placed(&seen.to);
+        self.last = Some(Seen { to, ..seen });
         let is_still = |axis: Axis| motion.from.raw(axis).to_bits() == motion.to.raw(axis).to_bits();
         self.turned |= [Axis::A, Axis::B, Axis::C].into_iter().any(|axis| !is_still(axis));
         let kind = match motion.way {
@@ -211,7 +253,8 @@ impl Plot {
         self.begin(step, &from);
         let start = self.seconds;
         let cuts = matches!(kind, Kind::Feed | Kind::Arc | Kind::Spindle);
-        let chords = motion.arc.as_ref().filter(|arc| arc.is_known()).map(|arc| (arc, chord_count(arc)));
+        let arc = motion.arc.filter(|_| !seen.aims);
+        let chords = arc.as_ref().filter(|arc| arc.is_known()).map(|arc| (arc, chord_count(arc)));
         if let Some((arc, count)) = chords {
             for (done, point) in arc.chords(count).take(count as usize - 1).enumerate() {
                 let part = (f64::from(done as u32) + 1.0) / f64::from(count);
@@ -227,6 +270,33 @@ impl Plot {
         self.include(&from, cuts);
         self.include(&to, cuts);
         self.push(step, &to, self.seconds, kind);
+    }
+
+    /// Where a move is drawn: at the tip of a tool that tilts, and where the block aims when nobody knows the path beside the
+    /// contour.
+    fn seen(&mut self, step: &Step<'_>, motion: &Motion) -> Seen {
+        match step.beside {
+            Some(Beside::AlongTool { tip: Some(tip) }) => {
+                return Seen { to: motion.to.with_xyz(tip), aims: true };
+            }
+            Some(Beside::AlongTool { tip: None }) if step.aim.xyz().iter().any(|value| value.is_known()) => {
+                self.posted += 1;
+                return Seen { to: motion.to.with_xyz(step.aim.xyz()), aims: true };
+            }
+            _ => {}
+        }
+        let mut to = motion.to;
+        let mut aims = false;
+        for axis in [Axis::X, Axis::Y, Axis::Z] {
+            if to.get(axis).is_none()
+                && let Some(aim) = step.aim.get(axis)
+            {
+                to.set(axis, aim);
+                aims = true;
+            }
+        }
+        self.on_contour += u64::from(aims);
+        Seen { to, aims }
     }
 
     /// A pocket that the control clears by a path of its own is drawn as the box in which it moves.
@@ -261,9 +331,7 @@ impl Plot {
             Some(tool) => tool,
             None => *self.tool.insert(index_of(&mut self.tools, &self.tool_number, |tool| *tool)),
         };
-        if self.files.get(self.file).is_none_or(|file| file != step.file) {
-            self.file = index_of(&mut self.files, step.file, str::to_owned);
-        }
+        self.find_file(step.file);
         self.points.push(Point {
             at: single(at),
             seconds: seconds as f32,
@@ -274,6 +342,12 @@ impl Plot {
         });
         if self.points.len() >= 4 * self.limit {
             self.thin();
+        }
+    }
+
+    fn find_file(&mut self, file: &str) {
+        if self.files.get(self.file).is_none_or(|known| known != file) {
+            self.file = index_of(&mut self.files, file, str::to_owned);
         }
     }
 
@@ -300,6 +374,14 @@ impl Plot {
             self.include(&corner, cuts);
         }
     }
+}
+
+/// The end of a move as it is drawn.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    to: Position,
+    /// It is where the block aims, and not where the axes go.
+    aims: bool,
 }
 
 /// How many chords an arc is drawn as.

@@ -418,6 +418,7 @@ impl Statistics {
                 rpm: 0.0,
                 machine: Position::UNKNOWN,
                 tool: None,
+                aim: Position::UNKNOWN,
                 h: None,
                 d: None,
                 beside: None,

@@ -3,8 +3,8 @@
 //! Knows: the form in which events come here. Must not know: who sends them.
 
 use gcheck_engine::{
-    Axis, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Model, Position, Spindle, State, Truth,
-    Units,
+    Axis, Concrete, ConcreteValue, Domain as _, Event, FeedMode, Machine, Model, Position, Spindle, State,
+    Transform, Truth, Units,
 };
 use gcheck_geometry::Mm;
 
@@ -30,6 +30,8 @@ pub struct Step<'a> {
     pub machine: Position,
     /// The tool in the spindle; `None` unknown.
     pub tool: Option<u32>,
+    /// Where a move would end without compensation for the tool's size and length; NaN unknown.
+    pub aim: Position,
     /// Number of the tool length offset that was called last, 0 for none; `None` unknown.
     pub h: Option<u32>,
     /// Number of the cutter offset that was called last; `None` unknown.
@@ -70,12 +72,23 @@ impl<'a> Step<'a> {
             rpm: turns(state),
             machine: machine(state, model, event),
             tool: tool(state.tool()),
+            aim: aim(state, event),
             h: tool(state.h()),
             d: tool(state.d()),
             beside: None,
             file: spot.file,
         }
     }
+}
+
+/// The programmed point, where the coordinates of the program are those of the axes.
+fn aim(state: &State<Concrete>, event: &Event) -> Position {
+    let programmed = match event {
+        Event::Travel(travel) => travel.programmed,
+        Event::Arc(arc) => arc.programmed,
+        _ => return Position::UNKNOWN,
+    };
+    if *state.transform() == Transform::NONE { programmed } else { Position::UNKNOWN }
 }
 
 fn number(value: &ConcreteValue) -> f64 {
@@ -116,6 +129,28 @@ pub enum Beside {
     },
     /// The path is shifted along a vector by the size of the cutter.
     AlongVector,
+}
+
+impl Beside {
+    /// Why a straight move of this event ends beside its programmed point.
+    pub fn of(state: &State<Concrete>, machine: &Machine, event: &Event) -> Option<Self> {
+        let Event::Travel(travel) = event else { return None };
+        let shift = state.tool_shift();
+        if shift.along_tool().is_some() {
+            let tip = tool(state.h()).and_then(|h| tip_of_posted(machine, h, &travel.programmed));
+            return Some(Self::AlongTool { tip });
+        }
+        shift.along_vectors().map(|_| Self::AlongVector)
+    }
+}
+
+/// Where the tip of the posted tool is for a posted point, in the coordinates of that point: at zero angles the two are one, and
+/// tilting turns the tool about the head's pivot. `h` is the number of the length offset; `None` unless the posted length and
+/// the machine's kinematics were told.
+pub fn tip_of_posted(machine: &Machine, h: u32, posted: &Position) -> Option<[Mm; 3]> {
+    let length = *machine.posted_lengths.get(&h)?;
+    let [x, y, z] = machine.kinematics?.tip_for_axes(posted.xyz(), length, posted.abc())?;
+    Some([x, y, z + length]).filter(|tip| tip.iter().all(|part| part.is_known()))
 }
 
 /// Which axes are shown, and whether X is shown as a diameter.

@@ -295,6 +295,9 @@ pub struct RunOptions {
     /// What is executed, and how.
     #[command(flatten)]
     pub execution: ExecutionOptions,
+    /// Go on after an alarm as if its block were corrected, and report every one
+    #[arg(long)]
+    pub past_alarms: bool,
     /// How moves are printed
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub output_format: RunFormat,

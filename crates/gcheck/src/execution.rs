@@ -10,7 +10,7 @@ mod session;
 mod steps;
 mod tool_table;
 
-use gcheck_engine::{Axis, RunResult, Stopped};
+use gcheck_engine::{Axis, Options, RunResult, Stopped};
 use gcheck_toolpath::View;
 
 pub(crate) use closing::{Rests, control_line, end_of_run, fault_of, problem_of};
@@ -24,10 +24,19 @@ use equipment::AxesMoved;
 impl Session<'_> {
     /// Executes the program; `steps` sees every event. The error is that of the output, which ends the run early.
     pub(crate) fn run<S: Steps>(&self, steps: S) -> std::io::Result<(RunResult, S)> {
-        let Prepared { equipment, options, fuel, .. } = self.prepared;
+        self.run_with(self.prepared.options, steps)
+    }
+
+    /// As [`Self::run`]; a fault does not end it.
+    pub(crate) fn run_past_alarms<S: Steps>(&self, steps: S) -> std::io::Result<(RunResult, S)> {
+        self.run_with(Options { past_alarms: true, ..self.prepared.options }, steps)
+    }
+
+    fn run_with<S: Steps>(&self, options: Options, steps: S) -> std::io::Result<(RunResult, S)> {
+        let Prepared { equipment, fuel, .. } = self.prepared;
         let mut bridge = Bridge::new(self, steps);
         let ran = bridge::stopping_at_errors(|| {
-            gcheck_engine::run(self.program, self.model, &equipment.machine, *options, *fuel, &mut bridge)
+            gcheck_engine::run(self.program, self.model, &equipment.machine, options, *fuel, &mut bridge)
         });
         bridge.finish(ran)
     }
@@ -62,9 +71,12 @@ impl Session<'_> {
     }
 }
 
-/// The exit code of a run: 0 it came to its end, 1 it did not.
+/// The exit code of a run: 0 it came to its end, 1 it did not, or the control would have stopped on the way.
 pub(crate) fn exit_code(result: &RunResult) -> u8 {
     use gcheck_engine::Ending;
+    if !result.alarms.is_empty() {
+        return 1;
+    }
     match result.stopped {
         Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed) => 0,
         Stopped::Ended(Ending::Text | Ending::Alarm(_)) | Stopped::Faulted(_) | Stopped::OutOfFuel => 1,

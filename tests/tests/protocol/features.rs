@@ -430,6 +430,39 @@ fn our_own_requests_answer() {
 }
 
 #[test]
+fn a_faulty_program_has_a_picture_with_marks() {
+    let mut session = Session::new(&[]);
+    let text = "%\nO1\nG21 G90 G54 G0 X0. Y0. Z50.\nG1 X5. F100.\nG83\nG83 X9.\nG80\nGOTO 77\nG1 X50. Y50.\nM30\n%\n";
+    session.open("faulty.nc", &format!("(gcheck: control=haas-mill)\n{text}"));
+    let document = session.document("faulty.nc");
+    let path = ask(&mut session, "gcheck/toolpath", document);
+    assert_eq!(path["data"]["all"], json!([[0.0, 0.0, 50.0], [50.0, 50.0, 50.0]]), "{path}");
+    let alarms: Vec<_> =
+        path["alarms"].as_array().unwrap().iter().map(|alarm| alarm["line"].clone()).collect();
+    assert_eq!(alarms, [json!(6), json!(7), json!(9)], "{path}");
+    let marked: Vec<_> =
+        path["data"]["alarms"].as_array().unwrap().iter().map(|mark| mark["at"].clone()).collect();
+    let before = json!([5.0, 0.0, 50.0]);
+    assert_eq!(marked, [before.clone(), before, json!([9.0, 0.0, 50.0])], "{path}");
+}
+
+#[test]
+fn five_axis_programs_are_drawn_where_they_were_posted() {
+    let mut session = Session::new(&[]);
+    let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../fixtures");
+    for (name, low, high) in [("tour/impeller.nc", 0.0, 1.31), ("clean/haas-mill/blade.nc", 1.1544, 1.25)] {
+        let opened = name.replace('/', "-");
+        session.open(&opened, &std::fs::read_to_string(format!("{root}/{name}")).unwrap());
+        let document = session.document(&opened);
+        let path = ask(&mut session, "gcheck/toolpath", document);
+        let [from, to] = [0, 1].map(|side| path["data"]["all"][side][0].as_f64().unwrap() / 25.4);
+        assert!((from - low).abs() < 1e-6 && (to - high).abs() < 1e-6, "{name}: X {from} to {to}");
+        let notes = path["notes"].to_string();
+        assert!(notes.contains("posted points"), "{name}: {notes}");
+    }
+}
+
+#[test]
 fn rules_and_codes_are_explained() {
     let mut session = opened();
     let mut about = |params: Value| ask(&mut session, "gcheck/explain", params);

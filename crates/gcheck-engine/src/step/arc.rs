@@ -124,7 +124,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.travel(TravelKind::Feed, *target, false, state)?;
         let setting = self.model.semantics().arcs.straight_setting.as_deref();
         let is_told = setting.is_some_and(|number| self.machine.settings.contains_key(number));
-        if self.lenient && !is_told { fault } else { Ok(()) }
+        if self.leaves_to_rules() && !is_told { fault } else { Ok(()) }
     }
 
     /// What the control makes of an arc without centre and radius.

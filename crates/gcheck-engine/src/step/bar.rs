@@ -156,7 +156,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Truth::Unknown => {
                 // Most feeds of a bar are pushes, so that a run goes on with one; what is left of the bar nobody knows.
-                if !self.lenient {
+                if !self.leaves_to_rules() {
                     self.assumptions.insert(Assumption::BarLength);
                 }
                 state.bar.set_length(f64::NAN);

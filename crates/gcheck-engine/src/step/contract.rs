@@ -283,7 +283,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Refuses a block for how it is written: where its number and its `/` stand, how long it is.
     pub(super) fn check_form(&self, place: &Place, words: &[Word], block: &Block) -> Step {
         let rules = &self.model.contract;
-        if self.lenient || !rules.strict {
+        if self.leaves_to_rules() || !rules.strict {
             return Ok(());
         }
         if block.flags.contains(BlockFlags::LONG_LINE) {
@@ -310,7 +310,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// An O-word, or the `O` that begins a program, stands alone in its block, a number in front of it set aside.
     pub(super) fn check_o_word(&self, place: &Place, words: &[Word], block: &Block) -> Step {
-        if self.lenient || !self.model.contract.strict || !self.model.control().syntax().o_words {
+        if self.leaves_to_rules() || !self.model.contract.strict || !self.model.control().syntax().o_words {
             return Ok(());
         }
         let (n, o) = (Letter::of('N'), Letter::of('O'));
@@ -350,7 +350,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Refuses a block whose words and codes do not fit together, before anything of it acts.
     pub(super) fn check_block(&self, place: &Place, words: &[Word], state: &State<D>) -> Step {
         let rules = &self.model.contract;
-        if self.lenient || rules.idle {
+        if self.leaves_to_rules() || rules.idle {
             return Ok(());
         }
         let codes = self.words.codes();
@@ -389,7 +389,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Addresses of which one in a block without codes and flags makes [`Self::check_block`] look at it.
     pub(super) fn watched_letters(&self) -> LetterSet {
         let rules = &self.model.contract;
-        if self.lenient || rules.idle { LetterSet::EMPTY } else { rules.watched }
+        if self.leaves_to_rules() || rules.idle { LetterSet::EMPTY } else { rules.watched }
     }
 
     /// Does the code stand once, and in front of all else but the number?
@@ -479,7 +479,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn check_spindle(&self) -> Step {
         let Some(spindles) = self.model.contract.spindles else { return Ok(()) };
         match self.words.number(Letter::DOLLAR) {
-            Some(number) if !self.lenient && self.machine.fresh && (number <= -2.0 || number >= spindles) => {
+            Some(number)
+                if !self.leaves_to_rules()
+                    && self.machine.fresh
+                    && (number <= -2.0 || number >= spindles) =>
+            {
                 Err(Fault::WordRange(Letter::DOLLAR))
             }
             _ => Ok(()),

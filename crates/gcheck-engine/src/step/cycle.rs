@@ -112,7 +112,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => return Ok(()),
         };
         let Some(spindle) = state.spindle() else { return Ok(()) };
-        if self.lenient || !self.refuses_incomplete() || !rules.tap_needs_spindle {
+        if self.leaves_to_rules() || !self.refuses_incomplete() || !rules.tap_needs_spindle {
             return Ok(());
         }
         match wanted {
@@ -393,6 +393,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             strokes.truncate(strokes.iter().take_while(|stroke| is_way(stroke)).count());
             self.strokes(&strokes, plane, state)?;
             return Err(fault);
+        }
+        if self.options.past_alarms && matches!(result, Err(CycleError::Fault(_))) {
+            // A cycle that lacks a word is drawn as the plainest one.
+            strokes.clear();
+            if let Ok(end) = hole(Effect::CycleDrill, facts, from, rules, &mut |stroke| strokes.push(stroke))
+            {
+                state.points.position.put(state.position().with_xyz(end));
+            }
         }
         let given_out = self.strokes(&strokes, plane, state);
         self.stroke_buffer = strokes;

@@ -427,7 +427,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// `M99`, `ENDSUB`, `RETURN`.
-    fn leave(
+    pub(super) fn leave(
         &mut self,
         label: Option<D::Value>,
         result: Option<D::Value>,

@@ -334,7 +334,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Unknown) => self.unknown_length(state),
             None => {
                 // The interpreter looks for a tool all the same.
-                if self.refuses_incomplete() && state.tables().is_complete() && !self.lenient {
+                if self.refuses_incomplete() && state.tables().is_complete() && !self.leaves_to_rules() {
                     return Err(Fault::MissingWord(Letter::of('H')));
                 }
                 let mut added = Position::ZERO;

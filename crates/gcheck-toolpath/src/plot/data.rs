@@ -33,6 +33,14 @@ pub(super) struct ViewerData<'d> {
     thinned: bool,
     cut: Option<[[f64; 3]; 2]>,
     all: Option<[[f64; 3]; 2]>,
+    alarms: Vec<AlarmData>,
+}
+
+#[derive(Debug, Serialize)]
+struct AlarmData {
+    file: u8,
+    line: u32,
+    at: Option<[f32; 3]>,
 }
 
 #[derive(Debug, Serialize)]
@@ -87,6 +95,11 @@ impl Drawing {
             thinned: self.thinned.is_some(),
             cut: self.cut,
             all: self.all,
+            alarms: self
+                .alarms
+                .iter()
+                .map(|alarm| AlarmData { file: alarm.file, line: alarm.line, at: alarm.at })
+                .collect(),
         }
     }
 }

@@ -38,6 +38,17 @@ pub(super) struct Point {
     pub(super) file: u8,
 }
 
+/// A block at which the control would stop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Alarm {
+    /// Index of the file.
+    pub(super) file: u8,
+    /// Line of the block, from 1.
+    pub(super) line: u32,
+    /// Where the tool was; `None` before the first move.
+    pub(super) at: Option<[f32; 3]>,
+}
+
 /// A tool of the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tool {
@@ -95,6 +106,10 @@ pub struct Drawing {
     pub(super) turned: bool,
     pub(super) pockets: u64,
     pub(super) thinned: Option<Thinned>,
+    pub(super) alarms: Vec<Alarm>,
+    /// Moves drawn where the program was posted, and on the contour that compensation runs beside.
+    pub(super) posted: u64,
+    pub(super) on_contour: u64,
 }
 
 impl Drawing {
@@ -160,6 +175,18 @@ impl Drawing {
         }
         if self.turned {
             notes.push("rotary axes are not drawn: the tool moves as if the work did not move".to_owned());
+        }
+        if self.posted > 0 {
+            notes.push(
+                "moves of a tilting tool are drawn at the posted points: the place of the tip is not known; `posted_length` of the tool and `pivot_length` in gcheck.toml tell it"
+                    .to_owned(),
+            );
+        }
+        if self.on_contour > 0 {
+            notes.push(
+                "moves under compensation for a tool of unknown size are drawn on the programmed contour, arcs as straight lines; `[tools]` in gcheck.toml can tell its size"
+                    .to_owned(),
+            );
         }
         if self.pockets > 0 {
             notes.push(

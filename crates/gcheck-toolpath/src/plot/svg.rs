@@ -240,8 +240,22 @@ impl Drawing {
                 writeln!(svg, "<path class=\"axis\" d=\"M{:.1} {axis:.1}h{:.1}\"/>", x - 6.0, width + 12.0);
         }
         self.paths(svg, panel, points);
+        self.alarms(svg, panel);
         svg.push_str("</svg>\n");
         zero(svg, panel);
+    }
+
+    /// A red cross where the control would stop.
+    fn alarms(&self, svg: &mut String, panel: &Panel) {
+        for at in self.alarms.iter().filter_map(|alarm| alarm.at) {
+            let [x, y] = panel.on_paper(panel.look.of(at.map(f64::from)));
+            let (x, y) = (x - 6.0, y - 6.0);
+            // Writing to a string cannot fail.
+            let _ = writeln!(
+                svg,
+                "<path stroke=\"#c62828\" stroke-width=\"2.5\" d=\"M{x:.1} {y:.1}l12 12m-12 0l12 -12\"/>"
+            );
+        }
     }
 
     /// The box of what is cut, with its sizes.

@@ -23,6 +23,8 @@
 //   toolOf     Uint8: index in `tools`
 //   fileOf     Uint8: index in `files`; null when there is one file
 //   thinned    true: a piece may stand for several moves, so that it covers the lines behind its start up to its end
+//   alarms     [{ file, line, at: [x, y, z] or null }]: blocks at which the control would stop, and where the tool was then; may
+//              be missing
 //   cut, all   [[x, y, z], [x, y, z]]: smallest and largest of the moves that cut, and of all moves; null when there are none
 //
 // An array is base64 of little-endian bytes, or a typed array. What ends at point i is piece i.
@@ -36,7 +38,8 @@
 // A place is { piece, file, line, kind, tool, point: [x, y, z], seconds }.
 //
 // The viewer: `setView(name)` of VIEWS, `fit()`, `select(file, first, last)` or `select(null)`, `setMarks([{ file, line,
-// severity }])`, `goTo(piece)`, `goToTime(seconds)`, `step(by)`, `play()`, `pause()`, `setSpeed(factor)`, `showRapids(yes)`,
+// severity }])`, `goTo(piece)`, `goToTime(seconds)`, `step(by)`, `stepBlock(by)`,
+// `stepTool(by)`, `play()`, `pause()`, `setSpeed(factor)`, `showRapids(yes)`,
 // `showTool(index, yes)`, `setTheme(THEMES.dark)`, `setData(data)`, `draw()`, `destroy()`, and to read: `place()`, `pieces()`,
 // `duration()`, `isPlaying()`. Drag turns, with Shift or another button it shifts; the wheel zooms where it points; on the
 // focused canvas arrows turn, with Shift they shift, + and - zoom, F fits, 1 to 4 choose a view.
@@ -362,6 +365,14 @@ export function createViewer(canvas, data, callbacks = {}) {
       paper.strokeStyle = theme.background;
       paper.beginPath(); paper.arc(p[0], p[1], 5, 0, 2 * Math.PI); paper.fill(); paper.stroke();
     }
+    // Where the control would stop: a cross.
+    for (const alarm of d.alarms ?? []) {
+      if (!alarm.at) continue;
+      const [x, y] = onScreen(alarm.at);
+      paper.lineWidth = 3;
+      line([x - 6, y - 6], [x + 6, y + 6], theme.error);
+      line([x - 6, y + 6], [x + 6, y - 6], theme.error);
+    }
     if (d.count > 1 && at < last()) {
       const p = onScreen(tip);
       paper.lineWidth = 2; paper.strokeStyle = theme.text;
@@ -475,6 +486,21 @@ export function createViewer(canvas, data, callbacks = {}) {
     do next += Math.sign(by); while (next > 0 && next < last() && d.kinds[next] === KIND.START);
     goTo(Math.abs(by) > 1 ? at + by : next);
   }
+
+  /** To the end of the next group of pieces, or of the one before. */
+  function stepGroup(by, same) {
+    let next = at;
+    if (by > 0) {
+      next++;
+      while (next < last() && same(next + 1, next)) next++;
+    } else {
+      while (next > 0 && same(next, at)) next--;
+    }
+    goTo(next);
+  }
+
+  const stepBlock = (by) => stepGroup(by, (i, j) => d.lines[i] === d.lines[j] && (!d.fileOf || d.fileOf[i] === d.fileOf[j]));
+  const stepTool = (by) => stepGroup(by, (i, j) => d.toolOf[i] === d.toolOf[j]);
 
   function play() {
     if (playing || d.count < 2) return;
@@ -659,7 +685,7 @@ export function createViewer(canvas, data, callbacks = {}) {
 
   setData(data);
   return {
-    setView, fit, select, setMarks, goTo, goToTime, step, play, pause, draw, setData,
+    setView, fit, select, setMarks, goTo, goToTime, step, stepBlock, stepTool, play, pause, draw, setData,
     setSpeed: (factor) => { speed = factor; },
     showRapids: (yes) => { rapids = yes; draw(); },
     showTool: (index, yes) => { hiddenTools[yes ? "delete" : "add"](index); if (gpu) uploadTools(); draw(); },

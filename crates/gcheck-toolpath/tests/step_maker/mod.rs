@@ -22,6 +22,7 @@ pub(crate) struct Happened {
     pub(crate) machine: Position,
     tool: Option<u32>,
     beside: Option<Beside>,
+    aim: Position,
 }
 
 #[derive(Debug, Clone)]
@@ -39,6 +40,8 @@ pub(crate) struct Run {
     pub(crate) zero: Position,
     pub(crate) expanded: bool,
     pub(crate) beside: Option<Beside>,
+    /// Where moves would end without compensation.
+    pub(crate) aim: Position,
 }
 
 /// Lines after bars, which keep their columns in an expectation.
@@ -65,6 +68,7 @@ impl Run {
             zero: Position::ZERO,
             expanded: false,
             beside: None,
+            aim: Position::UNKNOWN,
         }
     }
 
@@ -94,6 +98,7 @@ impl Run {
             machine: self.at + self.zero,
             tool: self.tool,
             beside: self.beside,
+            aim: self.aim,
         });
         self
     }
@@ -151,6 +156,7 @@ impl Run {
                 rpm: step.rpm,
                 machine: step.machine,
                 tool: step.tool,
+                aim: step.aim,
                 h: None,
                 d: None,
                 beside: step.beside,

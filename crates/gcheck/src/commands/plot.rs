@@ -7,7 +7,7 @@ mod findings;
 use std::io::{self, Write};
 use std::path::Path;
 
-use gcheck_engine::RunResult;
+use gcheck_engine::{Fault, RunResult};
 use gcheck_report::LineIndex;
 use gcheck_syntax::SourceText;
 use gcheck_toolpath::plot::{Drawing, MAX_POINTS, Page, Plot, Source};
@@ -72,16 +72,18 @@ fn draw(session: &Session<'_>) -> Result<(RunResult, Drawing), Problem> {
     if session.model.control().machine() == gcheck_controls::Machine::Lathe {
         plot = plot.for_lathe();
     }
-    let (ran, plot) =
-        session.run(plot).map_err(|error| Problem::new(format!("cannot record the path: {error}")))?;
+    let (ran, plot) = session
+        .run_past_alarms(plot)
+        .map_err(|error| Problem::new(format!("cannot record the path: {error}")))?;
     Ok((ran, plot.finish()))
 }
 
-/// That the picture is a part of the program's path, and why.
+/// That the control would stop, or that the picture is a part of the program's path, and why.
 fn stopped(session: &Session<'_>, ran: &RunResult) -> Option<String> {
     let fault = execution::fault_of(session, ran)?;
     let place = LineIndex::new(&fault.text).position(&fault.text, fault.range.start as u32);
-    Some(format!("the run ended in {}, line {}: {}", fault.name, place.line, fault.words.message))
+    let what = if ran.alarms.is_empty() { "the run ended" } else { "the control would stop" };
+    Some(format!("{what} in {}, line {}: {}", fault.name, place.line, fault.words.message))
 }
 
 fn with_names<R>(session: &Session<'_>, with: impl FnOnce(&Names<'_>) -> R) -> R {
@@ -136,6 +138,13 @@ fn readable(text: &str) -> std::borrow::Cow<'_, str> {
 impl Steps for Plot {
     fn step(&mut self, step: &Step<'_>) -> io::Result<()> {
         self.add(step);
+        Ok(())
+    }
+
+    fn alarm(&mut self, file: &str, line: u32, fault: &Fault) -> io::Result<()> {
+        if *fault != Fault::Undecidable {
+            self.alarm(file, line);
+        }
         Ok(())
     }
 }

@@ -21,7 +21,7 @@ pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> 
         }
         let mut ran = None;
         let write = |out: &mut dyn Write| -> io::Result<()> {
-            ran = Some(print(session, options.output_format, out)?);
+            ran = Some(print(session, options, out)?);
             Ok(())
         };
         match &options.output_file {
@@ -38,14 +38,14 @@ pub(crate) fn run(global: &Global, options: &RunOptions) -> Result<u8, Problem> 
     })
 }
 
-fn print(session: &Session<'_>, format: RunFormat, out: &mut dyn Write) -> io::Result<RunResult> {
+fn print(session: &Session<'_>, options: &RunOptions, out: &mut dyn Write) -> io::Result<RunResult> {
     let timing = session.prepared.equipment.timing;
-    match format {
+    match options.output_format {
         RunFormat::Canonical => {
             let equipment = &session.prepared.equipment;
             let mut canonical = Canonical::new(out).with_tool_table(equipment.table.clone());
             canonical.prologue(&start(session))?;
-            let (result, canonical) = session.run(canonical)?;
+            let (result, canonical) = execute(session, options, canonical)?;
             canonical.epilogue(match result.stopped {
                 Stopped::Ended(Ending::Tape) => gcheck_toolpath::Ending::Percent,
                 Stopped::Ended(_) => gcheck_toolpath::Ending::Program,
@@ -54,21 +54,25 @@ fn print(session: &Session<'_>, format: RunFormat, out: &mut dyn Write) -> io::R
             Ok(result)
         }
         RunFormat::Jsonl => {
-            let (result, lines) = session.run(JsonLines::new(out, session.all_axes(), timing))?;
+            let (result, lines) = execute(session, options, JsonLines::new(out, session.all_axes(), timing))?;
             lines.finish()?;
             Ok(result)
         }
         RunFormat::Csv => {
-            let (result, table) = session.run(Csv::new(out, session.all_axes(), timing)?)?;
+            let (result, table) = execute(session, options, Csv::new(out, session.all_axes(), timing)?)?;
             table.finish()?;
             Ok(result)
         }
         RunFormat::Text => {
-            let (result, table) = session.run(Text::new(out, session.used_axes(), timing))?;
+            let (result, table) = execute(session, options, Text::new(out, session.used_axes(), timing))?;
             table.finish()?;
             Ok(result)
         }
     }
+}
+
+fn execute<S: Steps>(session: &Session<'_>, options: &RunOptions, steps: S) -> io::Result<(RunResult, S)> {
+    if options.past_alarms { session.run_past_alarms(steps) } else { session.run(steps) }
 }
 
 /// What is in effect before the first block.

@@ -6,8 +6,7 @@ use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::rc::Rc;
 
-use gcheck_engine::{At, Concrete, Event, Observer, Origin, Position, RunResult, State, Stop};
-use gcheck_geometry::Mm;
+use gcheck_engine::{At, Concrete, Event, Fault, Observer, Origin, RunResult, State, Stop};
 use gcheck_report::LineIndex;
 use gcheck_toolpath::{Beside, Spot, Step};
 
@@ -96,27 +95,6 @@ impl<'s, S: Steps> Bridge<'s, S> {
     }
 }
 
-impl<S> Bridge<'_, S> {
-    /// Why a straight move ends beside its programmed point.
-    fn beside(&self, state: &State<Concrete>, event: &Event, h: Option<u32>) -> Option<Beside> {
-        let Event::Travel(travel) = event else { return None };
-        let shift = state.tool_shift();
-        if shift.along_tool().is_some() {
-            return Some(Beside::AlongTool { tip: self.tip(h, &travel.programmed) });
-        }
-        shift.along_vectors().map(|_| Beside::AlongVector)
-    }
-
-    /// Where the tip of the posted tool is for a posted point: at zero angles the two are one, and tilting turns the tool about
-    /// the head's pivot.
-    fn tip(&self, h: Option<u32>, posted: &Position) -> Option<[Mm; 3]> {
-        let machine = &self.session.prepared.equipment.machine;
-        let length = *machine.posted_lengths.get(&h?)?;
-        let [x, y, z] = machine.kinematics?.tip_for_axes(posted.xyz(), length, posted.abc())?;
-        Some([x, y, z + length]).filter(|tip| tip.iter().all(|part| part.is_known()))
-    }
-}
-
 impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
     fn before(&mut self, origin: Origin, _: &State<Concrete>) {
         self.executing = origin.n;
@@ -140,8 +118,17 @@ impl<S: Steps> Observer<Concrete> for Bridge<'_, S> {
         let spot = Spot { file: &file, line, n };
         let units = self.session.prepared.equipment.units;
         let seen = Step::seen(event, state, model, spot, units);
-        let step = Step { beside: self.beside(state, event, seen.h), ..seen };
+        let machine = &self.session.prepared.equipment.machine;
+        let step = Step { beside: Beside::of(state, machine, event), ..seen };
         if let Err(error) = self.steps.step(&step) {
+            self.error = Some(error);
+            panic::resume_unwind(Box::new(OutputFailed));
+        }
+    }
+
+    fn fault(&mut self, origin: Origin, _: &State<Concrete>, fault: &Fault) {
+        let (file, line) = self.place(origin);
+        if let Err(error) = self.steps.alarm(&file, line, fault) {
             self.error = Some(error);
             panic::resume_unwind(Box::new(OutputFailed));
         }

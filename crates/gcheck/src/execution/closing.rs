@@ -16,8 +16,11 @@ use gcheck_syntax::SourceText;
 
 use super::session::Session;
 use crate::Problem;
-use crate::console::report;
+use crate::console::{report, say};
 use crate::fault_words::{self, Culprit, Words};
+
+/// Alarms that a run past alarms reports one by one.
+const MOST_REPORTED: usize = 20;
 
 /// Which control reads the program, and why that one.
 pub(crate) fn control_line(session: &Session<'_>) -> String {
@@ -38,9 +41,18 @@ pub(crate) fn control_line(session: &Session<'_>) -> String {
     gcheck_report::control_lines(&report).join("\n")
 }
 
-/// Says why a run did not come to the end of the program.
+/// Says where the control would have stopped, and why a run did not come to the end of the program.
 pub(crate) fn end_of_run(session: &Session<'_>, result: &RunResult) {
-    if let Some(fault) = fault_of(session, result) {
+    for alarm in result.alarms.iter().take(MOST_REPORTED) {
+        report(&problem_of(&fault_at(session, result, &Stopped::Faulted(alarm.fault.clone()), alarm.origin)));
+    }
+    let more = result.alarms.len().saturating_sub(MOST_REPORTED);
+    if more > 0 {
+        say(&format!("{more} more blocks at which the control would stop"));
+    }
+    // The fault that ends a run past alarms is one of them.
+    let is_told = !result.alarms.is_empty() && matches!(result.stopped, Stopped::Faulted(_));
+    if let Some(fault) = early_end(session, result).filter(|_| !is_told) {
         report(&problem_of(&fault));
     }
 }
@@ -68,33 +80,48 @@ pub(crate) struct Fault {
     pub(crate) text: String,
 }
 
-/// Why a run did not come to the end of the program; `None` if it did.
+/// Why a run did not come to the end of the program, or where the control would have stopped first; `None` if neither.
 pub(crate) fn fault_of(session: &Session<'_>, result: &RunResult) -> Option<Fault> {
+    if let Some(alarm) = result.alarms.first() {
+        return Some(fault_at(session, result, &Stopped::Faulted(alarm.fault.clone()), alarm.origin));
+    }
+    early_end(session, result)
+}
+
+/// Why a run did not come to the end of the program; `None` if it did.
+fn early_end(session: &Session<'_>, result: &RunResult) -> Option<Fault> {
+    let is_end = matches!(
+        result.stopped,
+        Stopped::Ended(Ending::Program | Ending::Restart | Ending::Tape | Ending::BarsUsed)
+    );
+    (!is_end).then(|| fault_at(session, result, &result.stopped, result.origin))
+}
+
+fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin: Origin) -> Fault {
     let units = result.state.units(session.model).unwrap_or(session.prepared.equipment.units);
-    let (words, culprit) = match &result.stopped {
+    let (words, culprit) = match stopped {
         Stopped::Ended(Ending::Alarm(number)) => {
-            let comment = comment_of(session, result.origin);
+            let comment = comment_of(session, origin);
             (fault_words::alarm(*number, comment.as_deref()), None)
         }
-        Stopped::Ended(Ending::Text) => {
+        Stopped::Ended(_) => {
             (fault_words::words(&gcheck_engine::Fault::NoProgramEnd, session.model, units), None)
         }
-        Stopped::Ended(_) => return None,
         Stopped::Faulted(gcheck_engine::Fault::Undecidable) => {
-            (fault_words::undecidable(&unknown_variables(session, result)), None)
+            (fault_words::undecidable(&unknown_variables(session, result, origin)), None)
         }
         Stopped::Faulted(fault) => {
             (fault_words::words(fault, session.model, units), fault_words::culprit(fault))
         }
         Stopped::OutOfFuel => (fault_words::out_of_fuel(result.blocks), None),
     };
-    let file = session.program.file(result.origin.at.file);
+    let file = session.program.file(origin.at.file);
     let (name, text) = match &file {
         Some(file) if !file.name.is_empty() => (&*file.name, file.loaded.text().into_owned()),
         _ => (session.prepared.shown.as_str(), session.prepared.source.text().to_owned()),
     };
-    let range = range(session, result.origin, culprit);
-    Some(Fault { words, range, name: name.to_owned(), text })
+    let range = range(session, origin, culprit);
+    Fault { words, range, name: name.to_owned(), text }
 }
 
 /// The word that a fault is about, else the block.
@@ -123,9 +150,9 @@ fn range(session: &Session<'_>, origin: Origin, culprit: Option<Culprit>) -> Ran
 }
 
 /// Variables of the last block that have no known value; those of the call at hand only where there are no others.
-fn unknown_variables(session: &Session<'_>, result: &RunResult) -> Vec<u32> {
-    let Some(file) = session.program.file(result.origin.at.file) else { return Vec::new() };
-    let Some(place) = file.loaded.place(result.origin.at.block, session.program.dialect()) else {
+fn unknown_variables(session: &Session<'_>, result: &RunResult, origin: Origin) -> Vec<u32> {
+    let Some(file) = session.program.file(origin.at.file) else { return Vec::new() };
+    let Some(place) = file.loaded.place(origin.at.block, session.program.dialect()) else {
         return Vec::new();
     };
     let table = &place.table;

@@ -65,7 +65,11 @@ pub(crate) fn prepare(global: &Global, options: &ExecutionOptions) -> Result<Pre
         choice,
         control,
         equipment,
-        options: Options { skip: options.block_skip.0, optional_stop: options.optional_stop == Switch::On },
+        options: Options {
+            skip: options.block_skip.0,
+            optional_stop: options.optional_stop == Switch::On,
+            past_alarms: false,
+        },
         fuel: options.fuel,
         search: settings.search,
         path,

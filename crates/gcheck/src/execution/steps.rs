@@ -4,6 +4,7 @@
 
 use std::io;
 
+use gcheck_engine::Fault;
 use gcheck_toolpath::Step;
 
 /// Takes the steps of a run.
@@ -14,4 +15,10 @@ pub(crate) trait Steps {
 
     /// One event.
     fn step(&mut self, step: &Step<'_>) -> io::Result<()>;
+
+    /// The control would stop at this line; the run goes on.
+    fn alarm(&mut self, file: &str, line: u32, fault: &Fault) -> io::Result<()> {
+        let _ = (file, line, fault);
+        Ok(())
+    }
 }

@@ -118,13 +118,17 @@ fn the_name_of_the_output_says_what_is_drawn() {
 }
 
 #[test]
-fn a_run_that_faults_is_drawn_as_far_as_it_goes() {
+fn a_run_that_faults_is_drawn_past_the_fault_with_a_mark() {
     let broken = PLATE.replace("I-18. Z-6.", "X50. I-18. Z-6.");
     let shop = Shop::with(&[("plate.nc", broken.as_str())]);
     let run = shop.gcheck("plot plate.nc --control fanuc-mill -o plate.html");
     assert_eq!(run.code, 1, "{}", run.stderr);
     let page = shop.read("plate.html");
-    assert!(page.contains("the run ended in plate.nc, line 20: "), "the page says where the path ends");
+    assert!(page.contains("the control would stop in plate.nc, line 20: "), "the page says where");
+    assert!(page.contains("\"alarms\":[{\"file\":0,\"line\":20,"), "the picture has a mark");
+    assert_eq!(shop.gcheck("plot plate.nc --control fanuc-mill -o plate.svg").code, 1);
+    let picture = shop.read("plate.svg");
+    assert_eq!(picture.matches("l12 12m-12 0l12 -12").count(), 4, "each view has a cross");
 }
 
 #[test]

@@ -554,3 +554,33 @@ fn a_speed_under_constant_surface_speed_is_one_and_its_limit_holds_at_once() {
     "#]]
     .assert_eq(&run.to_string());
 }
+
+#[test]
+fn past_alarms_every_block_is_reported_and_the_rest_is_run() {
+    let program = "G21 G90 F200\nG0 X10 Y5\nG2 X20 Y5 I3\nG1 X30 Q7\nM30\n";
+    check(
+        program,
+        "--past-alarms",
+        &expect![[r#"
+        part.ngc, mm
+           line  move             X          Y          Z       feed   seconds
+              2  rapid      10.0000     5.0000     0.0000                0.024
+              3  feed       20.0000     5.0000     0.0000        200     3.000
+              4  feed       30.0000     5.0000     0.0000        200     3.000
+              5  spindle                                                        stop
+              5  end
+        ! error: part.ngc:3:1: the end point is not on the circle of the start point
+        !   |
+        ! 3 | G2 X20 Y5 I3
+        !   | ^^^^^^^^^^^^
+        !   note: it lies 7 mm from the centre, and the start 3 mm
+        ! error: part.ngc:4:1: no code of this block reads `Q`
+        !   |
+        ! 4 | G1 X30 Q7
+        !   | ^^^^^^^^^
+        !   note: neither the codes of the block nor the motion in effect take this word
+        !   help: take `Q` away, or write the code that it belongs to
+        exit 1
+    "#]],
+    );
+}

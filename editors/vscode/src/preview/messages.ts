@@ -15,15 +15,29 @@ export interface Toolpath {
   travel: ([number, number] | null)[];
   /** How the run ended, where it did not reach the program's end. */
   stopped: string | null;
+  /** Where the control would stop, and decisions that nobody knows: the picture goes on after them. */
+  alarms: Alarm[];
+}
+
+/** A block that the picture goes past. */
+export interface Alarm {
+  /** The file; empty for the document. */
+  file: string;
+  /** Its line, from 1. */
+  line: number;
+  /** What the picture does there, in a few words. */
+  words: string;
 }
 
 export type ToPage =
   | { kind: "toolpath"; name: string; toolpath: Toolpath }
-  | { kind: "nothing"; why: string }
+  | { kind: "nothing"; why: string; alarms: Alarm[]; notes: string[] }
   | { kind: "lines"; first: number; last: number };
 
 export type FromPage =
   | { kind: "ready" }
   | { kind: "line"; file: string; line: number }
+  /** The tool of a run that is played or stepped is at this line. */
+  | { kind: "at"; file: string; line: number }
   /** For tests: what is drawn. */
-  | { kind: "drawn"; pieces: number };
+  | { kind: "drawn"; pieces: number; alarms: number };

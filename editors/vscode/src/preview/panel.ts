@@ -5,7 +5,7 @@ import * as path from "node:path";
 import * as vscode from "vscode";
 
 import type { Server } from "../server";
-import type { FromPage, ToPage, Toolpath } from "./messages";
+import type { Alarm, FromPage, ToPage, Toolpath } from "./messages";
 
 /** Milliseconds without an edit after which the toolpath is computed again. */
 const PAUSE = 400;
@@ -16,9 +16,9 @@ export class ToolpathPreview implements vscode.Disposable {
   private timer: NodeJS.Timeout | undefined;
   private asking: vscode.CancellationTokenSource | undefined;
   private readonly subscriptions: vscode.Disposable[];
-  private readonly drawnEmitter = new vscode.EventEmitter<number>();
+  private readonly drawnEmitter = new vscode.EventEmitter<{ pieces: number; alarms: number }>();
 
-  /** The page has drawn so many pieces. */
+  /** The page has drawn so many pieces, and names so many alarms that the picture goes past. */
   readonly onDrawn = this.drawnEmitter.event;
 
   constructor(
@@ -100,9 +100,13 @@ export class ToolpathPreview implements vscode.Disposable {
 <div id="scene"><canvas id="canvas" tabindex="0" aria-label="Toolpath"></canvas></div>
 <p id="nothing" role="status"></p>
 <div id="figures" aria-live="polite"></div>
-<div id="tools"></div>
+<div id="side"><div id="tools"></div><div id="alarms" role="status"></div></div>
+<div id="readout" role="status"></div>
 <div id="controls">
+<button id="back" title="Back a block (Page Up); a move: ," aria-label="Back a block">⏮</button>
 <button id="play" title="Play or pause (space)" aria-label="Play">▶</button>
+<button id="on" title="On a block (Page Down); a move: ." aria-label="On a block">⏭</button>
+<button id="next-tool" title="To the end of the next tool (T)" aria-label="Next tool">T⏭</button>
 <input id="time" type="range" min="0" max="1000" value="1000" aria-label="Place in the run">
 <select id="speed" aria-label="Speed">
 <option value="1">1×</option><option value="10" selected>10×</option><option value="100">100×</option>
@@ -128,9 +132,24 @@ export class ToolpathPreview implements vscode.Disposable {
       case "line":
         void this.reveal(message.file, message.line);
         break;
-      case "drawn":
-        this.drawnEmitter.fire(message.pieces);
+      case "at":
+        this.follow(message.file, message.line);
         break;
+      case "drawn":
+        this.drawnEmitter.fire({ pieces: message.pieces, alarms: message.alarms });
+        break;
+    }
+  }
+
+  /** The cursor goes along with a run that is played or stepped, where its file is visible; the keyboard stays with the picture. */
+  private follow(file: string, line: number): void {
+    const isMeant = (document: vscode.TextDocument) =>
+      file === "" ? document === this.document : path.basename(document.fileName) === path.basename(file);
+    const editor = vscode.window.visibleTextEditors.find((editor) => isMeant(editor.document));
+    if (editor !== undefined) {
+      const start = new vscode.Position(Math.min(Math.max(line - 1, 0), editor.document.lineCount - 1), 0);
+      editor.selection = new vscode.Selection(start, start);
+      editor.revealRange(editor.selection, vscode.TextEditorRevealType.InCenterIfOutsideViewport);
     }
   }
 
@@ -160,7 +179,7 @@ export class ToolpathPreview implements vscode.Disposable {
   private async refresh(): Promise<void> {
     const { panel, document } = this;
     if (panel === undefined || document === undefined) {
-      this.post({ kind: "nothing", why: "Open a part program to see its toolpath." });
+      this.nothing("Open a part program to see its toolpath.");
       return;
     }
     const name = path.basename(document.fileName);
@@ -175,13 +194,16 @@ export class ToolpathPreview implements vscode.Disposable {
         return;
       }
       if (toolpath === undefined || toolpath.data.count === 0) {
-        this.post({ kind: "nothing", why: toolpath?.stopped ?? "The program makes no move." });
+        // With moves of which none is drawn, the notes name the cause.
+        const why = toolpath !== undefined && toolpath.moves > 0 ? "Nothing can be drawn." : "The program makes no move.";
+        const notes = (toolpath?.notes ?? []).filter((note) => note !== toolpath?.stopped);
+        this.nothing([why, toolpath?.stopped].filter(Boolean).join("\n"), toolpath?.alarms, notes);
       } else {
         this.post({ kind: "toolpath", name, toolpath });
       }
     } catch (error) {
       if (!asking.token.isCancellationRequested) {
-        this.post({ kind: "nothing", why: String(error) });
+        this.nothing(String(error));
       }
     } finally {
       if (this.asking === asking) {
@@ -189,6 +211,10 @@ export class ToolpathPreview implements vscode.Disposable {
       }
       asking.dispose();
     }
+  }
+
+  private nothing(why: string, alarms: Alarm[] = [], notes: string[] = []): void {
+    this.post({ kind: "nothing", why, alarms, notes });
   }
 
   private post(message: ToPage): void {

@@ -25,6 +25,7 @@ declare module "gcheck-viewer" {
     thinned: boolean;
     cut: [number[], number[]] | null;
     all: [number[], number[]] | null;
+    alarms?: { file: number; line: number; at: [number, number, number] | null }[];
   }
 
   export interface Place {
@@ -32,7 +33,7 @@ declare module "gcheck-viewer" {
     file: number;
     line: number;
     kind: number;
-    tool: number;
+    tool: Tool | null;
     point: [number, number, number];
     seconds: number;
   }
@@ -50,6 +51,8 @@ declare module "gcheck-viewer" {
     goTo(piece: number): void;
     goToTime(seconds: number): void;
     step(by: number): void;
+    stepBlock(by: number): void;
+    stepTool(by: number): void;
     play(): void;
     pause(): void;
     setSpeed(factor: number): void;

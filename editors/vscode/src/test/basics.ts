@@ -158,12 +158,31 @@ export const trusted: Test[] = [
       const { preview } = await api();
       const editor = await open("pocket.nc");
       let pieces = 0;
-      const subscription = preview.onDrawn((count) => (pieces = count));
+      const subscription = preview.onDrawn((drawn) => (pieces = drawn.pieces));
       await vscode.commands.executeCommand("gcheck.showToolpath");
       await until("the drawing", () => (pieces > 20 ? true : undefined));
       subscription.dispose();
       goTo(editor, "G03");
       await picture("vscode-toolpath");
+    },
+  ],
+  [
+    "an alarm marks the picture and leaves the rest of it",
+    async () => {
+      const { preview } = await api();
+      const editor = await open("pocket.nc");
+      let drawn = { pieces: 0, alarms: 0 };
+      const subscription = preview.onDrawn((news) => (drawn = news));
+      await vscode.commands.executeCommand("gcheck.showToolpath");
+      await until("the drawing", () => (drawn.pieces > 20 && drawn.alarms === 0 ? true : undefined));
+      const whole = drawn.pieces;
+      await editor.edit((edit) => edit.insert(place(editor.document, "G03").with({ character: 0 }), "GOTO 77\n"));
+      await until("the mark", () => (drawn.alarms > 0 ? true : undefined));
+      assert.ok(drawn.pieces >= whole, `${drawn.pieces} of ${whole} pieces are left`);
+      await picture("vscode-alarm");
+      await vscode.commands.executeCommand("undo");
+      await until("the mark to go", () => (drawn.alarms === 0 ? true : undefined));
+      subscription.dispose();
     },
   ],
   [
