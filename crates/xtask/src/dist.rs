@@ -65,7 +65,7 @@ pub(crate) fn run(arguments: &[String]) -> anyhow::Result<ExitCode> {
     write(&out, &packages)?;
     println!("{:>11}  {} itself", binary.len(), path.display());
     if binary.len() > MOST {
-        println!("the binary is larger than {MOST} bytes: was it built in the profile `dist`?");
+        println!("the binary has more than {MOST} bytes, which is what a published one should have at most");
     }
     Ok(ExitCode::SUCCESS)
 }
