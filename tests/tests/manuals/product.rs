@@ -102,6 +102,9 @@ fn output(subcommand: &[&str], program: &Program) -> Output {
     for key in program.config {
         command.args(["--config", key]);
     }
+    if program.skips && subcommand.contains(&"run") {
+        command.args(["--block-skip", "on"]);
+    }
     if program.files.is_empty() {
         let mut child = command.arg("-").spawn().unwrap();
         child.stdin.take().unwrap().write_all(program.text.as_bytes()).unwrap();

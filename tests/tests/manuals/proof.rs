@@ -19,6 +19,8 @@ pub(crate) struct Program {
     pub(crate) config: &'static [&'static str],
     /// Programs in other files of the same folder, or below it: name and text.
     pub(crate) files: &'static [(&'static str, &'static str)],
+    /// A run passes over the blocks with a slash.
+    pub(crate) skips: bool,
 }
 
 impl Program {
@@ -31,11 +33,16 @@ impl Program {
     pub(crate) const fn beside(self, files: &'static [(&'static str, &'static str)]) -> Self {
         Self { files, ..self }
     }
+
+    /// With block delete on.
+    pub(crate) const fn skipping(self) -> Self {
+        Self { skips: true, ..self }
+    }
 }
 
 /// A program for a control.
 pub(crate) const fn on(control: &'static str, text: &'static str) -> Program {
-    Program { control, text, config: &[], files: &[] }
+    Program { control, text, config: &[], files: &[], skips: false }
 }
 
 /// What proves a sentence of a manual.

@@ -23,7 +23,8 @@ pub(crate) fn write(manual: &Manual) -> String {
          # {}: the manual, statement by statement\n\n\
          Source: {}\n\n\
          Each statement is in our words.\n\
-         *Held by* names the data entry, effect or rule, and the proof; the programs of every proof are in the file that its section names, under the statement's number, and run with the tests.\n\n",
+         *Held by* names the data entry, effect or rule, and the proof; the programs of every proof are in the file that its section names, under the statement's number, and run with the tests.\n\
+         [Read again](read-again.md) says how many rows a second reader found wrong.\n\n",
         manual.title, manual.source
     );
     let all = || manual.chapters.iter().flat_map(|chapter| chapter.statements);

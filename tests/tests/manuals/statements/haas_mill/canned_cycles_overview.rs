@@ -212,8 +212,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 147",
-            "G85 bores in and out at feed.",
+            "p. 147, p. 300",
+            "G85 bores down and returns; its title, Bore In, Bore Out, tells that it feeds both ways.",
             "effect of `G85`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nG98 G85 X1. Z-.5 R.1 F10.\nG80\nM30\n",

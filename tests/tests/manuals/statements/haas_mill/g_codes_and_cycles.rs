@@ -100,8 +100,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             }],
         ),
         held(
-            "p. 243",
-            "L with an absolute position machines the same hole again.",
+            "p. 244",
+            "L repeats a cycle by an incremental move in X or Y; with an absolute position every repeat is at the same place (our conclusion).",
             "rule `cycle-repeated-in-place`",
             &[
                 Rule {

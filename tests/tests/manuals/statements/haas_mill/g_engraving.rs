@@ -167,8 +167,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             }],
         ),
         not_modelled(
-            "p. 271",
-            "Letters, figures and most signs can be engraved; arcs of text cannot.",
+            "p. 271, p. 273",
+            "The characters 32 to 126 can be engraved; text along an arc cannot.",
             "the shapes of the characters are the control's own",
         ),
         not_modelled(

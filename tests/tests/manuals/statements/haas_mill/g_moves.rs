@@ -45,7 +45,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         not_modelled(
             "p. 248, p. 249",
-            "The way of a rapid move is not one straight line.",
+            "In general the way of a rapid move is not one straight line: each axis goes at its own highest speed.",
             "which way depends on the machine and on Setting 335; ends and times of rapid moves are what gcheck states, and pictures draw straight lines",
         ),
         held(

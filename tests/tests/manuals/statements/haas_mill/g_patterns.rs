@@ -37,7 +37,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 285",
-            "Without J the first hole of G70 is at 0 degrees.",
+            "J of G70 is the angle of the first hole, counted from 3 o'clock; it is optional, and 0 without it (the 0 is our reading).",
             "default of `J`",
             &[Makes {
                 program: cut!("G81 G99 Z-.5 R.1 F6.5 L0\nG70 I5. L2\n"),

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked. Left out: buying the option,
 //! display pages for variables, labels and timers, and what outlines of uses are given.
 
-use super::mill::{explains, gap, held, legal, moves, not_modelled, reports, rule, variables};
+use super::mill::{explains, gap, held, legal, mill, moves, not_modelled, reports, rule, variables};
 use crate::proof::Proof;
 use crate::statements::statement::{Chapter, prove};
 
@@ -88,6 +88,14 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "block delete: each position of the switch is a run of its own",
             &[
                 moves("O1\nG20 G54 G0 G90 X0.\n/X1.\nX2.\nM30\n", &["rapid X0.", "rapid X1.", "rapid X2."]),
+                Proof::Moves {
+                    program: mill("O1\nG20 G54 G0 G90 X0.\n/X1.\nX2.\nM30\n").skipping(),
+                    are: &["rapid X0.", "rapid X2."],
+                },
+                Proof::Moves {
+                    program: mill("O1\nG20 G54 G0 G90 X0.\n/M97 P10\nX2.\nM30\nN10 X1.\nM99\n").skipping(),
+                    are: &["rapid X0.", "rapid X2."],
+                },
                 moves(
                     "O1\nG20 G54 G0 G90 X0.\n/M97 P10\nX2.\nM30\nN10 X1.\nM99\n",
                     &["rapid X0.", "rapid X1.", "rapid X2."],

@@ -184,8 +184,8 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             )],
         ),
         held(
-            "p. 150",
-            "G0 after the subprogram ends the cycle: the next move does not drill.",
+            "p. 150, p. 248",
+            "G0 ends the cycle, here after the subprogram with its positions: the next move does not drill.",
             "`[semantics.cycles] motion-ends-cycle`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nG99 G81 Z-.5 R.1 F5.\nM98 P2\nG0 Z1.\nX5.\nM30\nO2\nX1.\nM99\n",

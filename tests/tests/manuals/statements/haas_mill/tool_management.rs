@@ -33,7 +33,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 100",
+            "p. 99",
             "#8001 to #8200 belong to tools 1 to 200: 1 makes the tool expire, 0 makes it available again.",
             "variables 8001–8200",
             &[
@@ -42,7 +42,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 100",
+            "p. 99",
             "#8500 chooses a group; #8501 to #8515 then tell about it and cannot be written.",
             "variables 8500–8515, rule assignment-to-read-only-variable",
             &[
@@ -60,7 +60,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 100",
+            "p. 99",
             "#8550 chooses a tool, or a group and so its current tool; #8551 to #8564 then tell about it.",
             "variables 8550–8567",
             &[
@@ -69,7 +69,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 100",
+            "p. 99",
             "Of single tools, #1601, #1801, #2001, #2201, #2401, #2601, #3201 and #3401 on tell about tools 1 to 200.",
             "variables 1601–2800, 3201–3600",
             &[
@@ -81,7 +81,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             ],
         ),
         held(
-            "p. 100",
+            "p. 99",
             "#5401, #5501, #5601, #5701, #5801 and #5901 on tell about tools 1 to 100.",
             "variables 5401–6000",
             &[

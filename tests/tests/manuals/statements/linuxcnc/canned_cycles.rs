@@ -68,6 +68,14 @@ const STATEMENTS: &[Statement] = &[
                 "G17 G21 G90\nF100\nG0 Z5\nG82 X1 Z-2 R1 P1\nX2\nX3 P2\nG80\nM2\n",
                 &["DWELL(1.0000", "DWELL(1.0000", "DWELL(2.0000"],
             ),
+            runs(
+                "G17 G21 G90\nF100\nG0 Z5\nG83 X1 Z-5 R1 Q3\nX2\nX3 Q6\nG80\nM2\n",
+                &[
+                    "STRAIGHT_FEED(1.0000, 0.0000, -2.0000",
+                    "STRAIGHT_FEED(2.0000, 0.0000, -2.0000",
+                    "STRAIGHT_FEED(3.0000, 0.0000, -5.0000",
+                ],
+            ),
         ],
     ),
     held(
@@ -475,7 +483,7 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#gcode:g83",
-        "G83 drills in pecks of Q, each time back to R at rapid rate, and in again to just above the last depth: 0.254 mm or 0.010 inch",
+        "G83 drills in pecks of Q, each time back to R at rapid rate, and in again to just above the last depth: 0.254 mm or 0.010 inch, where neither D nor `G83_PECK_CLEARANCE` (newer versions) gives another distance",
         "effect `cycle-peck`, `peck-clearance = 0.254`",
         &[
             runs(

@@ -198,7 +198,7 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#sec:g52",
-        "G52 without axis words is refused",
+        "G52 without axis words is refused (interpreter 2.9)",
         "words of `G52`",
         &[refused("error[word-choice-missing]", "G52\nM2\n", "G52 X0\nM2\n")],
     ),

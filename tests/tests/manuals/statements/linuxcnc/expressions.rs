@@ -114,7 +114,7 @@ const STATEMENTS: &[Statement] = &[
     ),
     gap(
         "#gcode:functions",
-        "ATAN with one argument is refused",
+        "ATAN takes two arguments with a slash between them; with one it is refused (interpreter 2.9)",
         "`check` reports it (error), as `run` refuses it",
         &[refused("error[function-unknown]", "G0 XATAN[1]\nM2\n", "G0 XATAN[1]/[1]\nM2\n")],
     ),

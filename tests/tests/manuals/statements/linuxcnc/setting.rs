@@ -347,8 +347,8 @@ const STATEMENTS: &[Statement] = &[
         ],
     ),
     gap(
-        "#gcode:g10-l1",
-        "L is 0, 1, 2, 10, 11 or 20",
+        "#gcode:g10-l0 to #gcode:g10-l20",
+        "L of G10 is 0, 1, 2, 10, 11 or 20, each with a section of its own; another is refused (interpreter 2.9)",
         "`check` reports another L of `G10`, also one that is not whole (error), as `run` refuses it",
         &[
             refused("error[number-out-of-range]", "G10 L3 P1 X1\nM2\n", "G10 L2 P1 X1\nM2\n"),

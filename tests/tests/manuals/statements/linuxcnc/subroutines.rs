@@ -47,6 +47,9 @@ const STATEMENTS: &[Statement] = &[
         "Up to 30 arguments in brackets are #1, #2 and so on",
         "O-word call",
         &[
+            stops(
+                "O100 SUB\nG0 X#30\nO100 ENDSUB\nO100 CALL [1] [2] [3] [4] [5] [6] [7] [8] [9] [10] [11] [12] [13] [14] [15] [16] [17] [18] [19] [20] [21] [22] [23] [24] [25] [26] [27] [28] [29] [30] [31]\nM2\n",
+            ),
             runs(
                 "O100 SUB\nG0 X#1 Y#2 Z#3\nO100 ENDSUB\nO100 CALL [100] [2] [1+1]\nM2\n",
                 &["STRAIGHT_TRAVERSE(100.0000, 2.0000, 2.0000"],

@@ -377,11 +377,11 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#gcode:g76",
-        "Other axis words are an error, says the documentation; the interpreter (2.9) passes over X and Y",
+        "Other axis words are an error, says the documentation; the interpreter (2.9) goes to X and Y after the last pass, at rapid and at the end of the thread",
         "effect `thread-cycle`",
         &[runs(
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 X5 Y1 Z-10 I-2 J0.3 K0.6\nM2\n",
-            &["STRAIGHT_FEED(17.4000, 0.0000, -10.0000"],
+            &["STRAIGHT_FEED(17.4000, 0.0000, -10.0000", "STRAIGHT_TRAVERSE(5.0000, 1.0000, -10.0000"],
         )],
     ),
     gap(
@@ -576,6 +576,16 @@ const STATEMENTS: &[Statement] = &[
         "#cha:lathe-user-information",
         "Surface speed follows changes of the tool's X offset",
         "where the work offset and the tool's X offset are told, X of `stats` has them; the spindle's rise in speed along a facing cut is averaged",
+    ),
+    gap(
+        "#gcode:g76",
+        "X and Y do not belong to G76",
+        "`check` reports them (warning): the interpreter goes there at rapid from the end of the thread, through the work",
+        &[rule(
+            "warning[thread-cycle-leaves-its-line]",
+            "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 X5 Z-10 I-2 J0.3 K0.6\nM2\n",
+            "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K0.6\nM2\n",
+        )],
     ),
 ];
 
