@@ -716,9 +716,9 @@ fn bad_input() {
         helix with the height twice, generic-mill: warning[word-given-twice] info[tool-down-at-end]
         helix with the height twice, haas-mill: warning[word-given-twice] info[tool-down-at-end]
         helix with the height twice, fanuc-mill: warning[word-given-twice] info[tool-down-at-end]
-        dwell without a time, generic-mill: 
+        dwell without a time, generic-mill: info[dwell-without-time]
         dwell without a time, haas-mill: warning[required-word-missing]
-        dwell without a time, fanuc-mill: 
+        dwell without a time, fanuc-mill: info[dwell-without-time]
         dwell with a time twice, generic-mill: warning[word-given-twice]
         dwell with a time twice, haas-mill: warning[word-given-twice]
         dwell with a time twice, fanuc-mill: warning[word-given-twice]
@@ -728,7 +728,7 @@ fn bad_input() {
         dwell of a negative time, generic-mill: error[number-out-of-range]
         dwell of a negative time, haas-mill: warning[dwell-time-in-other-word]
         dwell of a negative time, fanuc-mill: warning[number-out-of-range]
-        dwell of no time, generic-mill: 
+        dwell of no time, generic-mill: warning[number-out-of-range]
         dwell of no time, haas-mill: 
         dwell of no time, fanuc-mill: 
         dwell of a huge time, generic-mill: error[number-out-of-range]

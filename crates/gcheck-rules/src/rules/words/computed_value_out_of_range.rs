@@ -120,9 +120,9 @@ mod tests {
             "linuxcnc",
             "#1=-5\nM3 S#1\nM2\n",
             &expect![[r#"
-            2 | M3 S#1
-              |    ^^^ error[computed-value-out-of-range] computed value is too small: `S-5`
-        "#]],
+                2 | M3 S#1
+                  |    ^^^ error[computed-value-out-of-range] computed value is too small for `M3`: `S-5`
+            "#]],
         );
     }
 
