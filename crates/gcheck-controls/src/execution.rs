@@ -307,6 +307,9 @@ pub struct Semantics {
     pub helix: HelixRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
+    /// `P` of a code that orients the spindle is the angle in degrees; else it is the way there, and the angle is `R`.
+    #[serde(default)]
+    pub orients_to_p: bool,
     /// Under inverse time no move is slower than this, in the program's units a minute.
     #[serde(default)]
     pub least_inverse_feed: f64,
@@ -529,6 +532,22 @@ pub struct CycleRules {
     /// Moves that the outline of a pocket may have, where a book gives a number.
     #[serde(default)]
     pub pocket_moves: Option<u32>,
+    /// The setting with the distance that pecks back off, and go in again above the last depth.
+    #[serde(default)]
+    pub clearance_setting: Option<String>,
+    /// The setting with the distance above `R` that pecks come out to.
+    #[serde(default)]
+    pub above_r_setting: Option<String>,
+    /// The setting with the direction (`x+`) in which `Q` takes a fine or back bore off the wall; `Q` then counts before
+    /// `I` and `J`. Without one `I` and `J` count first, and `Q` goes along the plane's first axis.
+    #[serde(default)]
+    pub shift_setting: Option<String>,
+    /// A fine or back bore without `Q`, `I` and `J` does not shift; else it is refused.
+    #[serde(default)]
+    pub shift_optional: bool,
+    /// `J` of a tap is how many times faster it comes out than it goes in; this is the setting that counts without `J`.
+    #[serde(default)]
+    pub tap_out_setting: Option<String>,
 }
 
 /// How `G41` and `G42` move.

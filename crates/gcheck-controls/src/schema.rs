@@ -733,6 +733,9 @@ pub struct VariableEntry {
     /// Holds the sequence number of a block, so that programs which read it hang on their numbers.
     #[serde(default)]
     pub sequence_number: bool,
+    /// The manual keeps it for the builder: programs leave it alone.
+    #[serde(default)]
+    pub reserved: bool,
     /// The source of the entry.
     pub source: String,
     /// How sure it is.

@@ -68,6 +68,8 @@ pub enum Stroke {
         /// Clockwise (`M3`), else counter-clockwise.
         clockwise: bool,
     },
+    /// Spindle and feed go so many times as fast as the program has them; 1 brings them back.
+    Pace(f64),
     /// The spindle is oriented.
     Orient,
     /// From here on every point is passed exactly, until the block ends. Only for controls that change the path mode.
@@ -233,6 +235,7 @@ mod test_support {
             Stroke::SpindleReverse => "spindle reversed".to_owned(),
             Stroke::SpindleTurn { clockwise: true } => "spindle clockwise".to_owned(),
             Stroke::SpindleTurn { clockwise: false } => "spindle counter-clockwise".to_owned(),
+            Stroke::Pace(times) => format!("pace {times}"),
             Stroke::Orient => "orient".to_owned(),
             Stroke::ExactPath => "exact path".to_owned(),
             Stroke::Sync(Some(lead)) => format!("sync {:.6}", lead.0),

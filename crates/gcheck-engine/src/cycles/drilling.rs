@@ -4,8 +4,10 @@
 //! from block to block, how often a hole repeats.
 //!
 //! Sources: LinuxCNC by observation of its interpreter; Haas Mill Operator's Manual 2017, pages 243 to 298; Fanuc by the
-//! same words where its manuals agree. The direction of the shift of a fine or back bore without `I` and `J` is a setting
-//! of the machine; here it is the plane's first axis, positive.
+//! same words where its manuals agree. The direction of the shift of a fine or back bore without `I` and `J` is the
+//! plane's first axis, positive; a control whose setting gives another brings it as `I` or `J`.
+//!
+//! A back bore is off its axis on the way through the hole, both ways, and cuts on the axis.
 
 use gcheck_controls::{CycleRules, Effect, Letter};
 use gcheck_geometry::{Mm, Plane, Seconds};
@@ -41,6 +43,12 @@ pub struct Hole {
     pub first_of_block: bool,
     /// Which overrides the operator had before.
     pub overrides: Overrides,
+    /// How far pecks back off and stay above the last depth, where a setting says; else the control's rules do.
+    pub clearance: Option<Mm>,
+    /// How far above `R` pecks come out to clear chips.
+    pub above_r: Mm,
+    /// How many times faster a tap comes out than it goes in; 1 for as fast.
+    pub tap_out: f64,
     /// The units of the program; they decide how pecks are counted.
     pub units: Units,
 }
@@ -261,13 +269,17 @@ impl Tool<'_, '_> {
         } else {
             (self.rules.peck_clearance, None)
         };
+        let retract = self.hole.clearance.map_or(retract, |clearance| clearance.0);
+        let out = r_and_above(self.r(), self.hole.above_r, direction);
+        // Pecks that come out even end at the bottom. The control that computes exactly so does as its numbers say.
+        let slack = if self.rules.rise_to_r { 0.0 } else { 1e-7 };
         let mut since_r = 0.0;
         let mut depth = r;
         while let Some(step) = peck.next() {
             depth += direction * step;
             since_r += step;
             let left = (bottom - depth) * direction;
-            if left.is_nan() || left <= 0.0 {
+            if left.is_nan() || left <= slack {
                 break;
             }
             let level = from_program_units(depth, units);
@@ -275,7 +287,7 @@ impl Tool<'_, '_> {
             self.feed_to(level)?;
             if !break_chips || back_to_r.is_some_and(|total| since_r >= total) {
                 since_r = 0.0;
-                self.rapid_to(self.r())?;
+                self.rapid_to(if break_chips { self.r() } else { out })?;
                 // Above `R` there is nothing to be fast for; the control that computes it so goes there all the same.
                 if self.rules.rise_to_r || (near - self.r()).0 * direction > 0.0 {
                     self.rapid_to(near)?;
@@ -333,8 +345,15 @@ impl Tool<'_, '_> {
         self.sink.put(Stroke::SpindleTurn { clockwise })?;
         self.feed_to(self.bottom())?;
         self.dwell()?;
+        let is_faster = self.hole.tap_out.to_bits() != 1.0_f64.to_bits();
+        if is_faster {
+            self.sink.put(Stroke::Pace(self.hole.tap_out))?;
+        }
         self.sink.put(Stroke::SpindleTurn { clockwise: !clockwise })?;
         self.feed_to(self.r())?;
+        if is_faster {
+            self.sink.put(Stroke::Pace(1.0))?;
+        }
         self.sink.put(Stroke::SpindleRestart)?;
         if feed {
             self.sink.put(Stroke::FeedOverride(true))?;
@@ -425,10 +444,16 @@ impl Tool<'_, '_> {
                 Err(CycleFault::NotPositive(Letter::of('Q')).into())
             }
             (None, None, Some(length)) => Ok((length, Mm::ZERO)),
+            (None, None, None) if self.rules.shift_optional => Ok((Mm::ZERO, Mm::ZERO)),
             (None, None, None) => Err(CycleFault::Missing(Letter::of('Q')).into()),
             (first, second, _) => Ok((first.unwrap_or_default(), second.unwrap_or_default())),
         }
     }
+}
+
+/// So far above `R`, seen from a hole in this direction.
+fn r_and_above(r: Mm, above: Mm, direction: f64) -> Mm {
+    r - Mm(direction * above.0)
 }
 
 /// The depths of pecks one after another, in program units.
@@ -497,6 +522,11 @@ mod tests {
             across: Vec::new(),
             r_is_distance: false,
             pocket_moves: None,
+            clearance_setting: None,
+            above_r_setting: None,
+            shift_setting: None,
+            shift_optional: false,
+            tap_out_setting: None,
         }
     }
 
@@ -526,6 +556,9 @@ mod tests {
             return_to_r: false,
             first_of_block: true,
             overrides: Overrides { feed: true, speed: true },
+            clearance: None,
+            above_r: Mm::ZERO,
+            tap_out: 1.0,
             units: Units::Mm,
         }
     }
@@ -1093,6 +1126,91 @@ mod tests {
             rapid 1 1 1
             spindle as before
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_bore_without_a_shift_comes_out_along_the_wall_where_the_control_takes_it() {
+        let words = Hole { return_to_r: true, ..at(1.0, 1.0, [5.0, 1.0, -3.0]) };
+        check(
+            &CycleRules { shift_optional: true, ..plain() },
+            Effect::CycleFineBore,
+            &words,
+            [1.0, 1.0, 1.0],
+            &expect![[r#"
+                feed 1 1 -3
+                spindle stops
+                orient
+                rapid 1 1 -3
+                rapid 1 1 1
+                rapid 1 1 1
+                spindle as before
+            "#]],
+        );
+    }
+
+    #[test]
+    fn settings_change_how_pecks_come_out() {
+        let words = Hole {
+            return_to_r: true,
+            peck: Some(Mm(2.0)),
+            clearance: Some(Mm(0.25)),
+            above_r: Mm(3.0),
+            ..at(1.0, 1.0, [5.0, 1.0, -3.0])
+        };
+        check(
+            &plain(),
+            Effect::CyclePeck,
+            &words,
+            [1.0, 1.0, 1.0],
+            &expect![[r#"
+                feed 1 1 -1
+                rapid 1 1 4
+                rapid 1 1 -0.75
+                feed 1 1 -3
+                rapid 1 1 1
+            "#]],
+        );
+    }
+
+    #[test]
+    fn pecks_that_come_out_even_end_at_the_bottom() {
+        let words = Hole { return_to_r: true, peck: Some(Mm(0.3)), ..at(1.0, 1.0, [5.0, 0.0, -0.9]) };
+        check(
+            &plain(),
+            Effect::CycleChipBreak,
+            &words,
+            [1.0, 1.0, 0.0],
+            &expect![[r#"
+                feed 1 1 -0.3
+                rapid 1 1 0.2
+                feed 1 1 -0.6
+                rapid 1 1 -0.1
+                feed 1 1 -0.9
+                rapid 1 1 0
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_tap_may_come_out_faster_than_it_goes_in() {
+        let words = Hole { return_to_r: true, tap_out: 2.0, ..at(1.0, 1.0, [5.0, 1.0, -3.0]) };
+        check(
+            &plain(),
+            Effect::CycleTap,
+            &words,
+            [1.0, 1.0, 1.0],
+            &expect![[r#"
+                feed override false
+                spindle clockwise
+                feed 1 1 -3
+                pace 2
+                spindle counter-clockwise
+                feed 1 1 1
+                pace 1
+                spindle as before
+                feed override true
+            "#]],
         );
     }
 

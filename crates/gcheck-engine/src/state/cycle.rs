@@ -84,6 +84,11 @@ impl CycleWords {
         self.may_have.contains(letter)
     }
 
+    /// Was none of these words given in this series, on any path?
+    pub fn lacks(&self, letters: LetterSet) -> bool {
+        !self.may_have.intersects(letters)
+    }
+
     /// The block gives the word.
     pub(crate) fn give(&mut self, letter: Letter) {
         self.may_have.insert(letter);

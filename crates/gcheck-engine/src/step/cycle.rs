@@ -126,6 +126,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
+        // Of a tap `J` is a number, not a length: how many times faster it comes out.
+        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let times_out = rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw('J', state));
         let mut words = *state.cycle();
         // On strict controls -1 stands for no number.
         let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
@@ -152,6 +155,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         put('E', &mut words.e, unit);
+        if let Some(times) = times_out {
+            let [_, j, _] = &mut words.ijk;
+            *j = times;
+        }
         if let Some(p) = self.words.number(Letter::of('P')).filter(|p| !none(*p)) {
             let milliseconds = match self.model.semantics().dwell.get("P") {
                 Some(DwellWord::Milliseconds) => true,
@@ -339,6 +346,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
         let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.word('P', words.p) };
         let units = state.units(self.model).unwrap_or(Units::Mm);
+        let (clearance, above_r) = self.settings_of_pecks(effect, state);
+        let tap_out = if taps { self.tap_out(words.word('J', j)) } else { 1.0 };
+        let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
+        let (peck, ijk) = self.shift_of_bore(effect, words.word('Q', words.q).map(Mm), shift);
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
         for (turn, at) in points.enumerate() {
@@ -349,8 +360,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 r: Mm(r),
                 bottom: Mm(bottom),
                 dwell: dwell.map(Seconds),
-                peck: words.word('Q', words.q).map(Mm),
-                ijk: [words.word('I', i).map(Mm), words.word('J', j).map(Mm), words.word('K', k).map(Mm)],
+                peck,
+                ijk,
                 incremental: incremental == Some(true),
                 return_to_r,
                 first_of_block: turn == 0,
@@ -358,6 +369,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     feed: *state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
                     speed: *state.spindle.overridable != Truth::False,
                 },
+                clearance,
+                above_r,
+                tap_out,
                 units,
             };
             result = self.hole(effect, &facts, plane, rules, state);
@@ -369,6 +383,56 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.end_exact_path(state);
         }
         result
+    }
+
+    /// What settings say of pecks: how far they back off, where that is told, and how far above `R` they come out.
+    fn settings_of_pecks(&self, effect: Effect, state: &State<D>) -> (Option<Mm>, Mm) {
+        if !matches!(effect, Effect::CyclePeck | Effect::CycleChipBreak) {
+            return (None, Mm::ZERO);
+        }
+        let rules = &self.model.semantics().cycles;
+        let unit = self.unit(state);
+        let machine = self.machine;
+        let told = |number: &Option<String>| {
+            let text = machine.settings.get(number.as_deref()?)?;
+            text.parse::<f64>().ok().map(|length| Mm(length * unit))
+        };
+        (told(&rules.clearance_setting), told(&rules.above_r_setting).unwrap_or(Mm::ZERO))
+    }
+
+    /// How many times faster a tap comes out: its `J`, else the setting; a number of one or less changes nothing.
+    fn tap_out(&self, times: Option<f64>) -> f64 {
+        let Some(number) = &self.model.semantics().cycles.tap_out_setting else { return 1.0 };
+        let set = || self.machine.setting(self.model.control(), number)?.parse::<f64>().ok();
+        match times.or_else(set) {
+            // An unknown number makes the speed unknown.
+            Some(times) if times > 1.0 || times.is_nan() => times,
+            _ => 1.0,
+        }
+    }
+
+    /// `Q` and `I J K` as a bore shifts by them: where a setting gives the direction of `Q`, it is told as `I` or `J`, and
+    /// these count only without `Q`.
+    fn shift_of_bore(
+        &mut self,
+        effect: Effect,
+        q: Option<Mm>,
+        ijk: [Option<Mm>; 3],
+    ) -> (Option<Mm>, [Option<Mm>; 3]) {
+        let bores = matches!(effect, Effect::CycleFineBore | Effect::CycleBackBore);
+        let Some(number) = self.model.semantics().cycles.shift_setting.as_deref().filter(|_| bores) else {
+            return (q, ijk);
+        };
+        match q {
+            None => (None, ijk),
+            Some(length) if length < Mm::ZERO => (q, [None; 3]),
+            Some(length) => {
+                let way = self.setting(number).unwrap_or("x+").to_ascii_lowercase();
+                let length = if way.contains('-') { -length } else { length };
+                let along = |axis: char| way.contains(axis).then_some(length);
+                (None, [along('x'), along('y'), along('z')])
+            }
+        }
     }
 
     fn hole(
@@ -440,6 +504,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn strokes(&mut self, strokes: &[Stroke], plane: Plane, state: &mut State<D>) -> Step {
         let spindle = state.spindle();
         let is_direct = Self::goes_direct(state);
+        let programmed = (state.feed().clone(), state.speed().clone());
         for stroke in strokes {
             match *stroke {
                 Stroke::Rapid(to) | Stroke::Feed(to) => {
@@ -473,6 +538,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     let way = if clockwise { Spindle::Clockwise } else { Spindle::CounterClockwise };
                     self.spindle(way, state)?;
                 }
+                Stroke::Pace(times) => self.pace(times, &programmed, state),
                 Stroke::Orient => {
                     let way = if spindle == Some(Spindle::CounterClockwise) { 3 } else { 2 };
                     self.emit(state, Event::OrientSpindle { angle: 0.0, way });
@@ -493,6 +559,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         Ok(())
+    }
+
+    /// Feed and speed are so many times what they were before the cycle. A feed by turns follows the spindle by itself.
+    fn pace(&mut self, times: f64, (feed, speed): &(D::Value, D::Value), state: &mut State<D>) {
+        let faster = |value: &D::Value| match D::known(value) {
+            _ if times.to_bits() == 1.0_f64.to_bits() => value.clone(),
+            Some(number) if !times.is_nan() => D::number(number * times),
+            _ => D::unknown(),
+        };
+        if state.feed_mode(self.model) != Some(FeedMode::PerRevolution) {
+            state.feed.rate.put(faster(feed));
+        }
+        let speed = faster(speed);
+        let rate = D::known(&speed).unwrap_or(f64::NAN);
+        state.spindle.speed.put(speed);
+        self.emit(state, Event::SpindleSpeed(rate));
     }
 
     fn stroke_arc(&mut self, to: [Mm; 3], centre: (Mm, Mm), turns: i32, plane: Plane, state: &mut State<D>) {

@@ -643,8 +643,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     return Ok(outcome);
                 }
                 let Some(condition) = first else { return Err(Fault::Malformed) };
-                let Some(next) = links.next.or(links.end) else { return Err(Fault::LoopMismatch) };
                 let truth = self.condition(place, table, condition, state)?;
+                let Some(next) = links.next.or(links.end) else {
+                    self.want_branch(None, state);
+                    return self.open_end(table, condition, truth, state);
+                };
                 match truth {
                     Truth::True => {
                         self.assume(table, condition, true, state);
@@ -683,13 +686,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             OKeyword::While => {
                 let Some(condition) = first else { return Err(Fault::Malformed) };
+                let truth = self.condition(place, table, condition, state)?;
                 let (holds, fails) = match (links.head, links.end) {
                     // The end of DO … WHILE.
                     (Some(head), _) => (to(head + 1), at.next()),
                     (None, Some(end)) => (at.next(), to(end + 1)),
-                    (None, None) => return Err(Fault::LoopMismatch),
+                    (None, None) => return self.open_end(table, condition, truth, state),
                 };
-                match self.condition(place, table, condition, state)? {
+                match truth {
                     Truth::True => {
                         self.assume(table, condition, true, state);
                         Ok(Outcome::Jump(holds))
@@ -704,17 +708,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             OKeyword::EndWhile => {
                 links.head.map_or(Err(Fault::LoopMismatch), |head| Ok(Outcome::Jump(to(head))))
             }
-            OKeyword::Do => {
-                if links.end.is_none() {
-                    return Err(Fault::LoopMismatch);
-                }
-                Ok(Outcome::Next)
-            }
+            // The control looks for the end when it comes to it, or has to leave the loop.
+            OKeyword::Do => Ok(Outcome::Next),
             OKeyword::Repeat => {
                 let Some(count) = first else { return Err(Fault::Malformed) };
-                let Some(end) = links.end else { return Err(Fault::LoopMismatch) };
                 let value = self.evaluate(place, table, table.expr(count), state)?;
                 let turns = D::known(&value).map(|n| n.round().max(0.0));
+                let Some(end) = links.end else {
+                    return if turns == Some(0.0) { Err(Fault::LoopMismatch) } else { Ok(Outcome::Next) };
+                };
                 #[expect(clippy::cast_sign_loss, reason = "not negative")]
                 match turns {
                     Some(0.0) => Ok(Outcome::Jump(to(end + 1))),
@@ -756,6 +758,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 None => Err(Fault::LoopMismatch),
             },
+            // The control looks for the end of the loop first, also where the head decides.
+            OKeyword::Continue if links.end.is_none() => Err(Fault::LoopMismatch),
             OKeyword::Continue => links.leads_to.map_or(Err(Fault::LoopMismatch), |end| {
                 let block = match (links.head, end) {
                     // A WHILE decides at its head.
@@ -765,6 +769,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Ok(Outcome::Jump(to(block)))
             }),
         }
+    }
+
+    /// A branch or a loop without its end in the text: the control looks for it only when it has to skip the blocks, and
+    /// refuses the program then. Where the condition is open the path that it refuses ends here.
+    fn open_end(
+        &mut self,
+        table: &BlockTable,
+        condition: ExprIx,
+        truth: Truth,
+        state: &mut State<D>,
+    ) -> Step<Outcome<D>> {
+        if truth == Truth::False {
+            return Err(Fault::LoopMismatch);
+        }
+        self.assume(table, condition, true, state);
+        Ok(Outcome::Next)
     }
 
     /// Is a subroutine defined inside the one that begins here?

@@ -104,8 +104,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `M19`.
     pub(super) fn orient(&mut self, state: &mut State<D>) -> Step {
-        let angle = self.words.number(Letter::of('R')).unwrap_or(0.0);
+        let to_p = self.model.semantics().orients_to_p;
+        let angle = self.words.number(Letter::of('R'));
+        let angle = angle.or_else(|| if to_p { self.raw('P', state) } else { None }).unwrap_or(0.0);
         let way = match self.count(Letter::of('P'))? {
+            _ if to_p => 0,
             Some(Count::Known(way @ 0..=2)) => way as u8,
             Some(Count::Known(_)) if self.refuses_incomplete() => {
                 return Err(Fault::WordRange(Letter::of('P')));

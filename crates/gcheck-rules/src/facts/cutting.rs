@@ -22,7 +22,13 @@ pub(crate) fn is_cut(cx: &PathCx<'_>, event: &Event) -> bool {
             let is_along_z = !cx.origin().letters.intersects(LetterSet::of("XYABCUV"));
             // Up, or from an unknown height.
             let goes_down = travel.to.raw(Axis::Z) < travel.from.raw(Axis::Z);
-            let is_up = is_along_z && !goes_down;
+            // A back bore cuts on its way up.
+            let bores_up = travel.expanded
+                && cx
+                    .state()
+                    .active_cycle(cx.model)
+                    .is_some_and(|ix| cx.model.effect(ix) == Effect::CycleBackBore);
+            let is_up = is_along_z && !goes_down && !bores_up;
             travel.kind == TravelKind::Feed && !is_up
         }
         Event::Arc(_) | Event::Curve(_) => true,

@@ -43,6 +43,8 @@ pub(crate) mod compensation {
 }
 
 pub(crate) mod cycles {
+    pub(crate) mod back_bore_r_above_z;
+    pub(crate) mod bore_without_shift;
     pub(crate) mod cycle_dwell_missing;
     pub(crate) mod cycle_in_inverse_time;
     pub(crate) mod cycle_left_on;
@@ -133,6 +135,7 @@ pub(crate) mod macros {
     pub(crate) mod variable_never_read;
     pub(crate) mod variable_number_not_whole;
     pub(crate) mod variable_read_before_set;
+    pub(crate) mod variable_reserved;
     pub(crate) mod variable_unlisted;
 }
 
@@ -381,6 +384,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &compensation::lead_in_too_short::RULE,
     &compensation::maybe_compensation_left_on::RULE,
     &compensation::refused_under_compensation::RULE,
+    &cycles::back_bore_r_above_z::RULE,
+    &cycles::bore_without_shift::RULE,
     &cycles::cycle_dwell_missing::RULE,
     &cycles::cycle_in_inverse_time::RULE,
     &cycles::cycle_left_on::RULE,
@@ -459,6 +464,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::variable_never_read::RULE,
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
+    &macros::variable_reserved::RULE,
     &macros::variable_unlisted::RULE,
     &mapping::cylinder_diameter_from_setting::RULE,
     &mapping::cylinder_feed_mode::RULE,

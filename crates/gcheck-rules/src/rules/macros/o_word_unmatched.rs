@@ -3,14 +3,17 @@
 use gcheck_program::{OKeyword, OLabel, OWord};
 
 use crate::declare::declare_rule;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Report, Run, Severity};
 
 declare_rule! {
     /// An O-word that opens, continues or closes a structure has no partner with its label.
     ///
     /// ## Why it matters
-    /// The control searches the file for the partner. It stops with an error, or runs blocks that should be skipped: an
-    /// `if` without `endif` may go unnoticed as long as its condition holds.
+    /// The control searches the file for the partner when it needs it. A subroutine without `endsub` is refused, and so is
+    /// a closing or a middle word that comes first. A branch or a loop without its end is refused when the control has to
+    /// skip it; else the program goes on to its end, and a loop runs only once.
+    ///
+    /// An `if` without `endif` is a warning: the program runs as long as the condition holds.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -143,10 +146,24 @@ fn no_opener(cx: &FileCx<'_>, word: &OWord, openers: &[OKeyword]) -> Finding {
 
 fn no_closer(cx: &FileCx<'_>, word: &OWord) -> Finding {
     let closer = closer(word.keyword).name().to_ascii_lowercase();
-    Finding::new(&META, word.range.clone(), format!("O-word `{}` has no `{closer}`", written(cx, word)))
-        .label("opened here and not closed where it should be")
-        .note("the control looks for the end of the structure to the end of the file when it has to skip it")
-        .help(format!("close it with `{closer}` and the same label"))
+    let comes = match word.keyword {
+        OKeyword::Sub => "the control looks for the end to the end of the file, and stops with an error",
+        OKeyword::If => {
+            "the control stops with an error when the condition does not hold; when it holds, the program runs on to its end"
+        }
+        OKeyword::Do => {
+            "the program runs on to its end, so the loop runs once; the control stops with an error at `break`"
+        }
+        _ => {
+            "the control stops with an error when it has to skip the loop; else the program runs on to its end, so the loop runs once"
+        }
+    };
+    let finding =
+        Finding::new(&META, word.range.clone(), format!("O-word `{}` has no `{closer}`", written(cx, word)))
+            .label("opened here and not closed where it should be")
+            .note(comes)
+            .help(format!("close it with `{closer}` and the same label"));
+    if word.keyword == OKeyword::If { finding.at_most(Severity::Warning) } else { finding }
 }
 
 #[cfg(test)]
@@ -164,7 +181,7 @@ mod tests {
             "o1 if [1 GT 0]\no2 while [1 LT 0]\no3 repeat [2]\no4 do\no<five> sub\nM2\n",
             &expect![[r#"
                 1 | o1 if [1 GT 0]
-                  | ^^^^^^^^^^^^^^ error[o-word-unmatched] O-word `o1 if` has no `endif`
+                  | ^^^^^^^^^^^^^^ warning[o-word-unmatched] O-word `o1 if` has no `endif`
                 2 | o2 while [1 LT 0]
                   | ^^^^^^^^^^^^^^^^^ error[o-word-unmatched] O-word `o2 while` has no `endwhile`
                 3 | o3 repeat [2]
@@ -210,9 +227,17 @@ mod tests {
             "o1 while [#1 LT 2]\no2 if [#1 EQ 1]\no1 endwhile\nM2\n",
             &expect![[r#"
             2 | o2 if [#1 EQ 1]
-              | ^^^^^^^^^^^^^^^ error[o-word-unmatched] O-word `o2 if` has no `endif`
+              | ^^^^^^^^^^^^^^^ warning[o-word-unmatched] O-word `o2 if` has no `endif`
         "#]],
         );
+    }
+
+    #[test]
+    fn each_opener_tells_what_comes_of_it() {
+        let text = "o1 if [#1 GT 0]\no2 repeat [#1]\no3 do\no4 sub\nM2\n";
+        let told: Vec<String> =
+            findings(&only(&RULE), "linuxcnc", text, &World::default()).iter().map(words).collect();
+        expect![[r#""#]].assert_eq(&told.concat());
     }
 
     #[test]

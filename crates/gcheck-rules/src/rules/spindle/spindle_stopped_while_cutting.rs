@@ -1,10 +1,11 @@
 //! A cut while the spindle is stopped.
 
-use gcheck_controls::Effect;
+use gcheck_controls::{Code, Effect};
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, Fault, FeedMode, Role, Spindle, Truth};
 
 use crate::declare::declare_rule;
 use crate::facts::cutting::{is_cut, starts_spindle};
+use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::probing::is_near;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -85,9 +86,10 @@ impl PathRule for SpindleStoppedWhileCutting {
         Remembers::All(self)
     }
 
-    fn changed(&mut self, _: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         match event {
-            Event::OrientSpindle { .. } => self.is_oriented = true,
+            // A boring cycle orients the spindle on its way, and cuts with it as it was before.
+            Event::OrientSpindle { .. } => self.is_oriented = !cycle_code(cx).is_some_and(bores),
             // A new bar is taken at an angle, and after that the spindle has to turn again.
             Event::Spindle(_) | Event::BarPush(_) => self.is_oriented = false,
             _ => {}
@@ -200,6 +202,11 @@ fn stop_code(cx: &PathCx<'_>, at: At) -> String {
     code.map_or_else(|| "M5".to_owned(), |code| cx.name_of(code))
 }
 
+/// Is it a cycle that stops the spindle at an angle to bring the tool off the wall?
+fn bores(code: Code<'_>) -> bool {
+    matches!(code.effect(), Effect::CycleFineBore | Effect::CycleBackBore)
+}
+
 /// Does the code touch the work with a probe?
 pub(super) fn probes(effect: Effect) -> bool {
     matches!(
@@ -297,6 +304,25 @@ mod tests {
     #[test]
     fn a_spindle_that_stands_at_an_angle_is_meant_to() {
         check_rule(&RULE, "haas-mill", "S100 M3\nG1 X1. F5.\nM19\nG1 X2.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_back_bore_cuts_on_its_way_up() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0. Y0. Z.1 S900 M3\nM5\nG77 Z-.5 R-1.6 Q.1 F10.\nG80\nM30\n",
+            &expect![[r#"
+                3 | G77 Z-.5 R-1.6 Q.1 F10.
+                  | ^^^^^^^^^^^^^^^^^^^^^^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0. Y0. Z.1 S900 M3\nG77 Z-.5 R-1.6 Q.1 F10.\nX1.\nG80\nM30\n",
+            &expect![[""]],
+        );
     }
 
     #[test]

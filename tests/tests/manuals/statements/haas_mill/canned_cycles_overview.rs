@@ -118,10 +118,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 146",
             "Pecks may get smaller: I is the first, J how much less each time, K the least.",
-            "no stroke twice at one depth: with I.3 J.1 K.15 from 0.1 to -0.55 the third peck reaches the bottom; now a fourth goes there again, from a count spoiled by rounding",
+            "effect `cycle-peck`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z1.\nG99 G83 X1. Z-.55 R.1 I.3 J.1 K.15 F10.\nG80\nM30\n",
                 &[
@@ -161,7 +161,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         gap(
             "p. 146",
             "Setting 22 is the distance by which G73 backs off.",
-            "a run with `settings.22` told backs off by it; without it the value taken for granted is stated as an assumption",
+            "without `settings.22` the value taken for granted is stated as an assumption; a run with it told backs off by it already",
             &[
                 Proof::Moves {
                     program: set(
@@ -446,10 +446,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 legal("O1\nM19 P90\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 164",
             "P of M19 is the angle in whole degrees.",
-            "M19 P90 turns to 90°; now P is passed over and the run says 0°",
+            "`orients-to-p` of the control",
             &[run("O1\nM19 P90\nM30\n", &["2 spindle to 90 deg"])],
         ),
         gap(

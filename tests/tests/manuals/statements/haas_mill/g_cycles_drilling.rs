@@ -267,10 +267,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 297",
             "Setting 22 is how far above the last depth G83 goes on at feed.",
-            "Setting 22 is read",
+            "`clearance-setting` of the control",
             &[Makes {
                 program: cut!("G83 G99 Z-.3 R.1 Q.2 F5.\n").with(&["settings.22=0.05"]),
                 block: "G83 G99 Z-.3 R.1 Q.2 F5.",
@@ -336,10 +336,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 296",
             "Pecks that come out even end at Z: no stroke is made twice at one depth.",
-            "three pecks of 0.3 reach Z-0.9; at present rounding makes a fourth stroke at the same depth",
+            "effects `cycle-peck`, `cycle-chip-break`",
             &[
                 Makes {
                     program: cut!("G99 G83 Z-.9 R0. Q.3 F5.\n"),
@@ -371,10 +371,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 297, p. 382",
             "With Setting 52 the tool comes back above R by that distance to clear chips.",
-            "Setting 52 is read",
+            "`above-r-setting` of the control",
             &[Run {
                 program: cut!("G0 Z1.\nG83 G99 Z-.3 R.1 Q.2 F5.\n").with(&["settings.52=0.3"]),
                 prints: &[

@@ -104,10 +104,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G84 Z-.6 R.1 F56.25 S900\n"),
             }],
         ),
-        gap(
+        held(
             "p. 288, p. 298, p. 391",
             "J is how many times faster than in the tap comes out.",
-            "the way out takes the J-th part of the time: `J2` halves it, and the spindle turns twice as fast",
+            "`tap-out-setting` of the control",
             &[
                 Makes {
                     program: cut!("G84 G99 Z-.6 R.1 F60. S960 J2\n"),
@@ -126,10 +126,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Stats { program: cut!("G84 G99 Z-.6 R.1 F60. S960 J2\n"), prints: &["cutting 0:01.1"] },
             ],
         ),
-        gap(
+        held(
             "p. 391",
             "Setting 130 does the same where no J is given; 0 and 1 change nothing; J wins.",
-            "Setting 130 is read",
+            "`tap-out-setting` of the control",
             &[
                 Stats {
                     program: cut!("G84 G99 Z-.6 R.1 F60. S960\n").with(&["settings.130=2"]),
@@ -137,6 +137,14 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
                 Stats {
                     program: cut!("G84 G99 Z-.6 R.1 F60. S960\n").with(&["settings.130=1"]),
+                    prints: &["cutting 0:01.4"],
+                },
+                Stats {
+                    program: cut!("G84 G99 Z-.6 R.1 F60. S960\n").with(&["settings.130=0"]),
+                    prints: &["cutting 0:01.4"],
+                },
+                Stats {
+                    program: cut!("G84 G99 Z-.6 R.1 F60. S960 J1\n").with(&["settings.130=2"]),
                     prints: &["cutting 0:01.4"],
                 },
             ],
@@ -209,10 +217,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 290, p. 377",
             "With Q the direction of the shift is Setting 27: X+, X-, Y+ or Y-.",
-            "Setting 27 is read; where it is not configured the assumption is named",
+            "`shift-setting` of the control",
             &[
                 Makes {
                     program: cut!("G76 G99 Z-.6 R.1 F5. Q.02\n").with(&["settings.27=\"y-\""]),
@@ -248,10 +256,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 289",
             "I and J count only where Q is not given.",
-            "with Q the shift is Q by Setting 27; at present I and J win",
+            "`shift-setting` of the control",
             &[Makes {
                 program: cut!("G76 G99 Z-.6 R.1 F5. Q.03 I.02 J-.01\n").with(&["settings.27=\"x+\""]),
                 block: "G76 G99 Z-.6 R.1 F5. Q.03 I.02 J-.01",
@@ -266,10 +274,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 289",
             "Q, I and J are all optional: without any the tool comes out along the wall.",
-            "G76 without Q, I and J: a warning that nothing clears the wall, and a run that goes on; at present `run` stops and `check` says nothing",
+            "`shift-optional` of the control, rule bore-without-shift",
             &[
                 Rule {
                     finding: "warning[bore-without-shift]",
@@ -320,10 +328,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 290",
             "G77 after M05 runs without spindle as well.",
-            "`spindle-stopped-while-cutting` (warning) is silent about G77: the orientation hides that it feeds with the spindle stopped",
+            "rule spindle-stopped-while-cutting",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: cut!("M5\nG77 Z-.5 R-1.6 Q.1 F10.\n"),
@@ -354,10 +362,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 291",
             "The direction of the shift of G77 is Setting 27 as well.",
-            "Setting 27 is read",
+            "`shift-setting` of the control",
             &[Run {
                 program: cut!("G77 Z-.5 R-1.6 Q.1 F10.\n").with(&["settings.27=\"y-\""]),
                 prints: &["feed 0.0000 0.0000 -0.5000", "rapid 0.0000 -0.1000 -0.5000"],
@@ -376,10 +384,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 292",
             "R of G77 lies below Z: past the bottom of the part.",
-            "R above Z: silent, though the cut goes downward through the part: warning, as `cycle-r-below-bottom` for the others",
+            "rule back-bore-r-above-z",
             &[Rule {
                 finding: "warning[back-bore-r-above-z]",
                 violates: cut!("G77 Z-1.6 R-.5 Q.1 F10.\n"),

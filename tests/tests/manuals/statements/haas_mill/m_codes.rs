@@ -323,10 +323,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "type of `P`",
             &[Legal { program: cut!("M19 P270.\nM3\n") }, Legal { program: cut!("M19 P270\nM3\n") }],
         ),
-        gap(
+        held(
             "p. 350",
             "P of M19 is the angle.",
-            "the run shows the angle of P as it shows that of R; at present P turns to 0",
+            "`orients-to-p` of the control",
             &[
                 Run { program: cut!("M19 P270.\nM3\n"), prints: &["to 270 deg"] },
                 Run { program: cut!("M19 P270\nM3\n"), prints: &["to 270 deg"] },

@@ -480,11 +480,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         ),
         held(
             "p. 203",
-            "#6001 to #6999 are not for programs.",
-            "variables 6001–6999",
+            "#6001 to #6999 are reserved and not to be used, but for #6198.",
+            "rule variable-reserved",
             &[
-                read_only("O1\n#6001=1\nM30\n", "O1\n#5999=1\nM30\n"),
-                read_only("O1\n#6999=1\nM30\n", "O1\n#7001=1.\nM30\n"),
+                rule("warning[variable-reserved]", "O1\n#6001=1\nM30\n", "O1\n#5999=1\nM30\n"),
+                rule("warning[variable-reserved]", "O1\n#6999=1\nM30\n", "O1\n#7001=1.\nM30\n"),
+                rule("warning[variable-reserved]", "O1\n#100=#6001\nM30\n", "O1\n#100=#6198\nM30\n"),
             ],
         ),
         held(

@@ -268,10 +268,16 @@ const STATEMENTS: &[Statement] = &[
         ],
     ),
     held(
-        "#ocode:errors",
-        "A while or sub without its end is refused when the file ends",
+        "#ocode:looping, #ocode:repeat, #ocode:subroutines",
+        "A sub without its end is refused; a loop without its end is refused where it is skipped, left or continued, else the program runs on past it (interpreter 2.9)",
         "rule `o-word-unmatched`",
         &[
+            runs("#5=1\nO100 WHILE [#5 GT 0]\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000", "PROGRAM_END()"]),
+            runs("O100 DO\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000", "PROGRAM_END()"]),
+            runs("O100 REPEAT [2]\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000", "PROGRAM_END()"]),
+            stops("O100 REPEAT [0]\nG0 X1\nM2\n"),
+            stops("O100 DO\nG0 X1\nO100 BREAK\nM2\n"),
+            stops("O100 WHILE [1]\nG0 X1\nO100 CONTINUE\nM2\n"),
             refused(
                 "error[o-word-unmatched]",
                 "O100 WHILE [#5 GT 0]\nG0 X1\nM2\n",
@@ -286,13 +292,21 @@ const STATEMENTS: &[Statement] = &[
     ),
     held(
         "#ocode:conditional",
-        "An if without endif runs as long as its branch is taken (interpreter 2.9); it is an error here",
-        "rule `o-word-unmatched`, docs/dev/execution-model.md",
-        &[rule(
-            "error[o-word-unmatched]",
-            "#5=1\nO100 IF [#5]\nG0 X1\nM2\n",
-            "#5=1\nO100 IF [#5]\nG0 X1\nO100 ENDIF\nM2\n",
-        )],
+        "An if without endif runs as long as its branch is taken, and is refused where blocks have to be skipped (interpreter 2.9)",
+        "rule `o-word-unmatched`",
+        &[
+            runs("#5=1\nO100 IF [#5]\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000", "PROGRAM_END()"]),
+            runs(
+                "O100 IF [#5]\nG0 X1\nO100 ELSE\nG0 X5\nM2\n",
+                &["STRAIGHT_TRAVERSE(5.0000", "PROGRAM_END()"],
+            ),
+            stops("#5=1\nO100 IF [#5]\nG0 X1\nO100 ELSE\nG0 X5\nM2\n"),
+            refused(
+                "warning[o-word-unmatched]",
+                "O100 IF [#5]\nG0 X1\nM2\n",
+                "O100 IF [#5]\nG0 X1\nO100 ENDIF\nM2\n",
+            ),
+        ],
     ),
     held(
         "#ocode:conditional",
