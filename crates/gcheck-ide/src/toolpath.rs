@@ -95,7 +95,7 @@ fn draw(
     let mut alarms: Vec<PassedAlarm> = Vec::new();
     let options = Options { past_alarms: true, ..Options::NONE };
     let ran = run_through(snapshot, machine, options, fuel, stop, &mut |shown| match shown {
-        Shown::Event(step) => plot.add(step),
+        Shown::Event(event) => plot.add(event),
         Shown::Alarm { file, line, fault } => {
             if **fault != Fault::Undecidable {
                 plot.alarm(file, *line);

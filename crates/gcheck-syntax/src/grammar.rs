@@ -287,7 +287,7 @@ fn line<S: Sink>(p: &mut Parser<'_, S>) {
 fn rest_is_not_a_block<S: Sink>(p: &mut Parser<'_, S>) -> bool {
     let Parser { at, tokens, .. } = *p;
     let tail = p.tail.get_or_insert_with(|| Tail::of(tokens));
-    !tail.word.is_some_and(|word| word >= at) || tail.prose.is_some_and(|prose| prose >= at)
+    tail.word.is_none_or(|word| word < at) || tail.prose.is_some_and(|prose| prose >= at)
 }
 
 /// What the end of a line is made of, as indexes of tokens.

@@ -43,10 +43,10 @@ pub(crate) fn regular(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     if bytes.len() as u64 > most { Err(larger(most)) } else { Ok(bytes) }
 }
 
-/// Bytes as text, unless they are none.
-pub(crate) fn text(path: &Path, bytes: Vec<u8>) -> Result<SourceText, Problem> {
+/// Bytes as text, if they are text.
+pub(crate) fn text(path: &Path, bytes: &[u8]) -> Result<SourceText, Problem> {
     let size = bytes.len();
-    bounded(path, bytes.as_slice(), size).unwrap_or_else(|_| Err(too_large(path)))
+    bounded(path, bytes, size).unwrap_or_else(|_| Err(too_large(path)))
 }
 
 fn larger(most: u64) -> String {

@@ -31,9 +31,9 @@ const ATTEMPTS: usize = 16;
 /// The file is as it was then, and there is no other.
 pub(crate) fn file(
     target: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
-    put(&System, target, Care::Durable, None, fill)
+    put(&System, target, Care::Durable, None, content)
 }
 
 /// Replaces a file, if it still holds `before`.
@@ -66,25 +66,25 @@ fn put<D: Disk>(
     target: &Path,
     care: Care,
     before: Option<&[u8]>,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
     let old = if care == Care::Durable { disk.about(target)? } else { None };
     if old.as_ref().is_some_and(Old::has_other_names) {
         return Err(Failure::Refused("it has other names (hard links), which would keep the old text"));
     }
     let (temporary, mut file) = begin(disk, target)?;
-    let filled = fill_and_name(disk, &temporary, &mut file, target, care, old.as_ref(), before, fill);
+    let written = write_and_name(disk, &temporary, &mut file, target, care, old.as_ref(), before, content);
     drop(file);
-    if filled.is_err() {
+    if written.is_err() {
         // That the clean-up may fail as well changes nothing; the next run in the folder tries again.
         let _ = disk.remove(&temporary);
     }
     leftovers::done(&temporary);
-    filled
+    written
 }
 
 #[expect(clippy::too_many_arguments, reason = "the steps of one replacement, which share everything")]
-fn fill_and_name<D: Disk>(
+fn write_and_name<D: Disk>(
     disk: &D,
     temporary: &Path,
     file: &mut D::File,
@@ -92,10 +92,10 @@ fn fill_and_name<D: Disk>(
     care: Care,
     old: Option<&Old>,
     before: Option<&[u8]>,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), Failure> {
     let mut out = BufWriter::with_capacity(1 << 16, Filling { disk, file: &mut *file });
-    fill(&mut out)?;
+    content(&mut out)?;
     out.flush()?;
     drop(out);
     if care == Care::Durable {

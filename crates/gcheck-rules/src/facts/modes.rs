@@ -82,7 +82,7 @@ pub(crate) fn resting_on_mode(cx: &PathCx<'_>, finding: Finding, role: Role) -> 
 /// A finding about a mode that the program leaves on for the next one, if its end does not reset it.
 pub(crate) fn left_at_end(
     cx: &PathCx<'_>,
-    rule: &'static RuleMeta,
+    meta: &'static RuleMeta,
     role: Role,
     is_on: impl Fn(Effect) -> bool,
     what: &str,
@@ -97,7 +97,7 @@ pub(crate) fn left_at_end(
     let name = cx.name_of(code);
     let end = Boundary::ProgramEnd;
     let message = format!("{what} is still on {} (`{name}`)", end.words());
-    let finding = cx.finding(rule, boundary_range(cx, end), message);
+    let finding = cx.finding(meta, boundary_range(cx, end), message);
     let finding = finding.label("what runs next begins with it");
     Some(cx.resting_on(finding, fact, &format!("`{name}`")))
 }

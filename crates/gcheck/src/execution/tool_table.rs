@@ -33,7 +33,7 @@ pub(super) fn read(path: &Path, units: Units) -> Result<ToolTableFile, Problem> 
         Problem::with_file(Path::new(&name), format!("cannot read: {reason}"))
             .help("`tools.table` names this file")
     })?;
-    let source = reading::text(Path::new(&name), bytes)
+    let source = reading::text(Path::new(&name), &bytes)
         .map_err(|problem| problem.help("`tools.table` names this file"))?;
     let is_csv = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
     let read = if is_csv { columns } else { words };

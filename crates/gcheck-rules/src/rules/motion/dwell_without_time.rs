@@ -42,7 +42,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         return;
     }
     let times: LetterSet =
-        cx.control().semantics().dwell.iter().filter_map(|(letter, _)| Letter::parse(letter)).collect();
+        cx.control().semantics().dwell.keys().filter_map(|letter| Letter::parse(letter)).collect();
     if times.is_empty() || cx.words().iter().any(|word| times.contains(word.letter)) {
         return;
     }

@@ -39,13 +39,13 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let takes = |code: &gcheck_controls::Code<'_>| code.entry().takes_axes || owns_axes(code.effect());
-    let Some((_, taker)) = cx.codes().find(|(_, code)| takes(code)) else { return };
+    let moves_axes = |code: &gcheck_controls::Code<'_>| code.entry().takes_axes || owns_axes(code.effect());
+    let Some((_, taker)) = cx.codes().find(|(_, code)| moves_axes(code)) else { return };
     let any = cx.codes().any(|(_, code)| code.entry().any_words || code.is_user());
     if any || !cx.words_are_plain() || cx.block().flags.contains(BlockFlags::UNKNOWN_CODE) {
         return;
     }
-    let readers = cx.codes().filter(|(_, code)| takes(code));
+    let readers = cx.codes().filter(|(_, code)| moves_axes(code));
     let read = readers.fold(LetterSet::EMPTY, |set, (_, code)| set.or(code.reads()));
     let forbidden = |letter: gcheck_controls::Letter| {
         let mut codes = cx.codes();
