@@ -119,6 +119,11 @@ mod tests {
     fn what_it_says() {
         let text = "G20 G90 G54 G0 X0. Y0. Z.1 S900 M3\nG77 Z-1.6 R-.5 Q.1 F10.\nG80\nM30\n";
         let found = findings(&only(&RULE), "haas-mill", text, &World::default());
-        expect![[r#""#]].assert_eq(&words(&found[0]));
+        expect![[r#"
+            back bore with `R` above `Z` (`G77`)
+              here: `R` is 1.1 in above `Z`: the cut goes downward
+              note: `G77` cuts from `R`, past the bottom of the part, up to `Z`  [Haas online manual, g77-back-bore; Haas 96-8000 June 1999 (easymanua.ls page 188); HM17 p.290]
+              help: give `R` the level past the bottom of the part, and `Z` the level that the cut goes up to
+        "#]].assert_eq(&words(&found[0]));
     }
 }

@@ -135,6 +135,11 @@ mod tests {
     fn what_it_says() {
         let text = "G20 G90 G54 G0 X0. Y0. Z1. S900 M3\nG76 Z-.6 R.1 F5.\nG80\nM30\n";
         let found = findings(&only(&RULE), "haas-mill", text, &World::default());
-        expect![[r#""#]].assert_eq(&words(&found[0]));
+        expect![[r#"
+            fine bore without a shift off the wall (`G76`)
+              here: the edge comes out along the wall that it has cut
+              note: without `Q`, `I` and `J` the tool does not shift  [HM17 p.289; Haas 96-8000 June 1999 (easymanua.ls page 182); Haas online manual, g77-back-bore; Haas 96-8000 June 1999 (easymanua.ls page 188)]
+              help: give the shift as `Q`, in the direction of Setting 27, or as `I` and `J`
+        "#]].assert_eq(&words(&found[0]));
     }
 }

@@ -237,7 +237,24 @@ mod tests {
         let text = "o1 if [#1 GT 0]\no2 repeat [#1]\no3 do\no4 sub\nM2\n";
         let told: Vec<String> =
             findings(&only(&RULE), "linuxcnc", text, &World::default()).iter().map(words).collect();
-        expect![[r#""#]].assert_eq(&told.concat());
+        expect![[r#"
+            O-word `o1 if` has no `endif`
+              here: opened here and not closed where it should be
+              note: the control stops with an error when the condition does not hold; when it holds, the program runs on to its end
+              help: close it with `endif` and the same label
+            O-word `o2 repeat` has no `endrepeat`
+              here: opened here and not closed where it should be
+              note: the control stops with an error when it has to skip the loop; else the program runs on to its end, so the loop runs once
+              help: close it with `endrepeat` and the same label
+            O-word `o3 do` has no `while`
+              here: opened here and not closed where it should be
+              note: the program runs on to its end, so the loop runs once; the control stops with an error at `break`
+              help: close it with `while` and the same label
+            O-word `o4 sub` has no `endsub`
+              here: opened here and not closed where it should be
+              note: the control looks for the end to the end of the file, and stops with an error
+              help: close it with `endsub` and the same label
+        "#]].assert_eq(&told.concat());
     }
 
     #[test]

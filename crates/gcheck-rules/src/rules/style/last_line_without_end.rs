@@ -2,7 +2,6 @@
 
 use crate::declare::declare_rule;
 use crate::{FileCx, Finding, Fix, Report, Run};
-use gcheck_lint::line_end;
 
 declare_rule! {
     /// The last line of the file has no line end.
@@ -42,12 +41,26 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if last.trim_matches([' ', '\t', '\0', '\u{FEFF}', '\u{1A}']).is_empty() {
         return;
     }
+    let start = base + start as u32;
     report.add(
-        Finding::new(&META, base + start as u32..end, "last line has no line end")
+        Finding::new(&META, start..end, "last line has no line end")
             .label("the end of the block is missing")
             .help("end the line")
-            .fix(Fix::safe("end the line", end..end, line_end(text))),
+            .fix(Fix::safe("end the line", end..end, line_end_before(cx, start))),
     );
+}
+
+/// How the line before a byte ends; a line feed where there is none.
+fn line_end_before(cx: &FileCx<'_>, start: u32) -> &'static str {
+    let (base, text) = cx.text.around(start.saturating_sub(1));
+    let before = text.get(..(start - base) as usize).unwrap_or_default();
+    if before.ends_with("\r\n") {
+        "\r\n"
+    } else if before.ends_with('\r') {
+        "\r"
+    } else {
+        "\n"
+    }
 }
 
 #[cfg(test)]

@@ -32,10 +32,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 287, p. 377",
             "Setting 22 is how far G73 backs off.",
-            "Setting 22 is read (in the units of the machine); at present 0.1 inch always",
+            "`clearance-setting` of the control",
             &[Makes {
                 program: cut!("G73 G99 Z-.5 R.1 Q.2 F5.\n").with(&["settings.22=0.05"]),
                 block: "G73 G99 Z-.5 R.1 Q.2 F5.",

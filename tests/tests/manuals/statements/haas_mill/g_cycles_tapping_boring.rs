@@ -123,7 +123,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                         "spindle clockwise",
                     ],
                 },
-                Stats { program: cut!("G84 G99 Z-.6 R.1 F60. S960 J2\n"), prints: &["cutting 0:01.1"] },
+                Stats { program: cut!("G84 G99 Z-.6 R.1 F60. S960 J2\n"), prints: &["cutting 0:01.0"] },
             ],
         ),
         held(
@@ -133,7 +133,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             &[
                 Stats {
                     program: cut!("G84 G99 Z-.6 R.1 F60. S960\n").with(&["settings.130=2"]),
-                    prints: &["cutting 0:01.1"],
+                    prints: &["cutting 0:01.0"],
                 },
                 Stats {
                     program: cut!("G84 G99 Z-.6 R.1 F60. S960\n").with(&["settings.130=1"]),
