@@ -60,7 +60,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
         cx.range(word),
         format!("`{}` is not a dwell time on this control (`{}`)", cx.text(word), cx.written(code)),
     )
-    .label("only only other controls read a time here")
+    .label("only other controls read a time here")
     .note(format!(
         "`{}` ({}) reads its time from {own}, {units}  [{}]",
         entry.code, entry.title, entry.source
@@ -120,7 +120,7 @@ mod tests {
         let found = findings(&only(&RULE), "haas-lathe", "G4 U2.\n", &World::default());
         expect![[r#"
             `U2.` is not a dwell time on this control (`G4`)
-              here: only only other controls read a time here
+              here: only other controls read a time here
               note: `G4` (dwell) reads its time from `P`, in seconds with a decimal point, in milliseconds without  [TABLE; HM17 p.258; AP25]
               help: give the time in `P`; `U` is an axis word
         "#]].assert_eq(&found.iter().map(words).collect::<String>());
