@@ -103,10 +103,10 @@ export class ToolpathPreview implements vscode.Disposable {
 <div id="side"><div id="tools"></div><div id="alarms" role="status"></div></div>
 <div id="readout" role="status"></div>
 <div id="controls">
-<button id="back" title="Back a block (Page Up); a move: ," aria-label="Back a block">⏮</button>
+<button id="back" title="Back a block (Page Up); a move: ," aria-label="Back a block">‹</button>
 <button id="play" title="Play or pause (space)" aria-label="Play">▶</button>
-<button id="on" title="On a block (Page Down); a move: ." aria-label="On a block">⏭</button>
-<button id="next-tool" title="To the end of the next tool (T)" aria-label="Next tool">T⏭</button>
+<button id="on" title="On a block (Page Down); a move: ." aria-label="On a block">›</button>
+<button id="next-tool" title="To the end of the next tool (T)" aria-label="Next tool">T›</button>
 <input id="time" type="range" min="0" max="1000" value="1000" aria-label="Place in the run">
 <select id="speed" aria-label="Speed">
 <option value="1">1×</option><option value="10" selected>10×</option><option value="100">100×</option>
