@@ -29,6 +29,7 @@ fn main() -> Result<()> {
     }
     list.push_str("];\n");
     fs::write(out.join("sources.rs"), list)?;
+    fs::write(out.join("unsupported.json"), to_json(&data.join("unsupported.toml"))?)?;
     Ok(())
 }
 

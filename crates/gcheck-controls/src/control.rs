@@ -2,7 +2,7 @@
 //!
 //! Knows: codes by number, groups, addresses, variables, settings. Must not know: files, TOML, or which control it is.
 
-use crate::execution::{Effect, Semantics};
+use crate::execution::{Effect, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, FormatCustoms, FunctionEntry, Hint,
@@ -68,6 +68,7 @@ pub struct Control {
     pub(crate) alarms: Vec<(String, AlarmEntry)>,
     pub(crate) semantics: Semantics,
     pub(crate) motion: MotionRules,
+    pub(crate) lasting: Vec<LastingWords>,
 }
 
 /// A code and what is derived from its entry once, at load time.
@@ -180,6 +181,19 @@ impl Control {
     /// How it moves axes.
     pub fn motion(&self) -> &MotionRules {
         &self.motion
+    }
+
+    /// Words that stay in effect after their block.
+    pub fn lasting(&self) -> &[LastingWords] {
+        &self.lasting
+    }
+
+    /// How an address stays in effect for the codes of a modal group.
+    pub fn lasting_in(&self, letter: Letter, group: &str) -> Option<&LastingWords> {
+        let is_own = |row: &&LastingWords| {
+            LetterSet::of(&row.letters).contains(letter) && row.groups.iter().any(|own| own == group)
+        };
+        self.lasting.iter().rfind(is_own)
     }
 
     /// How text is read.

@@ -4,7 +4,9 @@
 //! collects [`Evidence`] from comments, codes and forms of syntax.
 
 use crate::Hint;
+use crate::UnsupportedDialect;
 use crate::loader::all_control_files;
+use crate::whole_word::contains_word;
 
 /// What a program shows of itself.
 #[derive(Debug, Clone, Default)]
@@ -15,6 +17,8 @@ pub struct Evidence {
     pub codes: Vec<String>,
     /// Forms of syntax the program uses, by the names that [`crate::Hint::form`] lists.
     pub forms: Vec<String>,
+    /// It is of a dialect that no control here reads.
+    pub unsupported: Option<&'static UnsupportedDialect>,
 }
 
 /// A guess and its reason.
@@ -76,27 +80,5 @@ pub fn guess(evidence: &Evidence) -> Option<Guess> {
         [first, second, ..] if first.points == second.points => None,
         [first, ..] if first.points > 0 => Some(first.guess.clone()),
         _ => None,
-    }
-}
-
-/// Whole words, any case: `VF-2` is in `POSTED FOR VF-2`, not in `VF-22`.
-fn contains_word(text: &str, word: &str) -> bool {
-    let text = text.to_ascii_lowercase();
-    let word = word.to_ascii_lowercase();
-    text.match_indices(&word).any(|(at, _)| {
-        let before = text.get(..at).and_then(|t| t.chars().next_back());
-        let after = text.get(at + word.len()..).and_then(|t| t.chars().next());
-        !before.is_some_and(char::is_alphanumeric) && !after.is_some_and(char::is_alphanumeric)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::contains_word;
-
-    #[test]
-    fn hints_match_whole_words_only() {
-        assert!(contains_word("posted for VF-2 / inch", "vf-2"));
-        assert!(!contains_word("VF-22", "VF-2"));
     }
 }

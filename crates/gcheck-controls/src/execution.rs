@@ -22,6 +22,47 @@ pub(crate) struct ExecutionFile {
     pub(crate) semantics: Option<Semantics>,
     #[serde(default)]
     pub(crate) motion: Option<MotionRules>,
+    #[serde(default, rename = "lasting")]
+    pub(crate) lasting: Vec<LastingWords>,
+}
+
+/// Words that stay in effect after their block, and the codes that they stay for.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LastingWords {
+    /// The addresses, one letter after the other: `"RZQ"`.
+    pub letters: String,
+    /// Modal groups whose codes use the last word: those with `need = "modal"`.
+    pub groups: Vec<String>,
+    /// Which blocks may give it.
+    pub from: LastingFrom,
+    /// What makes the control forget it.
+    #[serde(default)]
+    pub until: Vec<LastingEnd>,
+    /// Its source.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// Which blocks may give a word that stays in effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LastingFrom {
+    /// Every block, also one without a code that reads it.
+    AnyBlock,
+    /// A block with a code of the groups, or one that repeats it while it is on.
+    OwnCodes,
+}
+
+/// What ends the effect of a word that stays in effect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LastingEnd {
+    /// The code that cancels the group: `G80`.
+    Cancel,
+    /// The end of the program.
+    ProgramEnd,
 }
 
 /// What a code does to the machine's state. A code without an effect changes nothing that the engine follows.
@@ -621,6 +662,10 @@ pub struct ToolRules {
     /// A tool change cancels tool length compensation.
     #[serde(default)]
     pub change_cancels_length: bool,
+    /// The axes stay where they are at a tool change: the next tool swings in at the place where the last one was. Else
+    /// the change takes them to a place of its own, or the builder decides.
+    #[serde(default)]
+    pub change_in_place: bool,
 }
 
 /// What `G52` and `G92` are to each other.

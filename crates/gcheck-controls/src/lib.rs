@@ -19,7 +19,9 @@ mod letter_set;
 mod loader;
 mod motion;
 mod schema;
+mod unsupported;
 mod validate;
+mod whole_word;
 mod wording;
 
 pub use bar_feeder::BarFeederRules;
@@ -28,8 +30,8 @@ pub use control::{Code, CodeIx, Control, GroupIx, UserCode, Variable};
 pub use detect::{Evidence, Guess, Score, guess, scores};
 pub use execution::{
     ArcRules, CompensationRules, CompensationStyle, CycleRules, CylinderRules, DwellWord, Effect, Fix,
-    HelixFeed, HelixRules, LocalShift, MessageComment, OffsetValue, ProbeFeed, Refusals, ReturnTo, Semantics,
-    SystemValue, SystemVariable, ToolRules, Unset,
+    HelixFeed, HelixRules, LastingEnd, LastingFrom, LastingWords, LocalShift, MessageComment, OffsetValue,
+    ProbeFeed, Refusals, ReturnTo, Semantics, SystemValue, SystemVariable, ToolRules, Unset,
 };
 pub use letter_set::{Letter, LetterSet};
 pub use loader::{LoadError, fallback, load, names};
@@ -37,7 +39,8 @@ pub use motion::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, T
 pub use schema::{
     Access, AlarmEntry, BlockRules, CodeEntry, CodeList, Confidence, Ends, FormatCustoms, FunctionEntry,
     Handling, Hint, LetterCase, LetterEntry, Limits, Machine, ModalGroup, Motion, Need, NumberRules,
-    Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry,
-    WordKind,
+    OverrideSwitch, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry, VariableKind,
+    WordEntry, WordKind,
 };
+pub use unsupported::{UnsupportedDialect, unsupported_dialect};
 pub use validate::problems;

@@ -7,7 +7,7 @@ use std::fmt;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::control::CodeFacts;
-use crate::execution::{Effect, ExecutionFile, Semantics};
+use crate::execution::{Effect, ExecutionFile, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
     AlarmEntry, AlarmsFile, CodeEntry, CodesFile, ControlFile, FunctionEntry, GroupsFile, LetterEntry,
@@ -142,6 +142,7 @@ struct Layers {
     effects: BTreeMap<String, Effect>,
     semantics: Option<Semantics>,
     motion: Option<MotionRules>,
+    lasting: Vec<LastingWords>,
 }
 
 fn resolve(name: &str) -> Result<Control, LoadError> {
@@ -217,6 +218,8 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         layers.effects.extend(file.effects);
         layers.semantics = file.semantics.or(layers.semantics.take());
         layers.motion = file.motion.or(layers.motion.take());
+        // A later row speaks for its letters and groups.
+        layers.lasting.extend(file.lasting);
     }
     Ok(())
 }
@@ -262,6 +265,7 @@ fn finish(layers: Layers) -> Result<Control, LoadError> {
         alarms: layers.alarms,
         semantics: layers.semantics.ok_or_else(|| missing("semantics"))?,
         motion: layers.motion.ok_or_else(|| missing("motion"))?,
+        lasting: layers.lasting,
     };
     let mut codes = layers.codes;
     codes.sort_by_cached_key(|c| CodeNumber::parse(&c.code));

@@ -187,9 +187,40 @@ pub struct Limits {
     /// Numbers allowed after `DO` and `END`.
     #[serde(default)]
     pub do_numbers: Option<[u8; 2]>,
+    /// The switch that changes feeds while a program runs.
+    #[serde(default)]
+    pub feed_override: Option<OverrideSwitch>,
     /// The source of the limits.
     #[serde(default)]
     pub source: Option<String>,
+}
+
+/// The positions of an override switch, percent.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct OverrideSwitch {
+    /// Its lowest position.
+    #[serde(default)]
+    pub min: f64,
+    /// Its highest position.
+    pub max: f64,
+    /// From one position to the next.
+    pub step: f64,
+    /// Its source.
+    pub source: String,
+}
+
+impl OverrideSwitch {
+    /// Has the switch this position?
+    pub fn takes(&self, percent: f64) -> bool {
+        let steps = (percent - self.min) / self.step;
+        (self.min..=self.max).contains(&percent) && (steps - steps.round()).abs() < 1e-9
+    }
+
+    /// Its positions: `0 to 150 percent in steps of 10`.
+    pub fn positions(&self) -> String {
+        format!("{} to {} percent in steps of {}", self.min, self.max, self.step)
+    }
 }
 
 /// How complete the list of codes is: how certain a finding about a code outside it may be.

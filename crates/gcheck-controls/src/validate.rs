@@ -18,6 +18,7 @@ pub fn problems(control: &Control) -> Vec<String> {
     found.letters();
     found.rest();
     found.semantics();
+    found.lasting();
     found.motion();
     found.system_variables();
     found.list
@@ -229,6 +230,12 @@ impl Problems<'_> {
         if control.limits().m_codes_per_block.is_some() && control.limits().m_codes_confidence.is_none() {
             self.say("limits", "`m-codes-per-block` needs `m-codes-confidence`");
         }
+        if let Some(switch) = &control.limits().feed_override {
+            self.source("feed-override", &switch.source);
+            if !(switch.step > 0.0 && switch.takes(switch.max) && switch.takes(100.0)) {
+                self.say("feed-override", "steps do not lead to the highest position and to 100 percent");
+            }
+        }
         if control.numbers().max_digits.is_some() && control.numbers().max_digits_confidence.is_none() {
             self.say("numbers", "`max-digits` needs `max-digits-confidence`");
         }
@@ -370,6 +377,30 @@ impl Problems<'_> {
     }
 
     /// Refusals speak of words that their codes read, and of addresses that the control has.
+    /// Each word that may come from an earlier block has a row that says from which, and each row has such words.
+    fn lasting(&mut self) {
+        const PLACE: &str = "lasting";
+        let control = self.control;
+        for row in control.lasting() {
+            self.source(PLACE, &row.source);
+            if row.groups.iter().all(|group| control.group_by_id(group).is_none()) {
+                self.say(PLACE, format!("`{}` is for no group of the control", row.letters));
+            }
+        }
+        for code in control.codes() {
+            let entry = code.entry();
+            for word in entry.words.iter().filter(|word| word.need == crate::Need::Modal) {
+                let letter = Letter::parse(&word.letter);
+                if letter.is_none_or(|letter| control.lasting_in(letter, &entry.group).is_none()) {
+                    self.say(
+                        &entry.code,
+                        format!("no row of `lasting` has `{}` for `{}`", word.letter, entry.group),
+                    );
+                }
+            }
+        }
+    }
+
     fn refusals(&mut self) {
         const PLACE: &str = "semantics.refusals";
         let control = self.control;

@@ -13,7 +13,7 @@ use salsa::Setter;
 
 use crate::Settings;
 
-/// Salsa's storage, and who is told of what it does.
+/// Salsa's storage, and the log of what it does.
 #[salsa::db]
 #[derive(Clone)]
 pub(crate) struct Storage {

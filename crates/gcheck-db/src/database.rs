@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use gcheck_diagnostics::{Finding, RuleMeta, Severity};
-use gcheck_engine::{Look, Options, flow};
+use gcheck_engine::{Look, Task, flow};
 use gcheck_lint::{Assumptions, EditedFile, FileFacts, Incremental, Outcome, Work};
 use gcheck_program::Dialect;
 use gcheck_syntax::{Document, OutOfRange};
@@ -126,7 +126,7 @@ impl Open {
         let (machine, fuel) = (&self.settings.machine.engine, self.settings.execution.fuel);
         let mut keeper = Keeper::new(blocks);
         snapshot.with_program(|program, model| {
-            flow(program, model, machine, Options::NONE, fuel, &mut keeper);
+            flow(program, model, machine, Task::all_paths(fuel), &mut keeper);
             keeper.hand_on(&mut Look::new(program, model, machine), stop, with);
         });
     }

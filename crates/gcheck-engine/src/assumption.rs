@@ -1,4 +1,4 @@
-//! What a result rests on that nobody told us.
+//! What a result rests on beside the program and the configuration.
 //!
 //! Knows: kinds of assumptions, typed. Must not know: their wording, or the keys of a configuration that would settle them.
 
@@ -79,6 +79,8 @@ pub enum Assumption {
     BarLimits,
     /// Paths met that differ in something which decides what follows: what depends on it is unknown from there on.
     Unsettled(Unsettled),
+    /// More conditions than are followed by themselves: what one of their ways alone sets is unknown where the ways meet.
+    PathsJoined,
     /// Nothing is known of a code's effect.
     Code(CodeIx),
     /// The passes of a cycle are not computed: it ends where it should, but what it cuts is in no figure.

@@ -30,7 +30,7 @@ pub enum ValueFault {
 pub enum Fault {
     /// An expression has no value.
     Value(ValueFault),
-    /// A condition, repeat count or jump target depends on something that nobody told us.
+    /// A condition, repeat count or jump target depends on something that is not known.
     Undecidable,
     /// A named parameter that was never set is read.
     UnsetParameter,

@@ -32,7 +32,7 @@ pub use budget::{Budget, GivenUp, Limit};
 pub use checkpoint::{Checkpoint, Leg};
 use heads::Heads;
 use marks::Marks;
-pub use trace::{Decision, Fact, Facts, Trace};
+pub use trace::{Choice, Decision, Fact, Facts, Parting, Trace};
 
 use crate::assumption::Assumption;
 use crate::event::Event;
@@ -139,6 +139,8 @@ pub struct FlowResult {
     pub work: u64,
     /// What it rests on.
     pub assumptions: BTreeSet<Assumption>,
+    /// Where paths that were one part, in the order of the first time.
+    pub partings: Vec<Parting>,
 }
 
 impl FlowResult {
@@ -262,39 +264,58 @@ const JOIN: u64 = 8;
 const MOST_MET: usize = 2048;
 /// States that are kept of blocks that were met before those that no path comes back to are looked for.
 const MOST_UNSETTLED: usize = 256;
+/// Places at which paths part that are named.
+const MOST_PARTINGS: usize = 64;
 /// Places at which an analysis was given up that are named.
 const MOST_NAMED: usize = 8;
 
 /// Blocks between two questions whether the analysis is to be given up.
 const ASKED_EVERY: u64 = 8192;
 
-/// Analyses all paths of a program with at most so much work.
+/// Which paths are analysed, and with how much work at most.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<'d> {
+    /// Switches of the operator's panel.
+    pub options: Options,
+    /// Ways taken where paths that are one part, each the first time, in this order; everywhere else all ways are.
+    pub choices: &'d [Choice],
+    /// The work that may be done, in blocks.
+    pub work: u64,
+}
+
+impl Task<'_> {
+    /// All paths, no block skipped.
+    pub const fn all_paths(work: u64) -> Self {
+        Self { options: Options::NONE, choices: &[], work }
+    }
+}
+
+/// Analyses all paths of a program that a task names.
 pub fn flow<O: FlowObserver>(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
-    options: Options,
-    work: u64,
+    task: Task<'_>,
     observer: &mut O,
 ) -> FlowResult {
-    let leg = flow_from(program, model, machine, options, work, None, observer);
+    let leg = flow_from(program, model, machine, task, None, observer);
     FlowResult {
         reached: leg.reached,
         always: leg.always,
         given_up: leg.given_up,
         work: leg.work,
         assumptions: leg.assumptions,
+        partings: leg.partings,
     }
 }
 
-/// Analyses all paths from a checkpoint on, or from the beginning, with at most so much work: what was done since the last
-/// checkpoint that the observer was told of.
+/// Analyses all paths of a task from a checkpoint on, or from the beginning: what was done since the last checkpoint that the
+/// observer was told of.
 pub fn flow_from<O: FlowObserver>(
     program: &Program<'_>,
     model: &Model<'_>,
     machine: &Machine,
-    options: Options,
-    work: u64,
+    task: Task<'_>,
     from: Option<Checkpoint>,
     observer: &mut O,
 ) -> Leg {
@@ -309,23 +330,26 @@ pub fn flow_from<O: FlowObserver>(
         stepping: None,
         events: 0,
     };
-    let mut executor = Executor::new(program, model, machine, options, shown);
+    let mut executor = Executor::new(program, model, machine, task.options, shown);
     executor.lenient = true;
     let from = from.unwrap_or_else(|| Checkpoint {
         at: At { file: 0, block: 0 },
         state: start_state::<Abstract>(model, machine, &mut executor.assumptions),
         trace: Trace::default(),
         parted: false,
+        taken: 0,
     });
-    let Checkpoint { at, state, trace, parted } = from;
+    let Checkpoint { at, state, trace, parted, taken } = from;
     trace.begin_leg();
     let facts = trace.clone();
     let most_met = MOST_MET + executor.file(0).map_or(0, |file| file.loaded.outline().blocks() as usize);
     let mut flow = Flow {
         chunk: executor.chunk_of(at.block),
         executor,
-        limit: work,
+        limit: task.work,
         work: 0,
+        choices: task.choices,
+        taken,
         most_met,
         settle_at: MOST_UNSETTLED,
         asked_at: 0,
@@ -347,7 +371,11 @@ pub fn flow_from<O: FlowObserver>(
     flow.end_leg(&facts)
 }
 
-struct Flow<'a, 'p, 'o, O: FlowObserver> {
+struct Flow<'a, 'p, 'o, 'd, O: FlowObserver> {
+    /// Ways that are taken where paths that are one part.
+    choices: &'d [Choice],
+    /// How many of them were taken, in their order.
+    taken: usize,
     executor: Executor<'a, 'p, Abstract, Shown<'a, 'o, O>>,
     /// The work that may be done.
     limit: u64,
@@ -394,7 +422,7 @@ enum Stretch {
     Stopped,
 }
 
-impl<O: FlowObserver> Flow<'_, '_, '_, O> {
+impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
     fn explore(&mut self) {
         while let Some((key, next)) = self.pending.pop_first() {
             let solo = self.pending.is_empty();
@@ -449,7 +477,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         let leg = self.end_leg(&self.executor.observer.trace.clone());
         self.executor.observer.trace.begin_leg();
         let trace = self.executor.observer.trace.clone();
-        let checkpoint = Checkpoint { at, state: state.clone(), trace, parted: self.parted };
+        let checkpoint =
+            Checkpoint { at, state: state.clone(), trace, parted: self.parted, taken: self.taken };
         self.executor.observer.observer.checkpoint(leg, checkpoint)
     }
 
@@ -701,13 +730,31 @@ impl<O: FlowObserver> Flow<'_, '_, '_, O> {
         })
     }
 
-    fn fork(&mut self, at: At, ways: Vec<(At, State<Abstract>)>) {
+    fn fork(&mut self, at: At, mut ways: Vec<(At, State<Abstract>)>) {
         self.forks += 1;
+        if self.executor.observer.solo {
+            self.part(at, &mut ways);
+        }
         let trace = self.executor.observer.trace.clone();
         for (to, state) in ways {
             let mut trace = trace.clone();
             trace.decide(Decision { at, to });
             self.arrive(to, state, trace);
+        }
+    }
+
+    /// Paths that were one part: notes it, and keeps the way that is to be taken here.
+    fn part(&mut self, at: At, ways: &mut Vec<(At, State<Abstract>)>) {
+        let is_known = self.leg.partings.iter().any(|known| known.at == at);
+        if !is_known && self.leg.partings.len() < MOST_PARTINGS {
+            self.leg.partings.push(Parting { at, ways: ways.len() });
+        }
+        if let Some(choice) = self.choices.get(self.taken).filter(|choice| choice.at == at)
+            && choice.way < ways.len()
+        {
+            let chosen = ways.swap_remove(choice.way);
+            *ways = vec![chosen];
+            self.taken += 1;
         }
     }
 

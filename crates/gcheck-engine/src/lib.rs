@@ -20,7 +20,6 @@ mod run;
 mod start;
 mod state;
 mod step;
-mod tracked;
 mod value;
 mod words;
 
@@ -29,8 +28,8 @@ pub use cylinder::Cylinder;
 pub use event::*;
 pub use fault::{ArcFault, CompensationFault, CycleFault, Fault, ValueFault};
 pub use flow::{
-    Budget, Checkpoint, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp, Leg, Limit,
-    MOST_EXACT_TURNS, Reach, Trace, flow, flow_from,
+    Budget, Checkpoint, Choice, Decision, Fact, Facts, FlowCx, FlowObserver, FlowResult, GivenUp, Leg, Limit,
+    MOST_EXACT_TURNS, Parting, Reach, Task, Trace, flow, flow_from,
 };
 pub use gcheck_controls::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use lattice::Lattice;

@@ -3,8 +3,8 @@
 //! Knows: what the knowledge base says about executing. Must not know: programs, values, state.
 
 use gcheck_controls::{
-    Code, CodeIx, CodeNumber, Control, Effect, GroupIx, Handling, HelixFeed, Letter, LetterSet, Need,
-    Semantics, SystemVariable, Unpointed, WordKind,
+    Code, CodeIx, CodeNumber, Control, Effect, GroupIx, Handling, HelixFeed, LastingFrom, Letter, LetterSet,
+    Need, Semantics, SystemVariable, Unpointed, WordEntry, WordKind,
 };
 use rustc_hash::FxHashMap;
 
@@ -423,21 +423,22 @@ impl<'c> Model<'c> {
     }
 }
 
-/// Numbers of cutter offsets that outlast their block: the data call the word modal for a code that compensates, and the
-/// control does not refuse a block where nobody reads it.
+/// Words that a block without a code that reads them keeps for a later one: those that the data give from any block, of the
+/// ones that the state has a place for. Nothing on a control that refuses a block with such a word.
 fn lasting_letters(control: &Control) -> LetterSet {
+    const KEPT: LetterSet = LetterSet::of("DH");
     if control.block_rules().unread_word == Handling::Refused {
         return LetterSet::EMPTY;
     }
-    let compensates = |code: &Code<'_>| {
-        matches!(
-            code.effect(),
-            Effect::CompensationLeft | Effect::CompensationRight | Effect::CompensationVector
-        )
+    let is_kept = |letter: &Letter| {
+        let uses = |code: Code<'_>| {
+            let is_modal =
+                |word: &WordEntry| word.need == Need::Modal && Letter::parse(&word.letter) == Some(*letter);
+            let row = control.lasting_in(*letter, &code.entry().group);
+            code.entry().words.iter().any(is_modal)
+                && row.is_some_and(|row| row.from == LastingFrom::AnyBlock)
+        };
+        control.codes().any(uses)
     };
-    let is_lasting = |code: Code<'_>| {
-        let mut words = code.entry().words.iter();
-        words.any(|word| word.letter == "D" && word.need == Need::Modal)
-    };
-    if control.codes().filter(compensates).any(is_lasting) { LetterSet::of("D") } else { LetterSet::EMPTY }
+    KEPT.iter().filter(is_kept).collect()
 }

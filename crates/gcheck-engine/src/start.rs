@@ -17,7 +17,6 @@ use crate::state::{
     Mapping, ModeSet, Modes, Offsets, Points, Probe, SpindleState, State, Tables, ToolShift, ToolState,
     Transform, Variables,
 };
-use crate::tracked::Tracked;
 use crate::value::{Domain, Truth};
 
 /// The state at the start of the main program.
@@ -41,16 +40,16 @@ pub(crate) fn start_state<D: Domain>(
         offsets: Offsets::unshifted(tables, model.work_at_power_on()),
         spindle: SpindleState::stopped(),
         coolant: CoolantState::all(Truth::False),
-        cycle: Tracked::new(CycleWords::NONE),
-        turning: Tracked::new(KeptTurningWords::default()),
-        transform: Tracked::new(Transform::NONE),
+        cycle: CycleWords::NONE,
+        turning: KeptTurningWords::default(),
+        transform: Transform::NONE,
         mapping: Mapping::default(),
         compensation: CompensationState::default(),
-        blending: Tracked::new(Blending::NONE),
-        curve: Tracked::new(Perhaps::No),
+        blending: Blending::NONE,
+        curve: Perhaps::No,
         probe: Probe::at_start(machine.fresh),
-        tool_shift: Tracked::new(ToolShift::NONE),
-        bar: Tracked::new(Bar::at_start(machine)),
+        tool_shift: ToolShift::NONE,
+        bar: Bar::at_start(machine),
     };
     start_bar_counters(model, machine, &mut state);
     state

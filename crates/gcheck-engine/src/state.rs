@@ -61,14 +61,13 @@ pub(crate) use variables::{Locals, Variable};
 pub use variables::{NameId, Variables};
 
 use crate::event::{FeedMode, Spindle, Units};
-use crate::lattice::{Lattice, Perhaps};
+use crate::lattice::{Lattice, Perhaps, lattice};
 use crate::machine::WorkOffset;
 use crate::model::{Model, Role};
 use crate::position::{Axis, Position};
-use crate::tracked::{Combine, Noted, Notes, Tracked, part};
 use crate::value::{Abstract, AbstractValue, Concrete, ConcreteValue, Domain, Truth};
 
-part! {
+lattice! {
     /// Everything that the next block may depend on.
     ///
     /// What turns of a loop differ in comes first, so that two states are soon found to differ.
@@ -83,27 +82,20 @@ part! {
         pub(crate) feed: Feed<D>,
         pub(crate) spindle: SpindleState<D>,
         pub(crate) coolant: CoolantState,
-        pub(crate) cycle: Tracked<CycleWords>,
+        pub(crate) cycle: CycleWords,
         /// Words of turning cycles.
-        pub(crate) turning: Tracked<KeptTurningWords>,
-        pub(crate) transform: Tracked<Transform>,
+        pub(crate) turning: KeptTurningWords,
+        pub(crate) transform: Transform,
         pub(crate) mapping: Mapping,
         pub(crate) compensation: CompensationState,
-        pub(crate) blending: Tracked<Blending>,
+        pub(crate) blending: Blending,
         /// Control points of a curve under way.
-        pub(crate) curve: Tracked<Perhaps<ControlPoints>>,
+        pub(crate) curve: Perhaps<ControlPoints>,
         pub(crate) probe: Probe,
         /// Shifts by the tool between the programmed point and the axes.
-        pub(crate) tool_shift: Tracked<ToolShift>,
-        pub(crate) bar: Tracked<Bar>,
+        pub(crate) tool_shift: ToolShift,
+        pub(crate) bar: Bar,
     }
-}
-
-/// What a caller has noted while its call is executed.
-#[derive(Debug, Clone)]
-pub(crate) struct Caller<D: Domain> {
-    notes: Notes,
-    program: calls::Suspended<D>,
 }
 
 impl<D: Domain> State<D> {
@@ -152,11 +144,11 @@ impl<D: Domain> State<D> {
             bar,
         } = self;
         points.lose();
-        points.passed.put(Position::UNKNOWN);
+        points.passed = Position::UNKNOWN;
         variables.forget_all();
         calls.forget_locals();
         let modal = calls.modal.or_off();
-        calls.modal.put(modal);
+        calls.modal = modal;
         modes.forget();
         offsets.forget();
         tool.forget();
@@ -164,79 +156,24 @@ impl<D: Domain> State<D> {
         spindle.forget();
         coolant.forget();
         let words = cycle.forgotten();
-        cycle.put(words);
-        turning.put(KeptTurningWords::of(&TurningWords::UNKNOWN));
+        *cycle = words;
+        *turning = KeptTurningWords::of(&TurningWords::UNKNOWN);
         let after = transform.or_other();
-        transform.put(after);
+        *transform = after;
         mapping.forget();
         compensation.forget();
-        blending.put(Blending::UNKNOWN);
+        *blending = Blending::UNKNOWN;
         let points_left = curve.or_other();
-        curve.put(points_left);
+        *curve = points_left;
         probe.forget();
         let shift = tool_shift.or_none();
-        tool_shift.put(shift);
-        bar.put(Bar::UNKNOWN);
+        *tool_shift = shift;
+        *bar = Bar::UNKNOWN;
     }
 
     /// How many values of programs and variables it holds: what a copy or a comparison costs.
     pub(crate) fn values_held(&self) -> usize {
         self.calls.values_held() + self.variables.values_held()
-    }
-
-    // ---- what a call reads and changes ----
-
-    /// A call begins: the program that it entered is under way. From here on its own reads and writes are noted.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "calls are taken from summaries by the flow of decision 17")
-    )]
-    pub(crate) fn begin_call(&mut self) -> Caller<D> {
-        let mut notes = Notes::default();
-        self.note_down(&mut notes);
-        self.forget_notes();
-        Caller { notes, program: self.calls.begin_noting() }
-    }
-
-    /// What the call under way, or the one that has just returned, has read and changed.
-    pub(crate) fn notes(&self) -> Notes {
-        let mut notes = Notes::default();
-        self.note_down(&mut notes);
-        notes
-    }
-
-    /// The call has returned: what it noted becomes part of what its caller has noted.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "calls are taken from summaries by the flow of decision 17")
-    )]
-    pub(crate) fn end_call(&mut self, caller: &Caller<D>) {
-        self.calls.resume_noting(&caller.program);
-        self.combine(&mut caller.notes.cursor(), Combine::AfterThese);
-    }
-
-    /// A copy of this state was looked at, and is thrown away: what was read there counts as read here.
-    pub(crate) fn note_reads_of(&self, copy: &Self) {
-        self.combine(&mut copy.notes().cursor(), Combine::WithReadsOfThese);
-    }
-
-    /// May the call that `notes` are of, which this state was entered in, be executed from the other state just as well? Both
-    /// have just entered it.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "calls are taken from summaries by the flow of decision 17")
-    )]
-    pub(crate) fn agrees_on(&self, other: &Self, notes: &Notes) -> bool {
-        self.agrees(other, &mut notes.cursor())
-    }
-
-    /// The program that was just entered has returned as it did when it left `exit`, with these notes.
-    #[cfg_attr(
-        not(test),
-        expect(dead_code, reason = "calls are taken from summaries by the flow of decision 17")
-    )]
-    pub(crate) fn return_as(&mut self, exit: &Self, notes: &Notes) {
-        self.adopt(exit, &mut notes.cursor());
     }
 
     // ---- parts ----
@@ -297,17 +234,17 @@ impl<D: Domain> State<D> {
 
     /// Does a live tool turn?
     pub fn live_tool(&self) -> Truth {
-        *self.spindle.live_tool
+        self.spindle.live_tool
     }
 
     /// Limit of constant surface speed in turns a minute; infinite without a limit, NaN unknown.
     pub fn speed_limit(&self) -> f64 {
-        *self.spindle.limit
+        self.spindle.limit
     }
 
     /// Is flood coolant on, is mist?
     pub fn coolant(&self) -> (Truth, Truth) {
-        (*self.coolant.flood, *self.coolant.mist)
+        (self.coolant.flood, self.coolant.mist)
     }
 
     /// Tool in the spindle.
@@ -347,12 +284,12 @@ impl<D: Domain> State<D> {
 
     /// The active offset, rotation included.
     pub fn work_offset(&self) -> WorkOffset {
-        *self.offsets.in_effect
+        self.offsets.in_effect
     }
 
     /// The shift of `G92` (and `G52`) in effect.
     pub fn shift(&self) -> Position {
-        self.offsets.shift_in_effect() + *self.offsets.local
+        self.offsets.shift_in_effect() + self.offsets.local
     }
 
     /// Transformations in effect.
@@ -427,12 +364,12 @@ impl<D: Domain> State<D> {
 
     /// The last probing move.
     pub fn touched(&self) -> Touch {
-        *self.probe.touched
+        self.probe.touched
     }
 
     /// The probing move whose touch is kept for a measurement between two.
     pub fn kept_touch(&self) -> Touch {
-        *self.probe.kept
+        self.probe.kept
     }
 
     // ---- what modes mean ----

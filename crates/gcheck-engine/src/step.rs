@@ -15,8 +15,6 @@ pub(crate) mod look;
 mod message;
 mod modes;
 mod motion;
-#[cfg(test)]
-mod notes;
 mod offsets;
 mod operation;
 pub(crate) mod past_alarm;
@@ -444,7 +442,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 Value::Number(number) => {
                     let pointed = word.shape.point;
-                    let number = if pointed || number == 0.0 {
+                    let number = if pointed || number == 0.0 || self.is_count(word.letter, words) {
                         number
                     } else {
                         let units = match self.unpointed {
@@ -646,6 +644,15 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// Millimetres in a unit of the program; NaN when not known.
     fn unit(&self, state: &State<D>) -> f64 {
         state.units(self.model).map_or(f64::NAN, Units::in_mm)
+    }
+
+    /// Is the address, elsewhere an angle that counts smallest steps, a count to a code of the block (`G43 H1` on a lathe)?
+    fn is_count(&self, letter: Letter, words: &[Word]) -> bool {
+        self.model.scaled(letter) == Some(WordKind::Angle)
+            && words
+                .iter()
+                .filter_map(|word| self.model.contracts.get(word.code.index()))
+                .any(|contract| contract.counts.contains(letter))
     }
 
     /// A whole number not below zero; `None` when it does not stand, a fault when it is none.

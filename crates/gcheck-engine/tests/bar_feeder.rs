@@ -7,7 +7,7 @@ use std::fmt::Write as _;
 use expect_test::{Expect, expect};
 use gcheck_engine::{
     Abstract, Assumption, At, Bar, BarFeeder, Concrete, Domain, Event, FlowCx, FlowObserver, Lattice,
-    Machine, Model, NoLibrary, Observer, Options, Origin, Program, Spindle, State, Truth, flow, run,
+    Machine, Model, NoLibrary, Observer, Options, Origin, Program, Spindle, State, Task, Truth, flow, run,
 };
 use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
@@ -387,7 +387,7 @@ M99
     let program = Program::new(Loaded::new(text, &dialect, |_, _, _| ()), &dialect, &NoLibrary);
     for told in [Machine::default(), bars(300.0, 3)] {
         let mut allowed = Allowed::default();
-        let result = flow(&program, &model, &told, Options::NONE, 50_000, &mut allowed);
+        let result = flow(&program, &model, &told, Task::all_paths(50_000), &mut allowed);
         assert!(!result.is_incomplete());
         for (branch, limit) in [(0.0, 0.0), (1.0, 1.0)] {
             let machine = with(bars(300.0, 3), &[(500, branch), (501, limit), (3100, 12.0)]);

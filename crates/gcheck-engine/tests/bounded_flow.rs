@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use gcheck_engine::{
-    At, Budget, FlowCx, FlowObserver, FlowResult, Limit, Machine, Model, NoLibrary, Options, Program, Reach,
+    At, Budget, FlowCx, FlowObserver, FlowResult, Limit, Machine, Model, NoLibrary, Program, Reach, Task,
     flow,
 };
 use gcheck_program::{Dialect, Loaded};
@@ -23,7 +23,7 @@ fn analyse(control: &str, program: &str) -> (FlowResult, u64) {
     let model = Model::new(&control);
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let budget = Budget::DEFAULT.of(&program);
-    (flow(&program, &model, &Machine::default(), Options::NONE, budget, &mut Nobody), budget)
+    (flow(&program, &model, &Machine::default(), Task::all_paths(budget), &mut Nobody), budget)
 }
 
 fn limits(result: &FlowResult) -> Vec<Limit> {
@@ -206,7 +206,7 @@ fn each_block_of_a_long_program_with_parted_paths_is_shown_once() {
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let mut counter = Counter::default();
     let work = Budget::DEFAULT.of(&program);
-    let result = flow(&program, &model, &Machine::default(), Options::NONE, work, &mut counter);
+    let result = flow(&program, &model, &Machine::default(), Task::all_paths(work), &mut counter);
     assert_eq!(limits(&result), []);
     assert_eq!(counter.0.len(), text.lines().count());
     assert!(counter.0.values().all(|times| *times == 1), "{:?}", counter.0);

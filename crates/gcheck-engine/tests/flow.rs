@@ -9,7 +9,7 @@
 
 use gcheck_engine::{
     Abstract, AbstractValue, At, Axis, ConcreteValue, Domain, Ending, Event, Fault, FlowCx, FlowObserver,
-    FlowResult, Machine, Model, NoLibrary, Options, Program, Reach, Role, State, flow,
+    FlowResult, Machine, Model, NoLibrary, Options, Program, Reach, Role, State, Task, flow,
 };
 use gcheck_program::{Dialect, Loaded};
 
@@ -97,7 +97,8 @@ fn analyse_with(control: &str, program: &str, options: Options, fuel: u64) -> Se
     let model = Model::new(&control);
     let program = Program::new(loaded, &dialect, &NoLibrary);
     let mut watcher = Watcher::default();
-    let result = flow(&program, &model, &Machine::default(), options, fuel, &mut watcher);
+    let result =
+        flow(&program, &model, &Machine::default(), Task { options, ..Task::all_paths(fuel) }, &mut watcher);
     Seen { watcher, result }
 }
 

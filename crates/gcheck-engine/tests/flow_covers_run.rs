@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 
 use gcheck_engine::{
     Abstract, At, Axis, Concrete, FlowCx, FlowObserver, Machine, Model, NoLibrary, Observer, Options, Origin,
-    Position, Program, Reach, Role, State, Stopped, WorkOffset, flow, run,
+    Position, Program, Reach, Role, State, Stopped, Task, WorkOffset, flow, run,
 };
 use gcheck_program::{Dialect, Loaded};
 use proptest::prelude::*;
@@ -611,7 +611,13 @@ fn check(control: &str, style: Style, choices: &[u8], inputs: &[u8], skip: bool)
     let options = if skip { Options::SKIP_ALL } else { Options::NONE };
 
     let mut recorder = Recorder::default();
-    let result = flow(&program, &model, &Machine::default(), options, 40_000, &mut recorder);
+    let result = flow(
+        &program,
+        &model,
+        &Machine::default(),
+        Task { options, ..Task::all_paths(40_000) },
+        &mut recorder,
+    );
 
     let value = |byte: u8| [0.0, 1.0, 2.0, 3.0, -1.0, 2.5][usize::from(byte) % 6];
     let machine = Machine {

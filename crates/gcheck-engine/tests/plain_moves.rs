@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use gcheck_engine::{
     Abstract, Concrete, Event, FlowCx, FlowObserver, Machine, Model, NoLibrary, Observer, Options, Origin,
-    Position, Program, State, flow, run,
+    Position, Program, State, Task, flow, run,
 };
 use gcheck_program::{Dialect, Loaded};
 use proptest::prelude::*;
@@ -55,7 +55,7 @@ fn executed(control: &str, text: &str) -> (String, String) {
     let result = run(&program, &model, &machine, Options::NONE, 10_000, &mut ran);
     let _ = writeln!(ran.0, "{:?} after {} blocks", result.stopped, result.blocks);
     let mut all = Events::default();
-    let result = flow(&program, &model, &machine, Options::NONE, 10_000, &mut all);
+    let result = flow(&program, &model, &machine, Task::all_paths(10_000), &mut all);
     let blocks = program.file(0).unwrap().loaded.outline().blocks();
     let reached = (0..blocks).map(|block| result.reach(gcheck_engine::At { file: 0, block }));
     let _ = writeln!(all.0, "{:?} after {} blocks", reached.collect::<Vec<_>>(), result.work);

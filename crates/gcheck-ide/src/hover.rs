@@ -55,12 +55,17 @@ pub fn hover(
     };
     let subject = subject(&snapshot, &place, offset);
     let mut parts = None;
+    let returned = if calls_program(&snapshot, &place) {
+        state_behind(database, document, place.number, stop)?
+    } else {
+        None
+    };
     look_at(database, document, place.number, stop, &mut |state, look| {
-        let cx = Cx { snapshot: &snapshot, place: &place, state: Some(state) };
+        let cx = Cx { snapshot: &snapshot, place: &place, state: Some(state), returned: returned.clone() };
         parts = Some(cx.parts(&subject, Some(look)));
     })?;
     let mut parts = parts.unwrap_or_else(|| {
-        let cx = Cx { snapshot: &snapshot, place: &place, state: None };
+        let cx = Cx { snapshot: &snapshot, place: &place, state: None, returned: None };
         cx.parts(&subject, None)
     });
     parts.retain(|part| !part.trim().is_empty());
@@ -149,6 +154,30 @@ struct Cx<'a> {
     place: &'a BlockPlace,
     /// `None` where no path comes.
     state: Option<&'a StateAt>,
+    /// What may be the state at the next block, after a call.
+    returned: Option<State<Abstract>>,
+}
+
+/// Has the block a code that may call a program?
+fn calls_program(snapshot: &Snapshot, place: &BlockPlace) -> bool {
+    let words = place.table.words(place.block()).iter();
+    let mut codes = words.filter_map(|word| snapshot.control().code_at(word.code));
+    let is_open = codes.clone().any(Code::is_user);
+    is_open || codes.any(|code| code.entry().words.iter().any(|word| word.kind == WordKind::Program))
+}
+
+/// What may be the state at the block after this one.
+fn state_behind(
+    database: &mut Database,
+    document: DocumentId,
+    block: u32,
+    stop: &dyn Fn() -> bool,
+) -> Result<Option<State<Abstract>>, Cancelled> {
+    let mut found = None;
+    look_at(database, document, block.saturating_add(1), stop, &mut |state, _| {
+        found = Some(state.before.clone());
+    })?;
+    Ok(found)
 }
 
 impl Cx<'_> {
@@ -214,20 +243,32 @@ impl Cx<'_> {
         let reading = Reading::new(self.snapshot, look.model());
         let from = reading.point(&state.before, state.before.actual());
         let mut lines: Vec<String> = Vec::new();
-        let in_effect: Vec<String> = match &state.after {
+        let depth = state.before.frames().len();
+        // A call leaves the state at the beginning of what it calls; people ask for the one when it is back.
+        let calls = state.after.as_ref().is_some_and(|after| after.frames().len() > depth);
+        let after = match &self.returned {
+            Some(returned) if calls && returned.frames().len() == depth => Some(returned),
+            _ => state.after.as_ref(),
+        };
+        let is_inside = after.is_some_and(|after| after.frames().len() > depth);
+        let in_effect: Vec<String> = match after {
+            Some(inside) if is_inside => {
+                lines.push("calls a program: what it leaves in effect is not known here".to_owned());
+                reading.items(inside).into_iter().map(|(_, item)| item).collect()
+            }
             None => {
                 lines.extend((!from.is_empty()).then(|| format!("at `{from}`")));
                 lines.push("the program does not go on after this block".to_owned());
                 reading.items(&state.before).into_iter().map(|(_, item)| item).collect()
             }
-            Some(after) => {
-                let to = reading.point(after, after.actual());
+            Some(state_after) => {
+                let to = reading.point(state_after, state_after.actual());
                 lines.extend(match (from.as_str(), to.as_str()) {
                     ("", "") => None,
                     (_, "") => Some(format!("at `{from}`, then not known")),
                     _ => changed(&from, &to).or_else(|| Some(format!("at `{to}`"))),
                 });
-                let (before, after) = (reading.items(&state.before), reading.items(after));
+                let (before, after) = (reading.items(&state.before), reading.items(state_after));
                 let held = |items: &[(Item, String)], item: Item| {
                     items.iter().find(|(of, _)| *of == item).map(|(_, text)| text.clone()).unwrap_or_default()
                 };
@@ -245,7 +286,13 @@ impl Cx<'_> {
                 }
                 let changes: Vec<String> = seen
                     .iter()
-                    .filter_map(|item| changed(&held(&before, *item), &held(&after, *item)))
+                    .filter_map(|item| {
+                        let (was, is) = (held(&before, *item), held(&after, *item));
+                        if is.is_empty() && Reading::is_unknown(state_after, *item) {
+                            return Some(format!("`{was}` → not known"));
+                        }
+                        changed(&was, &is)
+                    })
                     .collect();
                 lines.push(if changes.is_empty() {
                     "changes no mode".to_owned()
@@ -609,6 +656,64 @@ mod tests {
             |found| format!("[{}]\n{}\n", fixture.snapshot().slice(found.range), found.markdown),
         );
         expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn a_call_shows_the_state_when_it_is_back() {
+        check(
+            "haas-lathe",
+            "O1\nG21 G18 G54 G97 S500 M3\n$0G105 J30. K60. I35. P2\nM30\nO2\nG99 S200\nM99\n",
+            &expect![[r#"
+                [G105]
+                **G105** servo bar feed
+
+                `S500 rpm` → `S200 rpm`, `spindle clockwise` → `spindle stopped`
+
+                in effect: `G18` `G390` `G99` `G21` `G54` `G64` `G97` `G170`
+
+                ---
+
+                Pushes the bar for the next part, or loads a new bar when the rest is too short. *(codes for one block, for its own block)*
+
+                may have `I` `J` `K` `P` `Q` `R`
+            "#]],
+        );
+        check(
+            "haas-lathe",
+            "O1\nG21 G18 G99 G54 M3 S500\n$0M98 P77\nG0 X1.\nM30\n",
+            &expect![[r#"
+            [M98]
+            **M98** subprogram call
+
+            `G18` → not known, `G390` → not known, `G99` → not known, `G54` → not known, `G64` → not known, `G97` → not known, `S500 rpm` → not known, `spindle clockwise` → `spindle turning or not`
+
+            in effect: `G21` `G170`
+
+            ---
+
+            Calls program P; M99 brings it back. *(calls, jumps, questions, for its own block)*
+
+            may have `P` `L`
+        "#]],
+        );
+        check(
+            "haas-lathe",
+            "O1\nG21 G18 G99 G54 M3 S500\n$0M97 P5 (NO BLOCK AFTER)\nN5 G97 S300 M4\nM99\n",
+            &expect![[r#"
+                [M97]
+                **M97** local subprogram call
+
+                calls a program: what it leaves in effect is not known here
+
+                in effect: `G18` `G390` `G99` `G21` `G54` `G64` `G97` `G170` `S500 rpm` `spindle clockwise`
+
+                ---
+
+                Calls the blocks from N = P on in this program; M99 brings it back. *(calls, jumps, questions, for its own block)*
+
+                needs `P`, may have `L`
+            "#]],
+        );
     }
 
     #[test]

@@ -206,6 +206,24 @@ impl<'a> Reading<'a> {
         texts.join(" ")
     }
 
+    /// May the state have anything for the item, since something ran that is not known?
+    pub(crate) fn is_unknown(state: &State<Abstract>, item: Item) -> bool {
+        let is_open = |value: &AbstractValue| *value == AbstractValue::Unknown;
+        match item {
+            Item::Mode(role) => {
+                let mode = state.mode(role);
+                mode.only().is_none() && mode.alternatives().is_empty()
+            }
+            Item::Feed => is_open(state.feed_word()),
+            Item::Speed => is_open(state.speed()),
+            Item::Spindle => state.spindle().is_none(),
+            Item::Number('T') => Abstract::known(state.tool()).is_none(),
+            Item::Number('H') => Abstract::known(state.h()).is_none(),
+            Item::Number(_) => Abstract::known(state.d()).is_none(),
+            Item::Coolant => state.coolant() != (Truth::False, Truth::False),
+        }
+    }
+
     /// What is in effect, in the order in which people look at it.
     pub(crate) fn items(&self, state: &State<Abstract>) -> Vec<(Item, String)> {
         let mut items: Vec<(Item, String)> =

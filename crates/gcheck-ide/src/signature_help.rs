@@ -337,7 +337,7 @@ mod tests {
             "haas-mill",
             "F10.\nG2 X1. $0\n",
             &expect![[r#"
-            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] F
+            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] [L] F
               [I]: **I** centre along X, from the start point, without R, length
         "#]],
         );
@@ -345,7 +345,7 @@ mod tests {
             "haas-mill",
             "F10.\nG2 X1. J$0\n",
             &expect![[r#"
-            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] F
+            G2 [X] [Y] [Z] [A] [I] [J] [K] [R] [L] F
               [J]: **J** centre along Y, from the start point, without R, length
         "#]],
         );

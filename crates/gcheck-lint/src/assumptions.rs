@@ -114,6 +114,9 @@ pub fn describe(assumption: &Assumption, model: &Model<'_>) -> StatedAssumption 
             StatedAssumption::new("the bar feeder stops when its limit of parts, bars or length is reached")
         }
         Assumption::Unsettled(what) => StatedAssumption::new(unsettled(*what)),
+        Assumption::PathsJoined => StatedAssumption::new(
+            "the program has more conditions than are followed by themselves: where paths meet after the others, what only one of them sets is not known",
+        ),
         Assumption::Code(code) => {
             StatedAssumption::new(format!("what {} changes is not known", named(*code, model)))
         }
@@ -202,7 +205,7 @@ pub fn work_offset_name(number: u16, model: &Model<'_>) -> String {
 fn weight(assumption: &Assumption) -> u8 {
     match assumption {
         Assumption::MissingProgram(_) | Assumption::MissingSubroutine(_) => 0,
-        Assumption::Code(_) | Assumption::Passes(_) | Assumption::Unsettled(_) => 1,
+        Assumption::Code(_) | Assumption::Passes(_) | Assumption::Unsettled(_) | Assumption::PathsJoined => 1,
         Assumption::UnpointedNumbers | Assumption::Setting(_) => 2,
         Assumption::StartPosition | Assumption::ReferencePosition(_) => 3,
         Assumption::WorkOffset(_) => 4,

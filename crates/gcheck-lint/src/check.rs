@@ -3,17 +3,20 @@
 //! Knows: chunks, tiers, suppressions, the order of findings. Must not know: any rule. Memory stays bounded: a chunk's table
 //! is dropped before the next is made, and findings beyond [`MAX_FINDINGS`] are counted, not kept.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use std::ops::Range;
 
 use gcheck_controls::{Control, Ends};
 use gcheck_diagnostics::{Finding, RuleMeta, Severity};
-use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, flow};
+use gcheck_engine::{Assumption, Budget, FlowResult, Model, Options, Program, Task, flow};
 use gcheck_program::{BlockFlags, BlockTable, Loaded, Survey, code_region};
 use gcheck_syntax::SourceText;
 
+use crate::block_delete::name_condition;
 use crate::environment::ProgramLibrary;
-use crate::watchers::Watchers;
+use crate::partitions::{Case, Partitions, Rules, Told};
+use crate::watchers::{Scope, Watchers};
 use crate::{
     BlockCx, Environment, FileCx, ProgramText, Report, RuleEntry, RuleTable, Run, Selection, Suppressions,
     syntax_errors,
@@ -103,7 +106,7 @@ impl Omitted {
 
 /// The selected rules, arranged by when they run.
 pub(crate) struct Plan {
-    table: RuleTable,
+    pub(crate) table: RuleTable,
     token: Vec<(&'static RuleEntry, Option<Severity>)>,
     block: Vec<(&'static RuleEntry, Option<Severity>, BlockFlags)>,
     program: Vec<(&'static RuleEntry, Option<Severity>)>,
@@ -155,13 +158,18 @@ impl Plan {
 /// Keeps findings up to the limit.
 pub(crate) struct Collector<'c> {
     control: &'c Control,
+    /// Nothing is above this: a control that nobody chose, and that nothing in the program speaks for, may be the wrong one.
+    most: Severity,
     findings: Vec<Finding>,
     omitted: Omitted,
 }
 
 impl<'c> Collector<'c> {
-    pub(crate) fn new(control: &'c Control) -> Self {
-        Self { control, findings: Vec::new(), omitted: Omitted::default() }
+    pub(crate) fn new(environment: Environment<'c>) -> Self {
+        let control = environment.control();
+        let is_unsure = environment.control_is_guessed && control.name() == gcheck_controls::fallback();
+        let most = if is_unsure { Severity::Warning } else { Severity::Error };
+        Self { control, most, findings: Vec::new(), omitted: Omitted::default() }
     }
 
     /// What is kept and counted so far.
@@ -179,7 +187,8 @@ impl<'c> Collector<'c> {
         (self.findings, self.omitted)
     }
 
-    pub(crate) fn add(&mut self, severity: Option<Severity>, mut finding: Finding) {
+    pub(crate) fn add(&mut self, severity: Option<Severity>, finding: Finding) {
+        let mut finding = finding.at_most(self.most);
         // Only what is certainly a mistake predicts an alarm.
         if finding.alarm.is_none() && finding.severity == Severity::Error {
             finding.alarm = self
@@ -233,7 +242,7 @@ pub fn check(job: &Job<'_>) -> Outcome {
     let text = job.source.text();
     let region = code_region(text);
     let region = region.start as u32..region.end as u32;
-    let mut collector = Collector::new(job.environment.control());
+    let mut collector = Collector::new(job.environment);
     let mut survey = Survey::default();
     let mut directives = Vec::new();
     let (mut lines, mut seen) = (0, 0);
@@ -316,26 +325,75 @@ fn check_paths(
     let library = ProgramLibrary(job.environment.programs);
     let model = Model::new(job.environment.control());
     let program = Program::new(loaded, job.environment.dialect, &library);
-    let mut add = |severity: Option<Severity>, finding: Finding| collector.add(severity, finding);
+    let rules = Rules { table: plan.table, active: &plan.path };
+    let out = RefCell::new(Out { collector, rules, told: Told::default(), case: None });
+    let mut add = |severity: Option<Severity>, finding: Finding| out.borrow_mut().add(severity, finding);
     let mut watchers = Watchers::new(job.environment, &program, &model, survey, &plan.path, &mut add);
     let machine = &job.environment.machine.engine;
+    let all_paths = Task::all_paths(job.execution.work(&program));
+    let switches = switch_positions(job.execution.block_skip, survey.block_deletes);
     let mut results = Vec::new();
-    for skip in switch_positions(job.execution.block_skip, survey.block_deletes) {
+    for skip in &switches {
         if !results.is_empty() {
-            watchers.restart();
+            watchers.restart(Scope::Skipping);
         }
-        let options = Options { skip, ..Options::NONE };
-        results.push(flow(&program, &model, machine, options, job.execution.work(&program), &mut watchers));
+        let task = Task { options: Options { skip: *skip, ..Options::NONE }, ..all_paths };
+        results.push(flow(&program, &model, machine, task, &mut watchers));
     }
     let out_of_fuel = results.iter().any(FlowResult::is_incomplete);
     let mut assumptions = Assumptions::new();
     for result in &results {
         assumptions.extend(result.assumptions.iter().cloned());
     }
-    if let Some((first, others)) = results.split_first() {
-        watchers.finish(first, others);
+    let (Some((first, others)), Some(skip)) = (results.split_first(), switches.first()) else {
+        return (assumptions, out_of_fuel);
+    };
+    watchers.finish(first, others);
+    // The ways of the first conditions, each by itself.
+    let mut partitions = Partitions::default();
+    partitions.add(&[], first.partings.iter().copied());
+    let mut left = Partitions::work(first.work);
+    while let Some(choices) = partitions.next() {
+        watchers.restart(Scope::OneWay);
+        out.borrow_mut().case = Some(Case::new(&choices, &program, job.environment));
+        let options = Options { skip: *skip, ..Options::NONE };
+        let task = Task { options, choices: &choices, work: all_paths.work.min(left) };
+        let result = flow(&program, &model, machine, task, &mut watchers);
+        left = left.saturating_sub(result.work);
+        if left == 0 {
+            partitions.leave_rest();
+        }
+        partitions.add(&choices, result.partings);
+    }
+    if partitions.left_some_out() {
+        assumptions.insert(Assumption::PathsJoined);
     }
     (assumptions, out_of_fuel)
+}
+
+/// Passes on what the rules of the path tier find.
+struct Out<'o, 'c> {
+    collector: &'o mut Collector<'c>,
+    rules: Rules<'o>,
+    told: Told,
+    /// The case that is analysed; `None` for all paths.
+    case: Option<Case>,
+}
+
+impl Out<'_, '_> {
+    fn add(&mut self, severity: Option<Severity>, finding: Finding) {
+        let Some(case) = &self.case else {
+            self.told.note(&finding);
+            return self.collector.add(severity, finding);
+        };
+        if self.told.has(&finding) {
+            return;
+        }
+        if let Some((severity, finding)) = case.of(severity, finding, self.rules) {
+            self.told.note(&finding);
+            self.collector.add(severity, finding);
+        }
+    }
 }
 
 /// Positions of the block delete switches worth an analysis: all off, all on, and each level alone where there are several.
@@ -396,7 +454,8 @@ pub(crate) fn check_blocks(
             if let Run::Block { check, .. } = rule.run
                 && block.flags.intersects(*trigger)
             {
-                check(&cx, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+                let mut add = |finding| collector.add(*severity, name_condition(finding, block.flags, false));
+                check(&cx, &mut Report::new(&mut add));
             }
         }
         if block.flags.contains(BlockFlags::ERROR) {
@@ -405,7 +464,9 @@ pub(crate) fn check_blocks(
                     if let Run::Token { on, check } = rule.run
                         && on(error.kind)
                     {
-                        check(&cx, error, &mut Report::new(&mut |finding| collector.add(*severity, finding)));
+                        let mut add =
+                            |finding| collector.add(*severity, name_condition(finding, block.flags, false));
+                        check(&cx, error, &mut Report::new(&mut add));
                     }
                 }
             }

@@ -29,7 +29,8 @@ use crate::check::{
     Assumptions, Collector, FileNotes, Omitted, Plan, check_file, conclude, switch_positions,
 };
 use crate::environment::ProgramLibrary;
-use crate::{Environment, Execution, Outcome, ProgramText, Selection};
+use crate::partitions::Rules;
+use crate::{Environment, Execution, Outcome, ProgramText, RuleTable, Selection};
 
 /// Gives the facts of chunks, which it keeps as long as it likes.
 pub trait ChunkSource {
@@ -295,7 +296,7 @@ impl Incremental {
     pub fn check(&mut self, edited: &EditedFile<'_>) -> Result<Outcome, Stopped> {
         let plan = Plan::new(edited.selection);
         let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
-        let mut collector = Collector::new(edited.environment.control());
+        let mut collector = Collector::new(edited.environment);
         whole.check_chunks(edited, 0..whole.chunks, &mut collector);
         // The head of a large file is as it was most of the time.
         let is_head = |(base, _): &(&u32, &Arc<str>)| **base <= EVIDENCE_BYTES as u32;
@@ -329,7 +330,7 @@ impl Incremental {
         let JoinedFile { whole, directives, lines } = JoinedFile::new(edited, self.whole_of(edited.chunks))?;
         // Which suppressions are of no use is known at the end.
         let plan = Plan::new(edited.selection).without_suppressions();
-        let mut collector = Collector::new(edited.environment.control());
+        let mut collector = Collector::new(edited.environment);
         let chunks = chunks.min(whole.chunks);
         whole.check_chunks(edited, 0..chunks, &mut collector);
         let text = ProgramText::chunks(edited.chunks);
@@ -381,7 +382,7 @@ impl Incremental {
                 program: &program,
                 model: &model,
                 survey: &whole.survey,
-                rules: &plan.path,
+                rules: Rules { table: plan.table, active: &plan.path },
                 fuel: edited.execution.work(&program),
                 layout: &self.layout,
                 stop: edited.stop,
@@ -421,7 +422,7 @@ impl Incremental {
         let behind = texts.len() - new.end;
         let all_as_before = (0..new.start).all(|chunk| is_as_before(chunk, chunk))
             && (0..behind).all(|back| is_as_before(new.end + back, old.end + back));
-        // Slots are never used again; now and then it is time to begin anew.
+        // Slots are never used again; now and then it starts from the beginning.
         if !all_as_before || self.layout.slots() > 64 * (self.layout.len() + 4096) {
             return false;
         }
@@ -485,7 +486,7 @@ impl Incremental {
             program: &program,
             model: &model,
             survey: &whole.survey,
-            rules: &[],
+            rules: Rules { table: RuleTable::EMPTY, active: &[] },
             fuel: edited.execution.work(&program),
             layout: &self.layout,
             stop: edited.stop,

@@ -9,6 +9,7 @@
 
 mod assumptions;
 mod block_context;
+mod block_delete;
 mod check;
 mod contract;
 mod directives;
@@ -17,6 +18,7 @@ mod file_context;
 mod fix;
 mod incremental;
 mod memory;
+mod partitions;
 mod path_context;
 mod path_rule;
 mod proposed_fixes;

@@ -4,7 +4,7 @@
 //! any rule, how paths are found.
 
 use std::borrow::Cow;
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -38,6 +38,8 @@ pub struct PathCx<'a> {
     /// The rule that is being called wants no more calls of this kind.
     pub(crate) had_enough: &'a Cell<bool>,
     pub(crate) shared: &'a SharedMemories,
+    /// Evaluated when the first rule asks.
+    pub(crate) computed: &'a OnceCell<Vec<(Word, AbstractValue)>>,
 }
 
 /// A block as rules read it, kept because loops come by again.
@@ -320,10 +322,22 @@ impl<'a> PathCx<'a> {
 
     /// The computed words of the block before it is executed, each with the values that it may have on the paths that come
     /// here; those that have no value are left out.
-    pub fn computed_words(&self) -> Vec<(Word, AbstractValue)> {
-        let Some(place) = self.place() else { return Vec::new() };
-        let mut look = Look::new(self.program, self.model, &self.environment.machine.engine);
-        look.words(&place, self.origin().at, self.state())
+    pub fn computed_words(&self) -> &'a [(Word, AbstractValue)] {
+        self.computed.get_or_init(|| {
+            let Some(place) = self.place() else { return Vec::new() };
+            let mut look = Look::new(self.program, self.model, &self.environment.machine.engine);
+            look.words(&place, self.origin().at, self.state())
+        })
+    }
+
+    /// The value of a word of the block, written or computed, where it has the same on every path that comes here.
+    pub fn known_number(&self, letter: char) -> Option<f64> {
+        let written = self.word(letter)?.number();
+        written.or_else(|| {
+            let words = self.computed_words();
+            let (_, value) = words.iter().find(|(word, _)| word.letter == Letter::of(letter))?;
+            Abstract::known(value)
+        })
     }
 
     /// A length as the program counts, rounded to what controls resolve: `1.75 in`.

@@ -31,8 +31,8 @@ bitflags::bitflags! {
         const FINISH = 1 << 8;
         /// [`PathRule::rapid`]: rapid moves.
         const RAPIDS = 1 << 9;
-        /// [`PathRule::block`]: blocks with a code, a statement, an expression, `F`, `S`, `T`, `H` or `D`, before they are
-        /// executed.
+        /// [`PathRule::block`]: blocks with a code, a statement, an expression, `F`, `S`, `T`, `H`, `D` or a word that no code of
+        /// the block reads, before they are executed.
         const ALL_BLOCKS = 1 << 10;
         /// [`PathRule::moved`]: arcs alone.
         const ARCS = 1 << 11;
@@ -56,6 +56,12 @@ pub trait PathRule {
     /// uses, most programs spare most rules.
     fn concerns(&self, program: &Uses<'_>) -> bool {
         let _ = program;
+        true
+    }
+
+    /// Is what the rule finds worth saying when it holds on one way of a condition only? An alarm that a program raises on
+    /// some path is what alarms are for.
+    fn counts_on_some_path(&self) -> bool {
         true
     }
 

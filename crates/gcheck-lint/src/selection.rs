@@ -87,6 +87,15 @@ impl Selection {
         self.each(selector, |state| *state = State::Fixed(severity))
     }
 
+    /// Turns off all rules but one, which stays as it is.
+    pub fn keep_only(&mut self, id: &str) {
+        for (rule, state) in self.table.iter().zip(&mut self.states) {
+            if rule.meta.id != id {
+                *state = State::Off;
+            }
+        }
+    }
+
     /// The rules that are on, with the severity that replaces their own.
     pub fn rules(&self) -> impl Iterator<Item = (&'static RuleEntry, Option<Severity>)> {
         self.table.iter().zip(&self.states).filter_map(|(rule, state)| match state {

@@ -3,7 +3,7 @@
 //! Knows: how what the engine shows becomes calls of rules. Must not know: any rule, how paths are found, how memories are
 //! kept.
 
-use std::cell::Cell;
+use std::cell::{Cell, OnceCell};
 use std::collections::HashSet;
 use std::rc::Rc;
 
@@ -12,9 +12,10 @@ use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
     At, Ending, Event, Fault, FlowCx, FlowObserver, FlowResult, Model, Origin, Program, TravelKind,
 };
-use gcheck_program::Survey;
+use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
 
+use crate::block_delete;
 use crate::path_context::ReadBlock;
 use crate::shared_memory::SharedMemories;
 use crate::{Environment, FinishCx, PathCx, PathRule, Remembers, Report, RuleEntry, Run, Uses, Watch};
@@ -24,6 +25,17 @@ struct Active {
     entry: &'static RuleEntry,
     severity: Option<Severity>,
     rule: Box<dyn PathRule>,
+}
+
+/// What the findings of an analysis hold for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Scope {
+    /// All paths, or some, as the rule says.
+    All,
+    /// Runs that skip blocks with `/`; another analysis executes them.
+    Skipping,
+    /// Runs that take one way of a condition.
+    OneWay,
 }
 
 /// Calls the rules as the analysis goes.
@@ -41,6 +53,8 @@ pub(crate) struct Watchers<'a, 'c> {
     made: HashSet<(&'static str, u32, String)>,
     /// Something other than a move happened since the last cut.
     changed: bool,
+    /// What findings hold for.
+    scope: Scope,
     /// Blocks of the main file that were read, by number.
     read: FxHashMap<u32, Rc<ReadBlock>>,
     /// The block that is being executed, if it was read.
@@ -108,13 +122,15 @@ impl<'a, 'c> Watchers<'a, 'c> {
             add,
             made: HashSet::new(),
             changed: true,
+            scope: Scope::All,
             read: FxHashMap::default(),
             current: None,
         }
     }
 
     /// Makes the rules forget what they saw, for another analysis of the same program.
-    pub(crate) fn restart(&mut self) {
+    pub(crate) fn restart(&mut self, scope: Scope) {
+        self.scope = scope;
         for active in &mut self.rules {
             if let Run::Path { make, .. } = active.entry.run {
                 active.rule = make();
@@ -168,12 +184,15 @@ impl<'a, 'c> Watchers<'a, 'c> {
             result,
             others,
         };
-        self.each(Watch::FINISH, &Cell::new(false), |rule, report| rule.finish(&cx, report));
+        let nothing = BlockFlags::empty();
+        self.scope = Scope::All;
+        self.each(Watch::FINISH, nothing, &Cell::new(false), |rule, report| rule.finish(&cx, report));
     }
 
     fn each(
         &mut self,
         watch: Watch,
+        block: BlockFlags,
         had_enough: &Cell<bool>,
         mut call: impl FnMut(&mut dyn PathRule, &mut Report<'_>),
     ) {
@@ -182,10 +201,15 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let mut next = 0;
         while let Some(index) = list.get(next) {
             let Some(active) = self.rules.get_mut(*index) else { return };
+            if self.scope == Scope::OneWay && !active.rule.counts_on_some_path() {
+                next += 1;
+                continue;
+            }
+            let skips = self.scope == Scope::Skipping;
             let (made, add, severity) = (&mut self.made, &mut self.add, active.severity);
             let mut once = |finding: Finding| {
                 if made.insert((finding.rule.id, finding.range.start, finding.message.clone())) {
-                    add(severity, finding);
+                    add(severity, block_delete::name_condition(finding, block, skips));
                 }
             };
             call(&mut *active.rule, &mut Report::new(&mut once));
@@ -238,8 +262,9 @@ impl<'a, 'c> Watchers<'a, 'c> {
             read: read.as_deref(),
             had_enough: &had_enough,
             shared: &shared,
+            computed: &OnceCell::new(),
         };
-        self.each(watch, &had_enough, |rule, report| call(rule, &cx, report));
+        self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
         self.shared = shared;
     }
@@ -258,6 +283,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             read: None,
             had_enough: &Cell::new(false),
             shared: &SharedMemories::default(),
+            computed: &OnceCell::new(),
         };
         for shared in self.shared.iter_mut() {
             shared.moved(&cx, event);
@@ -269,7 +295,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
 fn is_read(origin: Origin) -> bool {
     use gcheck_program::BlockFlags as F;
     const LETTERS: LetterSet = LetterSet::of("FSTHD");
-    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION) || origin.letters.intersects(LETTERS)
+    origin.flags.intersects(F::CODE | F::STATEMENT | F::EXPRESSION | F::UNREAD_WORD)
+        || origin.letters.intersects(LETTERS)
 }
 
 impl FlowObserver for Watchers<'_, '_> {

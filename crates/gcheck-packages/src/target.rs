@@ -17,7 +17,7 @@ pub struct Target {
     pub vscode: &'static str,
     /// Debian's architecture; empty for other systems.
     pub debian: &'static str,
-    /// As images call the processor; empty where there is no image.
+    /// The name of the processor in images; empty where there is no image.
     pub image: &'static str,
     /// Whether the binary needs the C library of the system.
     pub needs_libc: bool,

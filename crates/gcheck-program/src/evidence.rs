@@ -35,6 +35,7 @@ pub fn collect_evidence(text: &str) -> Evidence {
         comments: scan.comments,
         codes: scan.codes.iter().map(ToString::to_string).collect(),
         forms: scan.forms.iter().map(|form| (*form).to_owned()).collect(),
+        unsupported: gcheck_controls::unsupported_dialect(text),
     }
 }
 

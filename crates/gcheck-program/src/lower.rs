@@ -27,6 +27,8 @@ pub struct Dialect<'c> {
     letters: [LetterFacts; Letter::COUNT],
     /// Addresses on which a number with a decimal point and not too many digits, once in a block, is nothing to look at.
     quiet: LetterSet,
+    /// Addresses that need a code that reads them.
+    bound: LetterSet,
     /// Quiet addresses that say where to, and nothing that the file as a whole is asked about.
     points: LetterSet,
     max_digits: u32,
@@ -97,6 +99,7 @@ impl<'c> Dialect<'c> {
                 };
             }
         }
+        let is_bound = |letter: &Letter| letters.get(letter.index()).is_some_and(|facts| !facts.free);
         let is_quiet = |letter: &Letter| {
             letters.get(letter.index()).is_some_and(LetterFacts::is_quiet)
                 && !matches!(letter.ascii(), b'G' | b'M' | b'N' | b'O')
@@ -112,6 +115,7 @@ impl<'c> Dialect<'c> {
             control,
             profile: profile(control),
             quiet,
+            bound: (0..=u8::MAX).filter_map(Letter::new).filter(is_bound).collect(),
             points: quiet.and(control.axes().or(LetterSet::of("IJKR"))),
             letters,
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
@@ -136,6 +140,14 @@ impl<'c> Dialect<'c> {
     /// How the grammar reads text for it.
     pub fn profile(&self) -> SyntaxProfile {
         self.profile
+    }
+
+    /// Has a block without a code a word that needs one? Arcs in effect read a centre or a radius beside axis words.
+    fn has_stray(&self, letters: LetterSet) -> bool {
+        const CENTRE: LetterSet = LetterSet::of("IJKR");
+        let bound = letters.and(self.bound);
+        let is_of_arc = bound.without(CENTRE).is_empty() && letters.intersects(self.control.axes());
+        !bound.is_empty() && !is_of_arc
     }
 
     /// Words that must have been given by the time the code runs, each with those that do instead.
@@ -262,7 +274,10 @@ impl Quiet {
 
     /// Has the block no flag?
     fn is_quiet(&self, dialect: &Dialect<'_>) -> bool {
-        self.words && !self.has_lower && self.range.end - self.range.start <= dialect.line_length
+        self.words
+            && !self.has_lower
+            && !dialect.has_stray(self.letters)
+            && self.range.end - self.range.start <= dialect.line_length
     }
 
     fn block(&self, words: Range<u32>) -> Block {
@@ -618,7 +633,9 @@ impl<'t, 'd> LowerSink<'t, 'd> {
                 Value::Missing => {}
             }
         }
-        if flags.contains(BlockFlags::CODE) && !reads_anything && !bound.without(read).is_empty() {
+        let unread = bound.without(read);
+        let has_code = flags.contains(BlockFlags::CODE);
+        if !reads_anything && if has_code { !unread.is_empty() } else { self.dialect.has_stray(letters) } {
             flags |= BlockFlags::UNREAD_WORD;
         }
         let both =

@@ -63,6 +63,7 @@ impl World<'_> {
             let settings = || BTreeMap::from([("34".to_owned(), "0".to_owned())]);
             world.machine.settings = settings();
             world.machine.engine = Machine {
+                axes: Some(vec![Axis::X, Axis::Y, Axis::Z, Axis::A]),
                 settings: settings(),
                 max_rpm: Some(Rpm(8000.0)),
                 max_feed: Some(MmPerMin(10_000.0)),

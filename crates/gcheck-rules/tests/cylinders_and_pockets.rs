@@ -134,7 +134,7 @@ fn words_of_a_pocket() {
             P9 missing: error[required-word-missing]
             P9 twice: warning[word-given-twice]
             P9 -1.: error[decimal-point-on-integer]
-            P9 0.: error[decimal-point-on-integer]
+            P9 0.: error[decimal-point-on-integer] warning[subprogram-missing]
             P9 99999.: error[decimal-point-on-integer]
             P9 ABC: error[unexpected-text]
             P9 #100: 

@@ -14,7 +14,7 @@ use gcheck_rules::RULES;
 use gcheck_syntax::SourceText;
 
 /// An example with all fixes of one rule in it.
-fn mended(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (String, usize) {
+fn fixed(rule: &RuleEntry, program: &str, control: &str, kinds: FixKinds) -> (String, usize) {
     let control = gcheck_controls::load(control).unwrap();
     let dialect = Dialect::new(&control);
     let machine = MachineFacts::default();
@@ -45,25 +45,25 @@ fn visible(program: &str) -> String {
 }
 
 #[test]
-fn every_rule_that_mends_mends_its_examples() {
+fn every_rule_that_fixes_fixes_its_examples() {
     let mut page = String::new();
     for rule in RULES.iter().filter(|rule| rule.meta.fixability != Fixability::Never) {
         let id = rule.meta.id;
         let kinds = if rule.meta.fixability == Fixability::Safely { FixKinds::Safe } else { FixKinds::All };
-        let mut is_mended = false;
+        let mut is_fixed = false;
         for example in rule.meta.examples().iter().filter(|example| example.reported) {
-            let (after, count) = mended(rule, &example.code, &example.control, kinds);
+            let (after, count) = fixed(rule, &example.code, &example.control, kinds);
             if count == 0 {
                 continue;
             }
-            is_mended = true;
+            is_fixed = true;
             let option = rule.meta.fixability.option();
             let _ = writeln!(page, "## {id} ({option}, {})\n", example.control);
             let _ = writeln!(page, "{}--\n{}", visible(&example.code), visible(&after));
-            let (again, count) = mended(rule, &after, &example.control, kinds);
+            let (again, count) = fixed(rule, &after, &example.control, kinds);
             assert_eq!((again, count), (after, 0), "{id}: a second run changes something");
         }
-        assert!(is_mended, "{id} mends no example");
+        assert!(is_fixed, "{id} fixes no example");
     }
     expect_file!["fixes.txt"].assert_eq(&page);
 }

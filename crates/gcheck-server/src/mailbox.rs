@@ -114,7 +114,7 @@ impl<O: 'static> Mailbox<O> {
 
 /// The answer to a request that failed by a bug of gcheck; the log has the message.
 fn own_mistake() -> Error {
-    Error { message: "gcheck met a mistake of its own; the log says which".into(), ..Error::internal_error() }
+    Error { message: "an error inside gcheck; the log has the details".into(), ..Error::internal_error() }
 }
 
 impl<O> Inbox<O> {

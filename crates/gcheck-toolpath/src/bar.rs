@@ -24,7 +24,16 @@ pub struct BarFigures {
     remnants: Values,
     /// Something was cut since the bar was fed last.
     has_cut: bool,
+    /// The last push was too short for a part.
+    is_short: bool,
+    /// Length of a part with its cutoff, of the feed under way; NaN unknown.
+    part: Mm,
+    /// The push under way is that of a new bar.
+    is_new: bool,
 }
+
+/// Lengths that differ by less are taken for equal, millimetres.
+const EQUAL_WITHIN: f64 = 1e-6;
 
 impl BarFigures {
     /// Something is cut.
@@ -35,15 +44,21 @@ impl BarFigures {
     /// Counts an event.
     pub(crate) fn add(&mut self, event: &Event) {
         match event {
-            Event::BarFeed(_) => {
+            Event::BarFeed(lengths) => {
                 self.feeds += 1;
+                self.part = lengths.part;
                 // A feed in front of the first part comes after none.
-                if std::mem::take(&mut self.has_cut) {
+                if std::mem::take(&mut self.has_cut) && !self.is_short {
                     self.parts += 1;
                     self.of_this_bar += 1;
                 }
             }
-            Event::BarPush(by) => self.pushed += *by,
+            Event::BarLoad => self.is_new = true,
+            Event::BarPush(by) => {
+                self.pushed += *by;
+                // Less bar than a part gives scrap.
+                self.is_short = std::mem::take(&mut self.is_new) && by.0 < self.part.0 - EQUAL_WITHIN;
+            }
             Event::BarUnload(rest) => {
                 self.used_up += 1;
                 let parts = std::mem::take(&mut self.of_this_bar);
@@ -61,7 +76,7 @@ impl BarFigures {
         self.feeds > 0
     }
 
-    /// Parts that were finished: bar was fed after them.
+    /// Parts that were finished: the push before them was long enough, and bar was fed after them.
     pub const fn parts(&self) -> u64 {
         self.parts
     }

@@ -282,6 +282,7 @@ pub(crate) enum Cover {
 pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
     let mut partial = false;
     let mut open = false;
+    let mut known = false;
     let mut group = |axes: [Axis; 3]| {
         let mut sum = 0.0;
         for axis in axes {
@@ -289,7 +290,10 @@ pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
             match (from.is_nan(), to.is_nan()) {
                 // Nobody ever said where the axis is: most likely it is not used.
                 (true, true) => partial = true,
-                (false, false) => sum += (to - from) * (to - from),
+                (false, false) => {
+                    known = true;
+                    sum += (to - from) * (to - from);
+                }
                 _ => open = true,
             }
         }
@@ -312,7 +316,7 @@ pub(crate) fn cover(motion: &Motion) -> (Cover, bool) {
         Cover::Length(uvw)
     } else if abc > 0.0 {
         Cover::Turn(abc)
-    } else if partial {
+    } else if partial && !known {
         Cover::Unknown
     } else {
         Cover::Nothing

@@ -190,7 +190,12 @@ fn seconds(out: &mut Vec<u8>, value: f64) {
 
 fn arc(out: &mut Vec<u8>, view: View, path: &Path, units: Units) {
     let Some(arc) = &path.arc else { return };
-    out.extend_from_slice(if arc.sweep() < 0.0 { b"cw ".as_slice() } else { b"ccw " });
+    out.extend_from_slice(match arc.sweep() {
+        // Of an arc that is not known, the way around is not shown.
+        sweep if sweep.is_nan() => b"arc ".as_slice(),
+        sweep if sweep < 0.0 => b"cw ",
+        _ => b"ccw ",
+    });
     brief(out, arc.sweep().to_degrees().abs(), 2, "?");
     out.extend_from_slice(b" deg about");
     let (first, second, _) = arc.plane().axes();

@@ -83,7 +83,7 @@ impl Timing {
     /// switches it off, nor for rapid moves, threads and taps.
     #[must_use]
     pub fn with_feed_override(mut self, percent: f64) -> Self {
-        if percent.is_finite() && percent > 0.0 {
+        if percent.is_finite() && percent >= 0.0 {
             self.feed_override = percent / 100.0;
         }
         self
@@ -269,7 +269,12 @@ impl Clock {
                         covered / feed * self.part_of_path(motion)
                     }
                 };
-                if self.override_off { minutes } else { minutes / self.timing.feed_override }
+                if self.override_off {
+                    minutes
+                } else {
+                    // At 0 % the axes wait for the operator.
+                    minutes / positive(self.timing.feed_override, Untimed::Feed)?
+                }
             }
         };
         Ok(Seconds::from_minutes(minutes))

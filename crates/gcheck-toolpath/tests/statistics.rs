@@ -393,11 +393,11 @@ fn what_is_missing_and_what_is_assumed() {
         offset 1 all moves  0.0000  2.0000  0.0000  1.0000  0.0000  1.0000   0.000  90.000
 
         missing in these figures
-          3 moves from or to an unknown point: not in distance or time
+          2 moves from or to an unknown point: not in distance or time
           1 move without a feed: not in time
           1 move at an unknown spindle speed or at none: not in time
           1 dwell of unknown length: not in time
-          3 moves while an axis is at an unknown place: counted without it
+          4 moves while an axis is at an unknown place: counted without it
           machine coordinates: the start, work offsets or tool lengths are not known
 
         assumed

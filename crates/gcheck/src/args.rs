@@ -153,13 +153,13 @@ pub struct CheckOptions {
     #[arg(long, short, value_name = "[FORMAT=]FILE", value_parser = output_file)]
     pub output_file: Vec<OutputFile>,
     /// Fix what has a fix that changes no move
-    #[arg(long, group = "mends")]
+    #[arg(long, group = "fixing")]
     pub fix: bool,
     /// Print what `--fix` would change instead of findings; exit with 1 if it would change anything
-    #[arg(long, group = "mends", conflicts_with = "fix")]
+    #[arg(long, group = "fixing", conflicts_with = "fix")]
     pub diff: bool,
     /// With `--fix` or `--diff`: take fixes too that may change moves, or whose intent only the programmer knows
-    #[arg(long, requires = "mends")]
+    #[arg(long, requires = "fixing")]
     pub unsafe_fixes: bool,
     /// Show only findings that this file does not know; `--update-baseline` writes it
     #[arg(long, value_name = "FILE")]

@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use gcheck_lint::Selection;
 use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
 
@@ -36,6 +37,17 @@ pub(crate) fn choose(
     }
     Ok(choice(gcheck_controls::fallback(), ControlSource::Default, None))
 }
+
+/// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.
+pub(crate) fn narrow_for_dialect(selection: &mut Selection, source: ControlSource, head: &str) {
+    let is_guessed = matches!(source, ControlSource::Detected | ControlSource::Default);
+    if is_guessed && gcheck_controls::unsupported_dialect(head).is_some() {
+        selection.keep_only(UNSUPPORTED_DIALECT);
+    }
+}
+
+/// The rule that names a dialect that no control here reads.
+const UNSUPPORTED_DIALECT: &str = "unsupported-dialect";
 
 /// `(gcheck: control=NAME)` in the first lines: the name, and the comment as written.
 fn named_in_comment(path: &Path, source: &SourceText) -> Result<Option<(String, String)>, Problem> {
@@ -98,6 +110,21 @@ mod tests {
             choice("; gcheck: control = linuxcnc\n", None, None).2.as_deref(),
             Some("; gcheck: control = linuxcnc")
         );
+    }
+
+    #[test]
+    fn of_an_unsupported_dialect_one_rule_is_run() {
+        let printed = "G92 E0\nG1 X1 E1.1\nG1 X2 E1.2\nG1 Y2 E1.3\n";
+        let rules = |source, text| {
+            let mut selection = gcheck_lint::Selection::recommended(gcheck_rules::RULES);
+            super::narrow_for_dialect(&mut selection, source, text);
+            selection.rules().map(|(rule, _)| rule.meta.id).collect::<Vec<_>>()
+        };
+        for source in [ControlSource::Default, ControlSource::Detected] {
+            assert_eq!(rules(source, printed), ["unsupported-dialect"]);
+        }
+        assert!(rules(ControlSource::Option, printed).len() > 100);
+        assert!(rules(ControlSource::Default, "G0 X1.\n").len() > 100);
     }
 
     #[test]

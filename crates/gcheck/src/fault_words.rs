@@ -2,7 +2,7 @@
 //!
 //! Knows: the wording of every fault. Must not know: where it happened, how it is printed.
 
-use gcheck_controls::{CodeIx, Letter};
+use gcheck_controls::{Code, CodeIx, Letter, LetterSet};
 use gcheck_engine::{ArcFault, CompensationFault, CycleFault, Fault, Model, Role, Units, ValueFault};
 
 /// A fault in words.
@@ -33,7 +33,7 @@ impl Words {
 }
 
 /// A fault in words; lengths are shown in `units`, those of the program.
-pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
+pub(crate) fn words(fault: &Fault, model: &Model<'_>, block: &Written<'_>, units: Units) -> Words {
     match fault {
         Fault::Value(value) => of_value(*value),
         Fault::Undecidable => undecidable(&[]),
@@ -46,8 +46,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
             .why("the number is not whole, or outside the range of the control's variables"),
         Fault::MissingValue(letter) => Words::new(format!("`{letter}` has no value"))
             .help("write a number after the letter, or remove the letter"),
-        Fault::MissingWord(letter) => Words::new(format!("`{letter}` is missing in this block"))
-            .why(format!("a code of the block needs a `{letter}` word")),
+        Fault::MissingWord(letter) => missing(*letter, block),
         Fault::WordRange(letter) => {
             Words::new(format!("the value of `{letter}` is outside what the code takes"))
         }
@@ -73,9 +72,7 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
         }
         Fault::Malformed => Words::new("the control cannot read this block")
             .help("`gcheck check` says what is wrong with its form"),
-        Fault::Conflict => Words::new("two codes of this block cannot be together")
-            .why("they belong to one modal group, or both use the same words")
-            .help("put one of them on a block of its own"),
+        Fault::Conflict => conflict(block),
 
         Fault::WordTwice(letter) => Words::new(format!("`{letter}` is in this block twice"))
             .help("keep one of the two, or put the second on a block of its own"),
@@ -136,6 +133,69 @@ pub(crate) fn words(fault: &Fault, model: &Model<'_>, units: Units) -> Words {
         Fault::NoProgramEnd => Words::new("the program ends without an end of program")
             .help("write `M2` or `M30` at its end, or `%` around it"),
         Fault::Alarm(number) => alarm(*number, None),
+    }
+}
+
+/// The block in which a fault is, as far as words about it depend on it.
+#[derive(Default)]
+pub(crate) struct Written<'m> {
+    /// Its codes.
+    pub(crate) codes: Vec<Code<'m>>,
+    /// Its addresses.
+    pub(crate) letters: LetterSet,
+}
+
+/// A word that the block does not have, with those that would do as well.
+fn missing(letter: Letter, block: &Written<'_>) -> Words {
+    let needs = |code: &&Code<'_>| code.reads().contains(letter);
+    let Some(code) = block.codes.iter().find(needs) else {
+        return Words::new(format!("`{letter}` is missing in this block"))
+            .why(format!("a code of the block needs a `{letter}` word"));
+    };
+    let entry = code.entry();
+    let lists = entry.one_of.iter().chain(&entry.not_together);
+    let choices = lists.map(|items| items.iter().map(|item| letters_of(item)).collect::<Vec<_>>());
+    let alternatives = choices.filter(|sets| sets.iter().any(|set| set.contains(letter)));
+    let all = alternatives.flatten().fold(LetterSet::from_iter([letter]), LetterSet::or);
+    let names = names(all, "or");
+    Words::new(format!("{names} is missing in this block")).why(format!("`{}` needs {names}", entry.code))
+}
+
+/// Two words of a code that exclude each other; else two codes.
+fn conflict(block: &Written<'_>) -> Words {
+    for code in &block.codes {
+        for items in &code.entry().not_together {
+            let present = |item: &String| block.letters.and(letters_of(item));
+            let found: Vec<LetterSet> = items.iter().map(present).filter(|set| !set.is_empty()).collect();
+            if found.len() > 1 {
+                let both = found.into_iter().fold(LetterSet::EMPTY, LetterSet::or);
+                let names = names(both, "and");
+                return Words::new(format!(
+                    "{names} cannot be together in a block of `{}`",
+                    code.entry().code
+                ))
+                .why("each of these words takes the place of the others")
+                .help("keep one of them");
+            }
+        }
+    }
+    Words::new("two codes of this block cannot be together")
+        .why("they belong to one modal group, or both use the same words")
+        .help("put one of them on a block of its own")
+}
+
+/// The addresses of an item of `one-of` or `not-together`.
+fn letters_of(item: &str) -> LetterSet {
+    Letter::parse(item).map_or_else(|| LetterSet::of(item), |letter| LetterSet::from_iter([letter]))
+}
+
+/// Addresses for people: "`A` or `B`".
+fn names(letters: LetterSet, joint: &str) -> String {
+    let names: Vec<String> = letters.iter().map(|letter| format!("`{letter}`")).collect();
+    match names.split_last() {
+        Some((last, others)) if !others.is_empty() => format!("{} {joint} {last}", others.join(", ")),
+        Some((last, _)) => last.clone(),
+        None => String::new(),
     }
 }
 

@@ -19,7 +19,7 @@ use gcheck_syntax::SourceText;
 
 use crate::args::{FUEL, Global};
 use crate::config::{Config, Configs, FILE_NAMES, RuleWishes, unknown_rule, validate_control};
-use crate::control_choice::choose;
+use crate::control_choice::{choose, narrow_for_dialect};
 use crate::discovery::{self, EXTENSIONS, is_program_name};
 use crate::in_force::{self, Controls};
 use crate::programs::{ProgramFolders, Reachable};
@@ -102,9 +102,10 @@ impl Surroundings {
         let control = self.controls.get(&name, &settings.codes)?;
         in_force.style = Some(settings.format.style(&control));
         let machine = in_force::machine(&settings, &control, &[])?;
-        let selection = settings
+        let mut selection = settings
             .selection(&RuleWishes::default())
             .map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+        narrow_for_dialect(&mut selection, source, program.head);
         in_force.settings = Some(Settings {
             control,
             control_is_guessed: matches!(source, ControlSource::Detected | ControlSource::Default),

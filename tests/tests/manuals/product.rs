@@ -64,6 +64,13 @@ pub(crate) fn stopped(program: &Program) -> Option<String> {
     (!output.status.success()).then_some(errors)
 }
 
+/// Why a check does not begin: a configuration that is not right.
+pub(crate) fn refused(program: &Program) -> Option<String> {
+    let output = output(&["check", "--quiet"], program);
+    let errors = String::from_utf8_lossy(&output.stderr).into_owned();
+    (!matches!(output.status.code(), Some(0 | 1))).then_some(errors)
+}
+
 /// Times, tools, extents.
 pub(crate) fn stats(program: &Program) -> String {
     gcheck(&["stats"], program)

@@ -95,6 +95,46 @@ pub(crate) enum Proof {
     Stands { program: Program, after: &'static str, at: &'static str },
     /// Two programs make the same events.
     Same { one: Program, other: Program },
+    /// Some rule of this severity (`warning`) or a higher one speaks of the first program and is silent about the second.
+    /// For what has no rule yet: a proof that holds names its rule.
+    Noticed { least: &'static str, violates: Program, conforms: Program },
+    /// `gcheck check` refuses the configuration, in these words.
+    Refuses { program: Program, says: &'static str },
+    /// `gcheck check` takes the configuration.
+    Accepts { program: Program },
+    /// What the manual demands and gcheck does not do yet, with the sentence that a reader gets. The proof fails when the
+    /// demand is met.
+    Open { says: &'static str, demand: &'static Proof },
+}
+
+/// A rule speaks of the first program and is silent about the second.
+pub(crate) const fn rule(finding: &'static str, violates: Program, conforms: Program) -> Proof {
+    Proof::Rule { finding, violates, conforms }
+}
+
+/// No finding of warning or error.
+pub(crate) const fn legal(program: Program) -> Proof {
+    Proof::Legal { program }
+}
+
+/// A run prints these lines.
+pub(crate) const fn run(program: Program, prints: &'static [&'static str]) -> Proof {
+    Proof::Run { program, prints }
+}
+
+/// Two programs make the same events.
+pub(crate) const fn same(one: Program, other: Program) -> Proof {
+    Proof::Same { one, other }
+}
+
+/// Some warning or error about the first program and none about the second.
+pub(crate) const fn noticed(least: &'static str, violates: Program, conforms: Program) -> Proof {
+    Proof::Noticed { least, violates, conforms }
+}
+
+/// What gcheck does not do yet.
+pub(crate) const fn open(says: &'static str, demand: &'static Proof) -> Proof {
+    Proof::Open { says, demand }
 }
 
 /// Does the product do what the proof demands? If not, what it does instead.
@@ -172,7 +212,22 @@ pub(crate) fn holds(proof: &Proof) -> Result<(), String> {
         }
         Proof::Makes { program, block, events } => makes(program, block, events),
         Proof::Stands { program, after, at } => ends_at(program, after, at),
-        Proof::Same { one, other } => same(one, other),
+        Proof::Same { one, other } => makes_same(one, other),
+        Proof::Noticed { least, violates, conforms } => is_noticed(least, violates, conforms),
+        Proof::Refuses { program, says } => match product::refused(program) {
+            Some(why) if squeeze(&why).contains(says) => Ok(()),
+            why => Err(format!("{:?}: {why:?}, not {says:?}", program.config)),
+        },
+        Proof::Accepts { program } => match product::refused(program) {
+            Some(why) => Err(format!("{:?}: {why}", program.config)),
+            None => Ok(()),
+        },
+        Proof::Open { demand, .. } => match holds(demand) {
+            Ok(()) => {
+                Err(format!("this is open no longer: take the proof out of `open`\n{}", noticing(demand)))
+            }
+            Err(_) => Ok(()),
+        },
     }
 }
 
@@ -207,6 +262,10 @@ pub(crate) fn in_words(proof: &Proof, to_rules: &str) -> String {
         Proof::Explains { control, code, .. } => format!("explanation of `{code}` ({control})"),
         Proof::Silent { rule, .. } => format!("rule [`{rule}`]({to_rules}/{rule}.md) is silent"),
         Proof::Makes { .. } | Proof::Stands { .. } | Proof::Same { .. } => "motion".to_owned(),
+        Proof::Noticed { .. } => "a finding".to_owned(),
+        Proof::Refuses { says, .. } => format!("configuration refused: “{says}”"),
+        Proof::Accepts { .. } => "configuration accepted".to_owned(),
+        Proof::Open { says, .. } => format!("**open**: {says}"),
     }
 }
 
@@ -312,8 +371,28 @@ fn ends_at(program: &Program, after: &str, at: &str) -> Result<(), String> {
     Err(format!("`{after}` ends at {last}, not {at} in\n{}", program.text))
 }
 
+/// Is there a finding of this severity or a higher one, of a rule that the second program does not meet?
+fn is_noticed(least: &str, violates: &Program, conforms: &Program) -> Result<(), String> {
+    let [found, quiet] = [violates, conforms].map(product::check);
+    let grades = ["info", "warning", "error"];
+    let grade = |one: &str| grades.iter().position(|grade| one.starts_with(grade));
+    if let Some(grave) = quiet.iter().find(|one| grade(one) > grade("info")) {
+        return Err(format!("{grave} in\n{}", conforms.text));
+    }
+    if found.iter().any(|one| grade(one) >= grade(least) && !quiet.contains(one)) {
+        return Ok(());
+    }
+    Err(format!("no {least}, only {found:?} in\n{}", violates.text))
+}
+
+/// What a proof that names no rule is met by.
+fn noticing(demand: &Proof) -> String {
+    let Proof::Noticed { violates, conforms, .. } = demand else { return String::new() };
+    format!("noticed: {:?}, not in the other: {:?}", product::check(violates), product::check(conforms))
+}
+
 /// The same events, from whatever line.
-fn same(one: &Program, other: &Program) -> Result<(), String> {
+fn makes_same(one: &Program, other: &Program) -> Result<(), String> {
     let [one, other] = [one, other].map(|program| {
         let mut events = product::events(program);
         for event in &mut events {

@@ -362,7 +362,7 @@ fn actions(session: &mut Session, range: [u32; 4], only: Option<&str>) -> Vec<Va
 }
 
 #[test]
-fn actions_mend_silence_and_explain() {
+fn actions_fix_silence_and_explain() {
     let mut session = Session::new(&[]);
     session.open("a.nc", "%\nO1\n(gcheck: control=haas-mill)\nG90 G1 G0 X1. F100.\nM30\n%\n");
     session.published("a.nc", 1);

@@ -423,17 +423,17 @@ impl Layers<'_, '_> {
         let mut skipping = only_pockets.is_some();
         let mut rim = top;
         let mut layer = 0.0;
-        let mut anew = false;
+        let mut starts_again = false;
         for (index, piece) in path.iter().enumerate() {
             let (from, to) = (piece.from(), piece.to());
             if to.1 >= from.1 - SAME {
                 self.follow(piece, to)?;
-                anew |= to.1 > from.1 + SAME || skipping;
+                starts_again |= to.1 > from.1 + SAME || skipping;
                 skipping = false;
                 continue;
             }
-            if anew {
-                anew = false;
+            if starts_again {
+                starts_again = false;
                 if only_pockets.is_some() {
                     (rim, layer) = (from.1, 0.0);
                 } else {

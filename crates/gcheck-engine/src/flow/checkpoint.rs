@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 
 use super::budget::GivenUp;
 use super::marks::Marks;
-use super::trace::{Facts, Trace};
+use super::trace::{Facts, Parting, Trace};
 use crate::assumption::Assumption;
 use crate::origin::At;
 use crate::state::State;
@@ -24,12 +24,14 @@ pub struct Checkpoint {
     pub trace: Trace,
     /// A path has ended: what comes is no longer on every path.
     pub parted: bool,
+    /// How many of the task's choices were made.
+    pub taken: usize,
 }
 
 impl Checkpoint {
     /// Does the same follow from both? Places and where facts were set left aside.
     pub fn leads_on_as(&self, other: &Self) -> bool {
-        self.parted == other.parted && self.state == other.state
+        self.parted == other.parted && self.taken == other.taken && self.state == other.state
     }
 }
 
@@ -48,6 +50,8 @@ pub struct Leg {
     pub work: u64,
     /// What it rests on.
     pub assumptions: BTreeSet<Assumption>,
+    /// Where paths that were one part, in the order of the first time.
+    pub partings: Vec<Parting>,
     /// Facts that somebody asked for while they still were as the leg began.
     pub asked: Facts,
     /// Facts that were set on every path.

@@ -62,6 +62,25 @@ pub struct Decision {
     pub to: At,
 }
 
+/// A block at which paths that were one part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Parting {
+    /// The block that decides.
+    pub at: At,
+    /// How many ways lead on.
+    pub ways: usize,
+}
+
+/// One way of a [`Parting`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Choice {
+    /// The block that decides.
+    pub at: At,
+    /// Which of its ways, from 0 on. Of a condition before a jump or words, 0 is that it does not hold; of a loop's or an
+    /// O-word's, 0 is that it holds.
+    pub way: usize,
+}
+
 /// A set of facts; the last decisions count as one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Facts(u64);

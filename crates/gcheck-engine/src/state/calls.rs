@@ -3,7 +3,6 @@
 //! Knows: what a call keeps, who sees which local variables, which modal calls may be on. Must not know: how programs are
 //! entered and left, where a call goes on.
 
-use std::cell::Cell;
 use std::rc::Rc;
 
 use super::bar::BarCommand;
@@ -11,7 +10,6 @@ use super::saved::SavedModes;
 use super::variables::Locals;
 use crate::lattice::{Flat, Lattice, May, Perhaps, discrete, lattice};
 use crate::origin::At;
-use crate::tracked::{Combine, Cursor, Marks, Noted, Notes, Tracked};
 use crate::value::{Domain, Truth};
 
 /// How a program was entered.
@@ -38,7 +36,7 @@ pub struct Frame<D: Domain> {
     pub entry: At,
     /// The block that called; the caller goes on after it.
     pub caller: At,
-    pub(crate) kept: Tracked<Kept>,
+    pub(crate) kept: Kept,
     /// Local variables of its own; without them it sees those of the program that called it.
     pub(crate) locals: Perhaps<Locals<D>>,
 }
@@ -146,7 +144,7 @@ impl Lattice for Counters {
 impl<D: Domain> Frame<D> {
     /// A program that is entered.
     pub(crate) fn new(kind: FrameKind, entry: At, caller: At, repeats: Option<u32>) -> Self {
-        Self { kind, entry, caller, kept: Tracked::new(Kept::new(repeats)), locals: Perhaps::No }
+        Self { kind, entry, caller, kept: Kept::new(repeats), locals: Perhaps::No }
     }
 
     /// Further turns to come, when a call repeats; `None` unknown.
@@ -358,35 +356,7 @@ pub(crate) struct Calls<D: Domain> {
     /// The programs that called the last one may be others than those that are listed: then it alone is.
     elsewhere: May,
     /// The modal macro call.
-    pub(crate) modal: Tracked<ModalCalls<D>>,
-    /// What was asked about the programs that called.
-    asked: [Cell<Marks>; Asked::COUNT],
-    noting: Option<Noting<D>>,
-}
-
-/// What an execution may ask about the programs that called the one under way.
-#[derive(Debug, Clone, Copy)]
-enum Asked {
-    /// How many there are.
-    Depth,
-    /// Whether there is a macro, a subprogram, … among them.
-    Kinds,
-    /// Which they are, and where they called.
-    Places,
-}
-
-impl Asked {
-    const COUNT: usize = 3;
-    const ALL: [Self; Self::COUNT] = [Self::Depth, Self::Kinds, Self::Places];
-}
-
-/// Where the call is whose notes are being made.
-#[derive(Debug, Clone)]
-struct Noting<D: Domain> {
-    /// Its place among the programs under way.
-    index: usize,
-    /// It, as it was left: its notes count when it has returned.
-    left: Option<Box<Frame<D>>>,
+    pub(crate) modal: ModalCalls<D>,
 }
 
 impl<D: Domain> Calls<D> {
@@ -395,45 +365,25 @@ impl<D: Domain> Calls<D> {
         let start = At { file: 0, block: 0 };
         let main =
             Frame { locals: Perhaps::Yes(locals), ..Frame::new(FrameKind::Main, start, start, Some(0)) };
-        Self {
-            frames: vec![main],
-            elsewhere: May(false),
-            modal: Tracked::new(ModalCalls::off()),
-            asked: Default::default(),
-            noting: None,
-        }
+        Self { frames: vec![main], elsewhere: May(false), modal: ModalCalls::off() }
     }
 
     /// The programs under way, the main program first; the last alone when nobody knows who called it.
     pub(crate) fn frames(&self) -> &[Frame<D>] {
-        self.ask(Asked::Places);
         &self.frames
     }
 
     /// How many programs are under way.
     pub(crate) fn depth(&self) -> usize {
-        self.ask(Asked::Depth);
         self.frames.len()
     }
 
     /// Is a program under way that was entered so?
     pub(crate) fn has(&self, kind: FrameKind) -> bool {
-        self.ask(Asked::Kinds);
         self.frames.iter().any(|frame| frame.kind == kind)
     }
 
-    /// What follows depends on where the program under way was called.
-    pub(crate) fn note_caller(&self) {
-        self.ask(Asked::Places);
-    }
-
-    fn ask(&self, what: Asked) {
-        if let Some(asked) = self.asked.get(what as usize) {
-            asked.set(Marks::INPUT);
-        }
-    }
-
-    /// Is the main program under way alone? What a call does cannot depend on it: there it is not.
+    /// Is the main program under way alone?
     pub(crate) fn is_main(&self) -> bool {
         self.frames.len() <= 1 && !self.elsewhere.0
     }
@@ -446,7 +396,7 @@ impl<D: Domain> Calls<D> {
     /// How many values are held: local variables, counters.
     pub(crate) fn values_held(&self) -> usize {
         let locals = |frame: &Frame<D>| frame.locals.yes().map_or(0, Locals::values_held);
-        let frames = self.frames.iter().map(|frame| 8 + locals(frame) + frame.kept.look().counters.0.len());
+        let frames = self.frames.iter().map(|frame| 8 + locals(frame) + frame.kept.counters.0.len());
         frames.sum()
     }
 
@@ -457,12 +407,12 @@ impl<D: Domain> Calls<D> {
 
     /// What the program under way keeps.
     pub(crate) fn kept(&self) -> Option<&Kept> {
-        self.frames.last().map(|frame| &*frame.kept)
+        self.frames.last().map(|frame| &frame.kept)
     }
 
     /// What the program under way keeps.
     pub(crate) fn kept_mut(&mut self) -> Option<&mut Kept> {
-        self.frames.last_mut().map(|frame| &mut *frame.kept)
+        self.frames.last_mut().map(|frame| &mut frame.kept)
     }
 
     /// A program is entered.
@@ -472,13 +422,7 @@ impl<D: Domain> Calls<D> {
 
     /// The program under way is left.
     pub(crate) fn pop(&mut self) -> Option<Frame<D>> {
-        let frame = self.frames.pop()?;
-        if let Some(noting) = &mut self.noting
-            && noting.index == self.frames.len()
-        {
-            noting.left = Some(Box::new(frame.clone()));
-        }
-        Some(frame)
+        self.frames.pop()
     }
 
     /// The local variables that the program under way sees; `None` when nobody knows whose they are.
@@ -526,13 +470,11 @@ impl<D: Domain> Calls<D> {
 
     /// The same in another domain.
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Calls<E> {
-        let Self { frames, elsewhere, modal, asked, noting: _ } = self;
+        let Self { frames, elsewhere, modal } = self;
         Calls {
             frames: frames.iter().map(|frame| frame.map(change)).collect(),
             elsewhere: *elsewhere,
-            modal: modal.map(|modal| modal.map(change)),
-            asked: asked.clone(),
-            noting: None,
+            modal: modal.map(change),
         }
     }
 
@@ -544,25 +486,6 @@ impl<D: Domain> Calls<D> {
             && self.frames.iter().zip(&other.frames).all(|(a, b)| a.place() == b.place())
     }
 
-    /// Is the answer the same? Places count with what the programs have to do when they are come back to.
-    fn answers_as(&self, other: &Self, asked: Asked) -> bool {
-        let kinds = |calls: &Self| -> Vec<FrameKind> {
-            let mut kinds: Vec<FrameKind> = calls.frames.iter().map(|frame| frame.kind).collect();
-            kinds.sort_unstable();
-            kinds.dedup();
-            kinds
-        };
-        let callers = self.frames.len().saturating_sub(1);
-        match asked {
-            Asked::Depth => self.elsewhere == other.elsewhere && self.frames.len() == other.frames.len(),
-            Asked::Kinds => self.elsewhere == other.elsewhere && kinds(self) == kinds(other),
-            Asked::Places => {
-                self.are_alike(other)
-                    && self.frames.iter().zip(&other.frames).take(callers).all(|(a, b)| a.kept.same(&b.kept))
-            }
-        }
-    }
-
     fn either(&self, other: &Self, widen: bool) -> Self {
         let alike = self.are_alike(other);
         let frames = if alike {
@@ -571,16 +494,10 @@ impl<D: Domain> Calls<D> {
             let last = self.frames.last().zip(other.frames.last());
             last.map(|(a, b)| a.either(b, widen)).into_iter().collect()
         };
-        let asked = self.asked.clone();
-        for (own, with) in asked.iter().zip(&other.asked) {
-            own.set(own.get().meeting(with.get()));
-        }
         Self {
             frames,
             elsewhere: May(!alike),
             modal: if widen { self.modal.widen(&other.modal) } else { self.modal.join(&other.modal) },
-            asked,
-            noting: self.noting.clone().filter(|_| alike),
         }
     }
 }
@@ -614,121 +531,5 @@ impl<D: Domain> Lattice for Calls<D> {
 impl<D: Domain> PartialEq for Calls<D> {
     fn eq(&self, other: &Self) -> bool {
         self.same(other)
-    }
-}
-
-/// The notes of a call are those of the program that was under way when they began: its own values, and the local variables that
-/// it sees.
-impl<D: Domain> Calls<D> {
-    /// Notes from here on are those of the program under way. What was said of the program before is given back.
-    pub(crate) fn begin_noting(&mut self) -> Suspended<D> {
-        let index = self.frames.len().saturating_sub(1);
-        Suspended(self.noting.replace(Noting { index, left: None }))
-    }
-
-    /// Notes are those of the program before again.
-    pub(crate) fn resume_noting(&mut self, before: &Suspended<D>) {
-        self.noting.clone_from(&before.0);
-    }
-
-    /// The program that notes are of, as it is or as it was left, with the local variables that it sees.
-    fn noted(&self) -> Option<(&Frame<D>, Option<&Locals<D>>)> {
-        let (index, left) = match &self.noting {
-            Some(noting) => (noting.index, noting.left.as_deref()),
-            None => (0, None),
-        };
-        let frame = self.frames.get(index).or(left)?;
-        Some((frame, self.seen_by(index, frame)))
-    }
-
-    /// The local variables that a program sees.
-    fn seen_by<'s>(&'s self, index: usize, frame: &'s Frame<D>) -> Option<&'s Locals<D>> {
-        let before = self.frames.get(..index).unwrap_or_default();
-        let mut seen = std::iter::once(frame).chain(before.iter().rev());
-        seen.find(|frame| !frame.locals.is_no())?.locals.yes()
-    }
-
-    /// The program under way with the local variables that it sees.
-    fn last_seeing(&self) -> Option<(&Frame<D>, Option<&Locals<D>>)> {
-        let frame = self.frames.last()?;
-        Some((frame, self.seen_by(self.frames.len() - 1, frame)))
-    }
-}
-
-/// The program whose notes are suspended while those of another are made.
-#[derive(Debug, Clone)]
-pub(crate) struct Suspended<D: Domain>(Option<Noting<D>>);
-
-impl<D: Domain> Noted for Calls<D> {
-    fn note_down(&self, notes: &mut Notes) {
-        self.modal.note_down(notes);
-        notes.marks.extend(self.asked.iter().map(Cell::get));
-        let Some((frame, locals)) = self.noted() else { return };
-        frame.kept.note_down(notes);
-        if let Some(locals) = locals {
-            locals.note_down(notes);
-        }
-    }
-
-    fn forget_notes(&self) {
-        self.modal.forget_notes();
-        self.asked.iter().for_each(|asked| asked.set(Marks::NONE));
-        let programs = [self.noted(), self.last_seeing()];
-        for (frame, locals) in programs.into_iter().flatten() {
-            frame.kept.forget_notes();
-            if let Some(locals) = locals {
-                locals.forget_notes();
-            }
-        }
-    }
-
-    fn combine(&self, others: &mut Cursor<'_>, how: Combine) {
-        self.modal.combine(others, how);
-        for asked in &self.asked {
-            asked.set(asked.get().combined(others.marks(), how));
-        }
-        let Some((frame, locals)) = self.noted() else { return };
-        frame.kept.combine(others, how);
-        if let Some(locals) = locals {
-            locals.combine(others, how);
-        }
-    }
-
-    /// Of the program under way, whose notes they are. Programs that it may see are those that called it.
-    fn agrees(&self, other: &Self, notes: &mut Cursor<'_>) -> bool {
-        let modal = self.modal.agrees(&other.modal, notes);
-        let mut callers = true;
-        for asked in Asked::ALL {
-            callers &= !notes.marks().is_read() || self.answers_as(other, asked);
-        }
-        let (Some((a, seen_by_a)), Some((b, seen_by_b))) = (self.last_seeing(), other.last_seeing()) else {
-            return false;
-        };
-        let kept = a.kept.agrees(&b.kept, notes);
-        let same_program = (a.kind, a.entry, a.locals.is_no()) == (b.kind, b.entry, b.locals.is_no());
-        let locals = match (seen_by_a, seen_by_b) {
-            (Some(a), Some(b)) => a.agrees(b, notes),
-            (a, b) => a.is_none() && b.is_none(),
-        };
-        modal && callers && kept && same_program && locals
-    }
-
-    /// The program under way has returned as in the other state.
-    fn adopt(&mut self, changed: &Self, notes: &mut Cursor<'_>) {
-        self.modal.adopt(&changed.modal, notes);
-        for asked in &self.asked {
-            asked.set(asked.get().then(notes.marks()));
-        }
-        // What it kept went with it, and so did local variables of its own.
-        let _ = notes.marks();
-        match self.pop().map(|frame| frame.locals) {
-            Some(Perhaps::Yes(_)) => Locals::<D>::pass_over(notes),
-            Some(Perhaps::No) => {
-                if let (Some(seen), Some(changed)) = (self.locals_mut(), changed.locals()) {
-                    seen.adopt(changed, notes);
-                }
-            }
-            Some(Perhaps::Unknown) | None => {}
-        }
     }
 }

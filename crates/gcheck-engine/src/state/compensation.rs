@@ -8,27 +8,26 @@ use std::rc::Rc;
 use gcheck_geometry::{Compensator, Plane};
 
 use crate::event::Event;
-use crate::lattice::{Joinable, Lattice, Perhaps};
+use crate::lattice::{Joinable, Lattice, Perhaps, lattice};
 use crate::origin::Origin;
 use crate::position::Position;
-use crate::tracked::{Tracked, part};
 
-part! {
+lattice! {
     /// Whether the axes run beside the programmed path.
     #[derive(Debug, Clone, Default)]
     pub(crate) struct CompensationState {
         /// It is on.
-        pub(crate) on: Tracked<Perhaps<Course>>,
+        pub(crate) on: Perhaps<Course>,
         /// It is switched off, until the move that leaves its path.
-        pub(crate) left: Tracked<Perhaps<Rc<Compensation>>>,
+        pub(crate) left: Perhaps<Rc<Compensation>>,
     }
 }
 
 impl CompensationState {
     /// The path that is followed, taken out; it is to be put back.
     pub(crate) fn take_followed(&mut self) -> Option<Rc<Compensation>> {
-        match &*self.on {
-            Perhaps::Yes(Course::Followed(_)) => match self.on.take() {
+        match &self.on {
+            Perhaps::Yes(Course::Followed(_)) => match std::mem::take(&mut self.on) {
                 Perhaps::Yes(Course::Followed(compensation)) => Some(compensation),
                 _ => None,
             },
@@ -38,27 +37,27 @@ impl CompensationState {
 
     /// Goes on along a path.
     pub(crate) fn follow_path(&mut self, compensation: Rc<Compensation>) {
-        self.on.put(Perhaps::Yes(Course::Followed(compensation)));
+        self.on = Perhaps::Yes(Course::Followed(compensation));
     }
 
     /// Its path is not followed from here on. What is off stays off.
     pub(crate) fn lose_path(&mut self) {
-        if matches!(*self.on, Perhaps::Yes(_)) {
-            self.on.put(Perhaps::Yes(Course::Unknown));
+        if matches!(self.on, Perhaps::Yes(_)) {
+            self.on = Perhaps::Yes(Course::Unknown);
         }
     }
 
     /// Is a path followed?
     #[inline]
     pub(crate) fn is_followed(&self) -> bool {
-        matches!(*self.on, Perhaps::Yes(Course::Followed(_)))
+        matches!(self.on, Perhaps::Yes(Course::Followed(_)))
     }
 
     /// What was on may be on along a path that nobody knows; what was off is left off.
     pub(crate) fn forget(&mut self) {
         let (on, left) = (self.on.or_other(), self.left.or_other());
-        self.on.put(on);
-        self.left.put(left);
+        self.on = on;
+        self.left = left;
     }
 
     /// Is it certainly off, and its path left?

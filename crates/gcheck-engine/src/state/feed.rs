@@ -3,25 +3,25 @@
 //! Knows: the feed as it counts and as it was written, which overrides are allowed. Must not know: moves, times.
 
 use super::mode_set::ModeSet;
-use crate::tracked::{Tracked, part};
+use crate::lattice::lattice;
 use crate::value::{Domain, Truth};
 
-part! {
+lattice! {
     /// The feed.
     #[derive(Debug, Clone)]
     pub(crate) struct Feed<D: Domain> {
         /// In millimetres a minute or turn, or moves a minute; 0 none given.
-        pub(crate) rate: Tracked<D::Value>,
+        pub(crate) rate: D::Value,
         /// As the program wrote it.
-        pub(crate) word: Tracked<D::Value>,
+        pub(crate) word: D::Value,
         /// The feed mode under which it was given.
-        pub(crate) given_under: Tracked<ModeSet>,
+        pub(crate) given_under: ModeSet,
         /// The operator may override it.
-        pub(crate) overridable: Tracked<Truth>,
+        pub(crate) overridable: Truth,
         /// It follows an input.
-        pub(crate) adaptive: Tracked<Truth>,
+        pub(crate) adaptive: Truth,
         /// An input stops it.
-        pub(crate) hold: Tracked<Truth>,
+        pub(crate) hold: Truth,
     }
 }
 
@@ -29,29 +29,29 @@ impl<D: Domain> Feed<D> {
     /// None given, under the mode that is in effect; switches as at power-on.
     pub(crate) fn none(mode: ModeSet) -> Self {
         Self {
-            rate: Tracked::new(D::number(0.0)),
-            word: Tracked::new(D::number(0.0)),
-            given_under: Tracked::new(mode),
-            overridable: Tracked::new(Truth::True),
-            adaptive: Tracked::new(Truth::False),
-            hold: Tracked::new(Truth::True),
+            rate: D::number(0.0),
+            word: D::number(0.0),
+            given_under: mode,
+            overridable: Truth::True,
+            adaptive: Truth::False,
+            hold: Truth::True,
         }
     }
 
     /// No feed is given any more.
     pub(crate) fn clear(&mut self) {
-        self.rate.put(D::number(0.0));
-        self.word.put(D::number(0.0));
+        self.rate = D::number(0.0);
+        self.word = D::number(0.0);
     }
 
     /// Anything may have been given and switched.
     pub(crate) fn forget(&mut self) {
         let Self { rate, word, given_under, overridable, adaptive, hold } = self;
-        rate.put(D::unknown());
-        word.put(D::unknown());
-        given_under.put(ModeSet::ANY);
+        *rate = D::unknown();
+        *word = D::unknown();
+        *given_under = ModeSet::ANY;
         for switch in [overridable, adaptive, hold] {
-            switch.put(Truth::Unknown);
+            *switch = Truth::Unknown;
         }
     }
 
@@ -59,12 +59,12 @@ impl<D: Domain> Feed<D> {
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Feed<E> {
         let Self { rate, word, given_under, overridable, adaptive, hold } = self;
         Feed {
-            rate: rate.map(change),
-            word: word.map(change),
-            given_under: given_under.clone(),
-            overridable: overridable.clone(),
-            adaptive: adaptive.clone(),
-            hold: hold.clone(),
+            rate: change(rate),
+            word: change(word),
+            given_under: *given_under,
+            overridable: *overridable,
+            adaptive: *adaptive,
+            hold: *hold,
         }
     }
 }

@@ -19,7 +19,6 @@ use crate::cylinder::Cylinder;
 use crate::lattice::{Flat, May};
 use crate::machine::{BarFeeder, Machine};
 use crate::start::start_state;
-use crate::tracked::Tracked;
 
 /// Changes of choices: what makes one value from another that it is like in most.
 type Changes = Vec<(usize, u8)>;
@@ -179,7 +178,7 @@ fn known_state() -> State<Abstract> {
         ..Machine::default()
     };
     let mut state = start_state(&model, &machine, &mut BTreeSet::new());
-    state.points.passed.put(Position::ZERO);
+    state.points.passed = Position::ZERO;
     state.bar.clamped = Truth::True;
     state
 }

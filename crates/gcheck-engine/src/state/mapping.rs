@@ -6,26 +6,25 @@
 use gcheck_geometry::Mm;
 
 use crate::cylinder::Cylinder;
-use crate::lattice::{Joinable, Lattice};
+use crate::lattice::{Joinable, Lattice, lattice};
 use crate::position::{Axis, Position};
-use crate::tracked::{Tracked, part};
 
-part! {
+lattice! {
     /// Cylindrical mapping.
     #[derive(Debug, Clone, Default)]
     pub(crate) struct Mapping {
         /// A linear axis wrapped around a cylinder.
-        pub(crate) wrapped: Tracked<Wrapped>,
+        pub(crate) wrapped: Wrapped,
         /// Diameters of cylinders as the program gave them.
-        pub(crate) diameters: Tracked<Diameters>,
+        pub(crate) diameters: Diameters,
     }
 }
 
 impl Mapping {
     /// Any diameter may have been given, and what was wrapped may be wrapped otherwise; what was not still is not.
     pub(crate) fn forget(&mut self) {
-        if *self.wrapped != Wrapped::No {
-            self.wrapped.put(Wrapped::Unknown);
+        if self.wrapped != Wrapped::No {
+            self.wrapped = Wrapped::Unknown;
         }
         self.diameters.forget();
     }

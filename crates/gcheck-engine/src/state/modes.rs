@@ -5,20 +5,20 @@
 use gcheck_controls::CodeIx;
 
 use super::mode_set::ModeSet;
+use crate::lattice::lattice;
 use crate::model::Role;
-use crate::tracked::{Tracked, part};
 
-part! {
+lattice! {
     /// What is in effect for each role.
     #[derive(Debug, Clone)]
     pub(crate) struct Modes {
-        by_role: [Tracked<ModeSet>; Role::COUNT],
+        by_role: [ModeSet; Role::COUNT],
     }
 }
 
 impl Modes {
     pub(crate) fn new(modes: &[ModeSet; Role::COUNT]) -> Self {
-        Self { by_role: modes.map(Tracked::new) }
+        Self { by_role: *modes }
     }
 
     /// The codes that may be in effect.
@@ -31,7 +31,7 @@ impl Modes {
     /// These codes are in effect.
     #[expect(clippy::indexing_slicing, reason = "a role's index is below COUNT")]
     pub(crate) fn put(&mut self, role: Role, mode: ModeSet) {
-        self.by_role[role.index()].put(mode);
+        self.by_role[role.index()] = mode;
     }
 
     /// The code is in effect.
@@ -45,8 +45,8 @@ impl Modes {
         self.put(role, joined);
     }
 
-    /// A program was executed that is not here. That it changes units or the control's own frames is rare enough to be a mistake
-    /// of its own.
+    /// A program was executed that is not here. Units and the control's own frames are left as they are: a program
+    /// that changes them for its caller is rare, and wrong.
     pub(crate) fn forget(&mut self) {
         for role in Role::ALL {
             let stays = matches!(
@@ -65,9 +65,6 @@ impl Modes {
 
     /// What is in effect for all roles, in the order of their indexes.
     pub(crate) fn all(&self) -> [ModeSet; Role::COUNT] {
-        std::array::from_fn(|index| {
-            // As many roles as sets.
-            self.by_role.get(index).map_or(ModeSet::ANY, |mode| **mode)
-        })
+        self.by_role
     }
 }

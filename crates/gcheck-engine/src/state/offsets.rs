@@ -5,28 +5,27 @@
 use std::rc::Rc;
 
 use super::tables::Tables;
-use crate::lattice::Flat;
+use crate::lattice::{Flat, lattice};
 use crate::machine::WorkOffset;
 use crate::position::{Axis, Position};
-use crate::tracked::{Tracked, part};
 use crate::value::Truth;
 
-part! {
+lattice! {
     /// Offsets in effect, and the tables that they come from.
     #[derive(Debug, Clone)]
     pub(crate) struct Offsets {
         /// Work offsets, reference points and tools: shared until written.
-        pub(crate) tables: Tracked<Rc<Tables>>,
+        pub(crate) tables: Rc<Tables>,
         /// Number of the active work coordinate system, 1 the first.
-        pub(crate) work: Tracked<Flat<u16>>,
+        pub(crate) work: Flat<u16>,
         /// The active work coordinate system as it came into effect: a table written later counts when it is chosen again.
-        pub(crate) in_effect: Tracked<WorkOffset>,
+        pub(crate) in_effect: WorkOffset,
         /// `G92`; also `G52` where they are one.
-        pub(crate) shift: Tracked<Position>,
+        pub(crate) shift: Position,
         /// The shift counts (`G92.2` suspends it).
-        pub(crate) shift_on: Tracked<Truth>,
+        pub(crate) shift_on: Truth,
         /// `G52` where it is apart.
-        pub(crate) local: Tracked<Position>,
+        pub(crate) local: Position,
     }
 }
 
@@ -35,23 +34,23 @@ impl Offsets {
     pub(crate) fn unshifted(tables: Tables, work: Option<u16>) -> Self {
         let in_effect = work.map_or(WorkOffset::UNTOLD, |number| tables.offset(number));
         Self {
-            tables: Tracked::new(Rc::new(tables)),
-            work: Tracked::new(work.into()),
-            in_effect: Tracked::new(in_effect),
-            shift: Tracked::new(Position::ZERO),
-            shift_on: Tracked::new(Truth::True),
-            local: Tracked::new(Position::ZERO),
+            tables: Rc::new(tables),
+            work: work.into(),
+            in_effect,
+            shift: Position::ZERO,
+            shift_on: Truth::True,
+            local: Position::ZERO,
         }
     }
 
     /// The shift of `G92` as it counts.
     pub(crate) fn shift_in_effect(&self) -> Position {
-        match *self.shift_on {
-            Truth::True => *self.shift,
+        match self.shift_on {
+            Truth::True => self.shift,
             Truth::False => Position::ZERO,
             // On the axes that it would move, nobody knows.
             Truth::Unknown => {
-                let mut shift = *self.shift;
+                let mut shift = self.shift;
                 for axis in Axis::ALL {
                     if shift.raw(axis) != 0.0 {
                         shift.set(axis, f64::NAN);
@@ -66,14 +65,14 @@ impl Offsets {
     pub(crate) fn forget(&mut self) {
         self.tables_mut().forget_offsets(false);
         let Self { tables: _, work, in_effect, shift, shift_on, local } = self;
-        work.put(Flat::Unknown);
+        *work = Flat::Unknown;
         in_effect.origin = Position::UNKNOWN;
         if in_effect.rotation != 0.0 {
             in_effect.rotation = f64::NAN;
         }
-        shift.put(Position::UNKNOWN);
-        shift_on.put(Truth::True);
-        local.put(Position::UNKNOWN);
+        *shift = Position::UNKNOWN;
+        *shift_on = Truth::True;
+        *local = Position::UNKNOWN;
     }
 
     /// Writes to the tables.

@@ -3,23 +3,22 @@
 //! Knows: which axes moved and which way, how two memories join. Must not know: where the probe touched (nobody does
 //! beforehand), codes, tables.
 
-use crate::lattice::Lattice;
+use crate::lattice::{Lattice, lattice};
 use crate::position::{Axis, Position};
-use crate::tracked::{Tracked, part};
 use crate::value::Truth;
 
-part! {
+lattice! {
     /// What probing moves left.
     #[derive(Debug, Clone)]
     pub(crate) struct Probe {
         /// Where the last one touched.
-        pub(crate) point: Tracked<Position>,
+        pub(crate) point: Position,
         /// Whether it touched.
-        pub(crate) result: Tracked<Truth>,
+        pub(crate) result: Truth,
         /// The last one.
-        pub(crate) touched: Tracked<Touch>,
+        pub(crate) touched: Touch,
         /// The one kept for a measurement between two touches.
-        pub(crate) kept: Tracked<Touch>,
+        pub(crate) kept: Touch,
     }
 }
 
@@ -27,20 +26,20 @@ impl Probe {
     /// Before a program. A control that was just started has probed nothing; else nobody knows what it has.
     pub(crate) fn at_start(fresh: bool) -> Self {
         Self {
-            point: Tracked::new(if fresh { Position::ZERO } else { Position::UNKNOWN }),
-            result: Tracked::new(if fresh { Truth::False } else { Truth::Unknown }),
-            touched: Tracked::new(Touch::None),
-            kept: Tracked::new(Touch::None),
+            point: if fresh { Position::ZERO } else { Position::UNKNOWN },
+            result: if fresh { Truth::False } else { Truth::Unknown },
+            touched: Touch::None,
+            kept: Touch::None,
         }
     }
 
     /// Anything may have been probed.
     pub(crate) fn forget(&mut self) {
         let Self { point, result, touched, kept } = self;
-        point.put(Position::UNKNOWN);
-        result.put(Truth::Unknown);
-        touched.put(Touch::Unknown);
-        kept.put(Touch::Unknown);
+        *point = Position::UNKNOWN;
+        *result = Truth::Unknown;
+        *touched = Touch::Unknown;
+        *kept = Touch::Unknown;
     }
 }
 

@@ -3,24 +3,23 @@
 //! Knows: speed and its limit, which way it turns, what else is on. Must not know: what speed a cut has.
 
 use crate::event::Spindle;
-use crate::lattice::Flat;
-use crate::tracked::{Tracked, part};
+use crate::lattice::{Flat, lattice};
 use crate::value::{Domain, Truth};
 
-part! {
+lattice! {
     /// The spindle.
     #[derive(Debug, Clone)]
     pub(crate) struct SpindleState<D: Domain> {
         /// Turns a minute or metres a minute; 0 none given.
-        pub(crate) speed: Tracked<D::Value>,
+        pub(crate) speed: D::Value,
         /// Limit of constant surface speed, turns a minute; NaN unknown, infinite none.
-        pub(crate) limit: Tracked<f64>,
+        pub(crate) limit: f64,
         /// Which way it turns.
-        pub(crate) way: Tracked<Flat<Spindle>>,
+        pub(crate) way: Flat<Spindle>,
         /// A live tool turns.
-        pub(crate) live_tool: Tracked<Truth>,
+        pub(crate) live_tool: Truth,
         /// The operator may override the speed.
-        pub(crate) overridable: Tracked<Truth>,
+        pub(crate) overridable: Truth,
     }
 }
 
@@ -28,56 +27,56 @@ impl<D: Domain> SpindleState<D> {
     /// It stands, without a speed.
     pub(crate) fn stopped() -> Self {
         Self {
-            speed: Tracked::new(D::number(0.0)),
-            limit: Tracked::new(f64::INFINITY),
-            way: Tracked::new(Flat::Known(Spindle::Stopped)),
-            live_tool: Tracked::new(Truth::False),
-            overridable: Tracked::new(Truth::True),
+            speed: D::number(0.0),
+            limit: f64::INFINITY,
+            way: Flat::Known(Spindle::Stopped),
+            live_tool: Truth::False,
+            overridable: Truth::True,
         }
     }
 
     /// It may do anything.
     pub(crate) fn forget(&mut self) {
         let Self { speed, limit, way, live_tool, overridable } = self;
-        speed.put(D::unknown());
-        limit.put(f64::NAN);
-        way.put(Flat::Unknown);
-        live_tool.put(Truth::Unknown);
-        overridable.put(Truth::Unknown);
+        *speed = D::unknown();
+        *limit = f64::NAN;
+        *way = Flat::Unknown;
+        *live_tool = Truth::Unknown;
+        *overridable = Truth::Unknown;
     }
 
     /// The same in another domain.
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> SpindleState<E> {
         let Self { speed, limit, way, live_tool, overridable } = self;
         SpindleState {
-            speed: speed.map(change),
-            limit: limit.clone(),
-            way: way.clone(),
-            live_tool: live_tool.clone(),
-            overridable: overridable.clone(),
+            speed: change(speed),
+            limit: *limit,
+            way: *way,
+            live_tool: *live_tool,
+            overridable: *overridable,
         }
     }
 }
 
-part! {
+lattice! {
     /// Coolant.
     #[derive(Debug, Clone)]
     pub(crate) struct CoolantState {
-        pub(crate) mist: Tracked<Truth>,
-        pub(crate) flood: Tracked<Truth>,
+        pub(crate) mist: Truth,
+        pub(crate) flood: Truth,
     }
 }
 
 impl CoolantState {
     /// Whether it flows.
     pub(crate) fn all(on: Truth) -> Self {
-        Self { mist: Tracked::new(on), flood: Tracked::new(on) }
+        Self { mist: on, flood: on }
     }
 
     /// It may flow or not.
     pub(crate) fn forget(&mut self) {
         let Self { mist, flood } = self;
-        mist.put(Truth::Unknown);
-        flood.put(Truth::Unknown);
+        *mist = Truth::Unknown;
+        *flood = Truth::Unknown;
     }
 }

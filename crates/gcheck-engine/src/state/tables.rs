@@ -15,7 +15,7 @@ use crate::value::Truth;
 pub struct Tables {
     /// By number; a number that is not there is `other_offset`.
     offsets: Vec<(u16, WorkOffset)>,
-    /// Offsets that nobody told us.
+    /// Offsets that are not in the list.
     other_offset: WorkOffset,
     pub(crate) references: [Position; 4],
     /// In the order of their numbers.

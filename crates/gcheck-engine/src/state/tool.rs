@@ -5,25 +5,24 @@
 use super::tables::{Tables, ToolData};
 use crate::lattice::{Perhaps, lattice};
 use crate::position::Position;
-use crate::tracked::{Tracked, part};
 use crate::value::Domain;
 
-part! {
+lattice! {
     /// The tool and its offsets.
     #[derive(Debug, Clone)]
     pub(crate) struct ToolState<D: Domain> {
         /// In the spindle: vacant none known to be, 0 none.
-        pub(crate) number: Tracked<D::Value>,
+        pub(crate) number: D::Value,
         /// Called for.
-        pub(crate) selected: Tracked<D::Value>,
+        pub(crate) selected: D::Value,
         /// What was loaded last.
-        pub(crate) loaded: Tracked<Loaded>,
+        pub(crate) loaded: Loaded,
         /// Offsets in effect by axis.
-        pub(crate) length: Tracked<Position>,
+        pub(crate) length: Position,
         /// Number of the length offset.
-        pub(crate) h: Tracked<D::Value>,
+        pub(crate) h: D::Value,
         /// Number of the cutter compensation offset.
-        pub(crate) d: Tracked<D::Value>,
+        pub(crate) d: D::Value,
     }
 }
 
@@ -46,12 +45,12 @@ impl<D: Domain> ToolState<D> {
         // Observed: the first line of the table is that of the spindle.
         let entry = tables.first_tool().map_or(Perhaps::No, Perhaps::Yes);
         Self {
-            number: Tracked::new(number.clone()),
-            selected: Tracked::new(number),
-            loaded: Tracked::new(Loaded { data, entry }),
-            length: Tracked::new(Position::ZERO),
-            h: Tracked::new(D::number(0.0)),
-            d: Tracked::new(D::number(0.0)),
+            number: number.clone(),
+            selected: number,
+            loaded: Loaded { data, entry },
+            length: Position::ZERO,
+            h: D::number(0.0),
+            d: D::number(0.0),
         }
     }
 
@@ -59,22 +58,22 @@ impl<D: Domain> ToolState<D> {
     pub(crate) fn forget(&mut self) {
         let Self { number, selected, loaded, length, h, d } = self;
         for value in [number, selected, h, d] {
-            value.put(D::unknown());
+            *value = D::unknown();
         }
-        loaded.put(Loaded { data: ToolData::UNKNOWN, entry: Perhaps::Unknown });
-        length.put(Position::UNKNOWN);
+        *loaded = Loaded { data: ToolData::UNKNOWN, entry: Perhaps::Unknown };
+        *length = Position::UNKNOWN;
     }
 
     /// The same in another domain.
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> ToolState<E> {
         let Self { number, selected, loaded, length, h, d } = self;
         ToolState {
-            number: number.map(change),
-            selected: selected.map(change),
-            loaded: loaded.clone(),
-            length: length.clone(),
-            h: h.map(change),
-            d: d.map(change),
+            number: change(number),
+            selected: change(selected),
+            loaded: *loaded,
+            length: *length,
+            h: change(h),
+            d: change(d),
         }
     }
 }

@@ -9,7 +9,6 @@ use std::rc::Rc;
 use rustc_hash::FxHashMap;
 
 use crate::lattice::{Lattice, May};
-use crate::tracked::{Combine, Cursor, Noted, Notes, NumberMarks, SlotMarks};
 use crate::value::{Domain, Truth};
 
 /// A named parameter, as a small number given by the loaded program.
@@ -34,7 +33,6 @@ impl<V> Variable<V> {
 #[derive(Debug, Clone)]
 pub(crate) struct Named<D: Domain> {
     values: Rc<FxHashMap<NameId, Variable<D::Value>>>,
-    marks: NumberMarks,
     /// Any other may have been written.
     unsure: May,
 }
@@ -43,7 +41,6 @@ pub(crate) struct Named<D: Domain> {
 #[derive(Debug, Clone)]
 pub(crate) struct Locals<D: Domain> {
     numbered: Rc<Vec<D::Value>>,
-    marks: SlotMarks,
     named: Named<D>,
 }
 
@@ -53,7 +50,6 @@ pub(crate) struct Locals<D: Domain> {
 #[derive(Debug, Clone)]
 pub struct Variables<D: Domain> {
     common: Rc<FxHashMap<u32, Variable<D::Value>>>,
-    marks: NumberMarks,
     named: Named<D>,
     unwritten: D::Value,
     /// A variable of unknown number was written: every one may have been.
@@ -62,37 +58,29 @@ pub struct Variables<D: Domain> {
 
 impl<D: Domain> Named<D> {
     fn new() -> Self {
-        Self { values: Rc::default(), marks: NumberMarks::default(), unsure: May(false) }
+        Self { values: Rc::default(), unsure: May(false) }
     }
 
     fn get(&self, name: NameId) -> Option<Variable<D::Value>> {
-        self.marks.read(name.0);
-        self.look(name)
-    }
-
-    /// As [`Self::get`], without a note.
-    fn look(&self, name: NameId) -> Option<Variable<D::Value>> {
         let unsure = || Variable { value: D::unknown(), written: Truth::Unknown };
         self.values.get(&name).cloned().or_else(|| self.unsure.0.then(unsure))
     }
 
     fn set(&mut self, name: NameId, value: D::Value) {
-        self.marks.replaced(name.0);
         Rc::make_mut(&mut self.values).insert(name, Variable::written(value));
     }
 
     /// Any may have been written.
     fn forget(&mut self) {
-        self.marks.all_replaced();
         self.unsure = May(true);
         self.values = Rc::default();
     }
 
     /// A parameter that only one of two paths has written holds what it holds there, if it is there.
     fn either(&self, other: &Self, widen: bool) -> Self {
-        let Self { values, marks, unsure } = self;
+        let Self { values, unsure } = self;
         let join = |name: &NameId| {
-            let (value, written) = match (self.look(*name), other.look(*name)) {
+            let (value, written) = match (self.get(*name), other.get(*name)) {
                 (Some(a), Some(b)) => {
                     let value = if widen { a.value.widen(&b.value) } else { a.value.join(&b.value) };
                     (value, a.written.join(&b.written))
@@ -107,12 +95,12 @@ impl<D: Domain> Named<D> {
         } else {
             Rc::new(keys(values, &other.values).map(join).collect())
         };
-        Self { values, marks: marks.meeting(&other.marks), unsure: unsure.join(&other.unsure) }
+        Self { values, unsure: unsure.join(&other.unsure) }
     }
 
     fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Named<E> {
-        let Self { values, marks, unsure } = self;
-        Named { values: Rc::new(map_values(values, change)), marks: marks.clone(), unsure: *unsure }
+        let Self { values, unsure } = self;
+        Named { values: Rc::new(map_values(values, change)), unsure: *unsure }
     }
 }
 
@@ -126,7 +114,7 @@ impl<D: Domain> Lattice for Named<D> {
     }
 
     fn covers(&self, inner: &Self) -> bool {
-        let covers = |name: &NameId| match (self.look(*name), inner.look(*name)) {
+        let covers = |name: &NameId| match (self.get(*name), inner.get(*name)) {
             (Some(outer), Some(inner)) => {
                 outer.written.covers(&inner.written) && outer.value.covers(&inner.value)
             }
@@ -142,44 +130,6 @@ impl<D: Domain> Lattice for Named<D> {
     }
 }
 
-impl<D: Domain> Noted for Named<D> {
-    fn note_down(&self, notes: &mut Notes) {
-        notes.numbers.push(self.marks.clone());
-    }
-
-    fn forget_notes(&self) {
-        self.marks.begin();
-    }
-
-    fn combine(&self, others: &mut Cursor<'_>, how: Combine) {
-        if let Some(others) = others.numbers() {
-            self.marks.combine(others, how);
-        }
-    }
-
-    fn agrees(&self, other: &Self, notes: &mut Cursor<'_>) -> bool {
-        let Some(notes) = notes.numbers() else { return true };
-        let same = |name: u32| match (self.look(NameId(name)), other.look(NameId(name))) {
-            (Some(a), Some(b)) => a.written == b.written && a.value.same(&b.value),
-            (a, b) => a.is_none() && b.is_none(),
-        };
-        notes.each().iter().all(|(name, marks)| !marks.is_read() || same(*name))
-    }
-
-    fn adopt(&mut self, changed: &Self, notes: &mut Cursor<'_>) {
-        let Some(notes) = notes.numbers() else { return };
-        if notes.are_all_replaced() {
-            self.forget();
-        }
-        for (name, _) in notes.each().iter().filter(|(_, marks)| marks.is_changed()) {
-            if let Some(variable) = changed.look(NameId(*name)) {
-                Rc::make_mut(&mut self.values).insert(NameId(*name), variable);
-            }
-        }
-        self.marks.append(notes);
-    }
-}
-
 impl<D: Domain> Locals<D> {
     /// How many there are: a copy shares those that have numbers.
     pub(crate) fn values_held(&self) -> usize {
@@ -189,16 +139,14 @@ impl<D: Domain> Locals<D> {
     /// All of `count` locals hold `value`.
     pub(crate) fn new(count: u32, value: &D::Value) -> Self {
         let numbered = Rc::new(vec![value.clone(); count as usize + 1]);
-        Self { numbered, marks: SlotMarks::default(), named: Named::new() }
+        Self { numbered, named: Named::new() }
     }
 
     pub(crate) fn get(&self, number: u32) -> Option<&D::Value> {
-        self.marks.read(number);
         self.numbered.get(number as usize)
     }
 
     pub(crate) fn set(&mut self, number: u32, value: D::Value) {
-        self.marks.replaced(number);
         if let Some(slot) = Rc::make_mut(&mut self.numbered).get_mut(number as usize) {
             *slot = value;
         }
@@ -219,33 +167,23 @@ impl<D: Domain> Locals<D> {
         }
     }
 
-    /// Goes past the notes of such variables.
-    pub(crate) fn pass_over(notes: &mut Cursor<'_>) {
-        notes.numbers();
-        notes.numbers();
-    }
-
     /// The same in another domain.
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Locals<E> {
-        let Self { numbered, marks, named } = self;
-        Locals {
-            numbered: Rc::new(numbered.iter().map(change).collect()),
-            marks: marks.clone(),
-            named: named.map(change),
-        }
+        let Self { numbered, named } = self;
+        Locals { numbered: Rc::new(numbered.iter().map(change).collect()), named: named.map(change) }
     }
 
     /// On one control all calls have as many.
     fn either(&self, other: &Self, widen: bool) -> Self {
         let merge = |(a, b): (&D::Value, &D::Value)| if widen { a.widen(b) } else { a.join(b) };
-        let Self { numbered, marks, named } = self;
+        let Self { numbered, named } = self;
         let numbered = if Rc::ptr_eq(numbered, &other.numbered) {
             Rc::clone(numbered)
         } else {
             Rc::new(numbered.iter().zip(&*other.numbered).map(merge).collect())
         };
         let named = if widen { named.widen(&other.named) } else { named.join(&other.named) };
-        Self { numbered, marks: marks.meeting(&other.marks), named }
+        Self { numbered, named }
     }
 
     fn all_values(&self, other: &Self, holds: impl Fn(&D::Value, &D::Value) -> bool) -> bool {
@@ -264,12 +202,12 @@ impl<D: Domain> Lattice for Locals<D> {
     }
 
     fn covers(&self, inner: &Self) -> bool {
-        let Self { numbered: _, marks: _, named } = self;
+        let Self { numbered: _, named } = self;
         self.all_values(inner, D::Value::covers) && named.covers(&inner.named)
     }
 
     fn same(&self, other: &Self) -> bool {
-        let Self { numbered: _, marks: _, named } = self;
+        let Self { numbered: _, named } = self;
         self.all_values(other, D::Value::same) && named.same(&other.named)
     }
 }
@@ -277,47 +215,6 @@ impl<D: Domain> Lattice for Locals<D> {
 impl<D: Domain> PartialEq for Locals<D> {
     fn eq(&self, other: &Self) -> bool {
         self.same(other)
-    }
-}
-
-impl<D: Domain> Noted for Locals<D> {
-    fn note_down(&self, notes: &mut Notes) {
-        notes.numbers.push(self.marks.all());
-        self.named.note_down(notes);
-    }
-
-    fn forget_notes(&self) {
-        self.marks.clear();
-        self.named.forget_notes();
-    }
-
-    fn combine(&self, others: &mut Cursor<'_>, how: Combine) {
-        if let Some(others) = others.numbers() {
-            self.marks.combine(others, how);
-        }
-        self.named.combine(others, how);
-    }
-
-    fn agrees(&self, other: &Self, notes: &mut Cursor<'_>) -> bool {
-        let agree = notes.numbers().is_none_or(|notes| {
-            let mut values = self.numbered.iter().zip(&*other.numbered).zip(0..);
-            values.all(|((a, b), slot)| !SlotMarks::of(notes, slot).is_read() || a.same(b))
-        });
-        self.named.agrees(&other.named, notes) && agree
-    }
-
-    fn adopt(&mut self, changed: &Self, notes: &mut Cursor<'_>) {
-        if let Some(notes) = notes.numbers() {
-            for (slot, value) in (0..).zip(&*changed.numbered) {
-                if SlotMarks::of(notes, slot).is_changed()
-                    && let Some(own) = Rc::make_mut(&mut self.numbered).get_mut(slot as usize)
-                {
-                    own.clone_from(value);
-                }
-            }
-            self.marks.append(notes);
-        }
-        self.named.adopt(&changed.named, notes);
     }
 }
 
@@ -330,18 +227,11 @@ impl<D: Domain> Variables<D> {
     /// Variables of which only `known` are known; the others hold `unwritten`.
     pub(crate) fn new(unwritten: D::Value, known: impl Iterator<Item = (u32, f64)>) -> Self {
         let common = known.map(|(number, value)| (number, Variable::written(D::number(value)))).collect();
-        Self {
-            common: Rc::new(common),
-            marks: NumberMarks::default(),
-            named: Named::new(),
-            unwritten,
-            unsure: May(false),
-        }
+        Self { common: Rc::new(common), named: Named::new(), unwritten, unsure: May(false) }
     }
 
     /// A common variable.
     pub fn get(&self, number: u32) -> D::Value {
-        self.marks.read(number);
         self.value_of(number).clone()
     }
 
@@ -352,12 +242,11 @@ impl<D: Domain> Variables<D> {
 
     /// Was the variable ever written, or told?
     pub(crate) fn written(&self, number: u32) -> Truth {
-        self.marks.read(number);
-        self.was_written(number)
+        let rest = if self.unsure.0 { Truth::Unknown } else { Truth::False };
+        self.common.get(&number).map_or(rest, |variable| variable.written)
     }
 
     pub(crate) fn set(&mut self, number: u32, value: D::Value) {
-        self.marks.replaced(number);
         Rc::make_mut(&mut self.common).insert(number, Variable::written(value));
     }
 
@@ -371,7 +260,6 @@ impl<D: Domain> Variables<D> {
 
     /// A variable of unknown number was written.
     pub(crate) fn forget(&mut self) {
-        self.marks.all_replaced();
         self.unsure = May(true);
         self.unwritten = D::unknown();
         self.common = Rc::default();
@@ -385,10 +273,9 @@ impl<D: Domain> Variables<D> {
 
     /// The same in another domain.
     pub(crate) fn map<E: Domain>(&self, change: &impl Fn(&D::Value) -> E::Value) -> Variables<E> {
-        let Self { common, marks, named, unwritten, unsure } = self;
+        let Self { common, named, unwritten, unsure } = self;
         Variables {
             common: Rc::new(map_values(common, change)),
-            marks: marks.clone(),
             named: named.map(change),
             unwritten: change(unwritten),
             unsure: *unsure,
@@ -399,27 +286,21 @@ impl<D: Domain> Variables<D> {
         self.common.get(&number).map_or(&self.unwritten, |variable| &variable.value)
     }
 
-    fn was_written(&self, number: u32) -> Truth {
-        let rest = if self.unsure.0 { Truth::Unknown } else { Truth::False };
-        self.common.get(&number).map_or(rest, |variable| variable.written)
-    }
-
     fn either(&self, other: &Self, widen: bool) -> Self {
         let merge = |a: &D::Value, b: &D::Value| if widen { a.widen(b) } else { a.join(b) };
-        let Self { common, marks, named, unwritten, unsure } = self;
+        let Self { common, named, unwritten, unsure } = self;
         let common = if Rc::ptr_eq(common, &other.common) {
             Rc::clone(common)
         } else {
             let joined = keys(common, &other.common).map(|number| {
                 let value = merge(self.value_of(*number), other.value_of(*number));
-                let written = self.was_written(*number).join(&other.was_written(*number));
+                let written = self.written(*number).join(&other.written(*number));
                 (*number, Variable { value, written })
             });
             Rc::new(joined.collect())
         };
         Self {
             common,
-            marks: marks.meeting(&other.marks),
             named: if widen { named.widen(&other.named) } else { named.join(&other.named) },
             unwritten: merge(unwritten, &other.unwritten),
             unsure: unsure.join(&other.unsure),
@@ -437,10 +318,10 @@ impl<D: Domain> Lattice for Variables<D> {
     }
 
     fn covers(&self, inner: &Self) -> bool {
-        let Self { common, marks: _, named, unwritten, unsure } = self;
+        let Self { common, named, unwritten, unsure } = self;
         let covers = |number: &u32| {
             self.value_of(*number).covers(inner.value_of(*number))
-                && self.was_written(*number).covers(&inner.was_written(*number))
+                && self.written(*number).covers(&inner.written(*number))
         };
         unsure.covers(&inner.unsure)
             && unwritten.covers(&inner.unwritten)
@@ -449,7 +330,7 @@ impl<D: Domain> Lattice for Variables<D> {
     }
 
     fn same(&self, other: &Self) -> bool {
-        let Self { common, marks: _, named, unwritten, unsure } = self;
+        let Self { common, named, unwritten, unsure } = self;
         unsure.same(&other.unsure)
             && unwritten.same(&other.unwritten)
             && (Rc::ptr_eq(common, &other.common) || same_maps(common, &other.common))
@@ -460,54 +341,6 @@ impl<D: Domain> Lattice for Variables<D> {
 impl<D: Domain> PartialEq for Variables<D> {
     fn eq(&self, other: &Self) -> bool {
         self.same(other)
-    }
-}
-
-impl<D: Domain> Noted for Variables<D> {
-    fn note_down(&self, notes: &mut Notes) {
-        notes.numbers.push(self.marks.clone());
-        self.named.note_down(notes);
-    }
-
-    fn forget_notes(&self) {
-        self.marks.begin();
-        self.named.forget_notes();
-    }
-
-    fn combine(&self, others: &mut Cursor<'_>, how: Combine) {
-        if let Some(others) = others.numbers() {
-            self.marks.combine(others, how);
-        }
-        self.named.combine(others, how);
-    }
-
-    fn agrees(&self, other: &Self, notes: &mut Cursor<'_>) -> bool {
-        let same = |number: u32| {
-            self.was_written(number) == other.was_written(number)
-                && self.value_of(number).same(other.value_of(number))
-        };
-        let agree = notes
-            .numbers()
-            .is_none_or(|notes| notes.each().iter().all(|(number, marks)| !marks.is_read() || same(*number)));
-        self.named.agrees(&other.named, notes) && agree
-    }
-
-    fn adopt(&mut self, changed: &Self, notes: &mut Cursor<'_>) {
-        if let Some(notes) = notes.numbers() {
-            if notes.are_all_replaced() {
-                self.common = Rc::clone(&changed.common);
-                self.unwritten.clone_from(&changed.unwritten);
-                self.unsure = changed.unsure;
-            } else {
-                for (number, _) in notes.each().iter().filter(|(_, marks)| marks.is_changed()) {
-                    if let Some(variable) = changed.common.get(number) {
-                        Rc::make_mut(&mut self.common).insert(*number, variable.clone());
-                    }
-                }
-            }
-            self.marks.append(notes);
-        }
-        self.named.adopt(&changed.named, notes);
     }
 }
 

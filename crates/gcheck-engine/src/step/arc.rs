@@ -35,8 +35,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let result = self.arc_to(counter_clockwise, &target, state);
         if result.is_err() && !state.compensation.is_followed() {
             // The program means this point, whatever is wrong with the way there.
-            state.points.position.put(target);
-            state.points.actual.put(self.axes_of(&target, state));
+            state.points.position = target;
+            state.points.actual = self.axes_of(&target, state);
         }
         result
     }
@@ -109,8 +109,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep,
             expanded: false,
         };
-        state.points.actual.put(to);
-        state.points.position.put(*target);
+        state.points.actual = to;
+        state.points.position = *target;
         self.emit(state, Event::Arc(event));
         Ok(())
     }
@@ -124,7 +124,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.travel(TravelKind::Feed, *target, false, state)?;
         let setting = self.model.semantics().arcs.straight_setting.as_deref();
         let is_told = setting.is_some_and(|number| self.machine.settings.contains_key(number));
-        if self.leaves_to_rules() && !is_told { fault } else { Ok(()) }
+        // A centre word of another plane is a mistake, whatever the setting makes of it.
+        let has_other = ['I', 'J', 'K'].into_iter().any(|letter| self.words.has(Letter::of(letter)));
+        if self.leaves_to_rules() && (!is_told || has_other) { fault } else { Ok(()) }
     }
 
     /// What the control makes of an arc without centre and radius.
@@ -150,8 +152,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep: f64::NAN,
             expanded: false,
         };
-        state.points.actual.put(to);
-        state.points.position.put(*target);
+        state.points.actual = to;
+        state.points.position = *target;
         self.emit(state, Event::Arc(event));
         Ok(())
     }

@@ -31,9 +31,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(mode) = self.bar_mode(words)? {
             // The feeder is set up: bars come and go, and where they are is its own affair.
             self.assumptions.insert(Assumption::Code(ix));
-            state.bar.put(Bar::UNKNOWN);
-            if *state.spindle.way != Flat::Known(Spindle::Stopped) {
-                state.spindle.way.put(Flat::Unknown);
+            state.bar = Bar::UNKNOWN;
+            if state.spindle.way != Flat::Known(Spindle::Stopped) {
+                state.spindle.way = Flat::Unknown;
             }
             let mode = if let Count::Known(mode) = mode { Some(mode) } else { None };
             self.emit(state, Event::BarSetup(mode));
@@ -156,7 +156,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Truth::Unknown => {
                 // Most feeds of a bar are pushes, so that a run goes on with one; what is left of the bar nobody knows.
-                if !self.leaves_to_rules() {
+                if !self.leaves_to_rules() && state.bar.length().0.is_nan() {
                     self.assumptions.insert(Assumption::BarLength);
                 }
                 state.bar.set_length(f64::NAN);

@@ -4,7 +4,7 @@
 
 use std::rc::Rc;
 
-use gcheck_controls::{CodeIx, CompensationStyle, Effect, Letter, Semantics};
+use gcheck_controls::{CompensationStyle, Effect, Letter, Semantics};
 use gcheck_geometry::{
     Arc, CompensationConfig, CompensationError, Compensator, Cutter, CutterSide, LineKind, Mm, OffsetCourse,
     OffsetEvent, OffsetSegment, PathPoint, Plane,
@@ -53,7 +53,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         // What the path before holds back comes first.
         self.flush_compensation(state)?;
         // On from here, and unless everything about it is known, along a path that is not.
-        state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+        state.compensation.on = Perhaps::Yes(Course::Unknown);
         let by_number = matches!(effect, Effect::CompensationLeft | Effect::CompensationRight);
         if state.tool_shift.is_on() {
             // Refused along a tilting tool: the path beside the programmed one is not known.
@@ -79,7 +79,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let side = if left { CutterSide::Left } else { CutterSide::Right };
         let cutter = Cutter::new(side, radius).with_tip(tip(orientation));
         // Switched off and on again without a move between, it goes on from where the tool stands.
-        let mut compensation = match state.compensation.left.take() {
+        let mut compensation = match std::mem::take(&mut state.compensation.left) {
             Perhaps::Yes(left) if left.plane == plane => left,
             Perhaps::Yes(_) | Perhaps::No => Rc::new(Compensation {
                 compensator: Compensator::new(config(self.model.semantics())),
@@ -115,26 +115,54 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn remember_offset_number(&mut self, state: &mut State<D>) -> Step {
         if let Some(value) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
-            state.tool.d.put(value);
+            state.tool.d = value;
         } else if self.model.semantics().tools.radius_from_tool {
             let tool = state.tool().clone();
-            state.tool.d.put(tool);
+            state.tool.d = tool;
         }
         Ok(())
     }
 
-    /// A `D` that no code of its block reads stays for the code that compensates: `D01`, then `G41`.
-    ///
-    /// Under compensation the path goes on beside another size; how the control comes over to it is not known.
+    /// A number of an offset that no code of its block reads stays for the code that uses it: `D01`, then `G41`.
     pub(super) fn remember_lasting_words(&mut self, state: &mut State<D>) -> Step {
-        let letter = Letter::of('D');
-        let reads = |ix: &CodeIx| {
-            let contract = self.model.contracts.get(ix.index());
-            contract.is_some_and(|contract| contract.reads_all || contract.reads.contains(letter))
-        };
-        if self.words.codes().iter().any(reads) || !state.calls.modal.is_off() {
+        if !state.calls.modal.is_off() {
             return Ok(());
         }
+        for letter in self.words.present().and(self.model.lasting).iter() {
+            if self.is_read(letter) {
+                continue;
+            }
+            if letter == Letter::of('D') {
+                self.remember_cutter(state)?;
+            } else {
+                self.remember_length(letter, state)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Does a code of the block read the address?
+    fn is_read(&self, letter: Letter) -> bool {
+        self.words.codes().iter().any(|ix| {
+            let contract = self.model.contracts.get(ix.index());
+            contract.is_some_and(|contract| contract.reads_all || contract.reads.contains(letter))
+        })
+    }
+
+    /// `H01`, then `G43`. What the word does under length compensation is not known.
+    fn remember_length(&mut self, letter: Letter, state: &mut State<D>) -> Step {
+        let Some(value) = self.words.get(letter) else { return Ok(()) };
+        self.count(letter)?;
+        let mode = state.mode(Role::Length).only();
+        if mode.is_some_and(|ix| self.model.effect(ix) == Effect::LengthOff) {
+            state.tool.h = value;
+        }
+        Ok(())
+    }
+
+    /// Under compensation the path goes on beside another size; how the control comes over to it is not known.
+    fn remember_cutter(&mut self, state: &mut State<D>) -> Step {
+        let letter = Letter::of('D');
         let Some(value) = self.words.get(letter) else { return Ok(()) };
         self.count(letter)?;
         if *state.d() == value {
@@ -142,9 +170,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if state.compensation.is_followed() {
             self.flush_compensation(state)?;
-            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+            state.compensation.on = Perhaps::Yes(Course::Unknown);
         }
-        state.tool.d.put(value);
+        state.tool.d = value;
         Ok(())
     }
 
@@ -196,7 +224,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(crate) fn compensation_off(&mut self, state: &mut State<D>) -> Step {
         self.end_cutter_along_vectors(state);
         let Some(mut compensation) = state.compensation.take_followed() else {
-            state.compensation.on.put(Perhaps::No);
+            state.compensation.on = Perhaps::No;
             return Ok(());
         };
         let followed = Rc::make_mut(&mut compensation);
@@ -208,9 +236,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let actual = above(state.actual(), exit.position, followed.plane);
                 let programmed = above(state.position(), exit.programmed, followed.plane);
                 let actual = state.wrapped().turned(actual);
-                state.points.actual.put(actual);
-                state.points.position.put(programmed);
-                state.compensation.left.put(Perhaps::Yes(compensation));
+                state.points.actual = actual;
+                state.points.position = programmed;
+                state.compensation.left = Perhaps::Yes(compensation);
                 Ok(())
             }
             Err(error) => Err(fault(&error)),
@@ -219,7 +247,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// The first move after `G40`: whether it may be what it is.
     pub(crate) fn leave_compensation(&mut self, is_arc: bool, state: &mut State<D>) -> Step {
-        match state.compensation.left.take() {
+        match std::mem::take(&mut state.compensation.left) {
             Perhaps::Yes(mut left) => {
                 Rc::make_mut(&mut left).compensator.exit_motion(is_arc).map_err(|error| fault(&error))
             }
@@ -238,11 +266,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut out = Vec::new();
         let result = followed.compensator.flush(|offset| out.push(offset));
         self.give_out(followed, out, state);
-        state.points.actual.put(followed.at);
+        state.points.actual = followed.at;
         if result.is_ok() && followed.compensator.is_on() {
             state.compensation.follow_path(compensation);
         } else {
-            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+            state.compensation.on = Perhaps::Yes(Course::Unknown);
         }
         result.map_err(|error| fault(&error))
     }
@@ -307,15 +335,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step {
         let followed = Rc::make_mut(&mut compensation);
         self.give_out(followed, out, state);
-        state.points.position.put(target);
+        state.points.position = target;
         if let Err(error) = result {
-            state.points.actual.put(Position::UNKNOWN);
-            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+            state.points.actual = Position::UNKNOWN;
+            state.compensation.on = Perhaps::Yes(Course::Unknown);
             return if error == CompensationError::NotUsable { Ok(()) } else { Err(fault(&error)) };
         }
         let actual = above(&target, followed.compensator.position(), followed.plane);
         let actual = state.wrapped().turned(actual);
-        state.points.actual.put(actual);
+        state.points.actual = actual;
         state.compensation.follow_path(compensation);
         Ok(())
     }

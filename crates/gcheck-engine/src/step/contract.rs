@@ -64,6 +64,8 @@ fn is_whole(value: f64) -> bool {
 pub(crate) struct CodeContract {
     /// Addresses that it reads.
     pub(super) reads: LetterSet,
+    /// Addresses that count something or name it by its number.
+    pub(super) counts: LetterSet,
     /// It reads any address.
     pub(super) reads_all: bool,
     required: LetterSet,
@@ -142,6 +144,12 @@ impl CodeContract {
         let reads_all = entry.any_words || code.is_user();
         let mut contract = Self {
             reads: code.reads().without(listed(&rules.newer_words, &entry.code)),
+            counts: entry
+                .words
+                .iter()
+                .filter(|word| is_count(word))
+                .filter_map(|word| Letter::parse(&word.letter))
+                .collect(),
             reads_all,
             exclusive: code.group().exclusive,
             is_m: code.number().letter() == b'M',
@@ -194,6 +202,10 @@ impl CodeContract {
         });
         contract
     }
+}
+
+fn is_count(word: &WordEntry) -> bool {
+    matches!(word.kind, WordKind::Integer | WordKind::Program | WordKind::Label)
 }
 
 impl BlockContract {

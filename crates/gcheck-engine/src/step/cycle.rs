@@ -189,7 +189,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let [given_r, given_z] = &mut words.given;
         *given_r = retract.unwrap_or(*given_r);
         *given_z = bottom.unwrap_or(*given_z);
-        // Words that stay are counted anew in every block by some controls, as they stand. For others levels stay: an
+        // Words that stay are counted again in every block by some controls, as they are. For others levels stay: an
         // increment counts in the block that gives it, and the level stays where it led.
         let counted = if rules.rise_to_r { (Some(*given_r), Some(*given_z)) } else { (retract, bottom) };
         if let Some(level) = counted.0 {
@@ -206,7 +206,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             words.z = way + if rules.r_is_distance { words.r } else { words.initial };
             words.give(depth.letter());
         }
-        state.cycle.put(words);
+        state.cycle = words;
         if words.word('R', words.r).is_none() && !self.starts_without_r(state) {
             return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
         }
@@ -232,7 +232,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Absolute or incremental is not known, and so are the levels.
     fn unknown_levels(&mut self, mut words: crate::state::CycleWords, state: &mut State<D>) -> Step {
         (words.r, words.z) = (f64::NAN, f64::NAN);
-        state.cycle.put(words);
+        state.cycle = words;
         Ok(())
     }
 
@@ -242,21 +242,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         for axis in plane {
             state.points.position.set(axis, target.raw(axis));
         }
-        state.points.actual.put(self.axes_of(state.position(), state));
+        state.points.actual = self.axes_of(state.position(), state);
         Ok(())
     }
 
     /// A cycle whose geometry is not followed: the axes it names end at its point, the depth nobody knows where.
     fn lose_cycle(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
-        state.points.position.put(target);
+        state.points.position = target;
         state.points.position.set(Axis::Z, f64::NAN);
         if state.plane(self.model).is_none() {
             // Any of the three may be the axis of depth.
             state.points.position.set(Axis::X, f64::NAN);
             state.points.position.set(Axis::Y, f64::NAN);
         }
-        state.points.actual.put(self.axes_of(state.position(), state));
+        state.points.actual = self.axes_of(state.position(), state);
         Ok(())
     }
 
@@ -366,8 +366,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return_to_r,
                 first_of_block: turn == 0,
                 overrides: Overrides {
-                    feed: *state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
-                    speed: *state.spindle.overridable != Truth::False,
+                    feed: state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
+                    speed: state.spindle.overridable != Truth::False,
                 },
                 clearance,
                 above_r,
@@ -463,7 +463,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             strokes.clear();
             if let Ok(end) = hole(Effect::CycleDrill, facts, from, rules, &mut |stroke| strokes.push(stroke))
             {
-                state.points.position.put(state.position().with_xyz(end));
+                state.points.position = state.position().with_xyz(end);
             }
         }
         let given_out = self.strokes(&strokes, plane, state);
@@ -471,8 +471,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         given_out?;
         match result {
             Ok(end) => {
-                state.points.position.put(state.position().with_xyz(end));
-                state.points.actual.put(self.axes_of(state.position(), state));
+                state.points.position = state.position().with_xyz(end);
+                state.points.actual = self.axes_of(state.position(), state);
                 Ok(())
             }
             Err(CycleError::Fault(fault)) => Err(Fault::Cycle(fault)),
@@ -484,8 +484,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 end.set(first, facts.at.0.0);
                 end.set(second, facts.at.1.0);
                 end.set(depth, f64::NAN);
-                state.points.position.put(end);
-                state.points.actual.put(self.axes_of(&end, state));
+                state.points.position = end;
+                state.points.actual = self.axes_of(&end, state);
                 Ok(())
             }
         }
@@ -569,11 +569,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => D::unknown(),
         };
         if state.feed_mode(self.model) != Some(FeedMode::PerRevolution) {
-            state.feed.rate.put(faster(feed));
+            state.feed.rate = faster(feed);
         }
         let speed = faster(speed);
         let rate = D::known(&speed).unwrap_or(f64::NAN);
-        state.spindle.speed.put(speed);
+        state.spindle.speed = speed;
         self.emit(state, Event::SpindleSpeed(rate));
     }
 
@@ -602,8 +602,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             sweep,
             expanded: true,
         };
-        state.points.actual.put(end);
-        state.points.position.put(programmed);
+        state.points.actual = end;
+        state.points.position = programmed;
         self.emit(state, Event::Arc(event));
     }
 }

@@ -26,8 +26,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.cylinder_by_radius(ix, state);
             return Ok(());
         };
+        let reads = self.model.control().code_at(ix).map_or(LetterSet::EMPTY, gcheck_controls::Code::reads);
         let given = |axes: &[Axis]| -> Vec<Axis> {
-            axes.iter().copied().filter(|axis| self.words.has(axis.letter())).collect()
+            let is_given = |letter: Letter| reads.contains(letter) && self.words.has(letter);
+            axes.iter().copied().filter(|axis| is_given(axis.letter())).collect()
         };
         let linear = given(&[Axis::X, Axis::Y, Axis::Z]);
         let rotary = given(&[Axis::A, Axis::B, Axis::C]);
@@ -40,7 +42,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         {
             // Words that may be nothing may begin nothing, and may leave one of two.
             state.mapping.diameters.forget();
-            state.mapping.wrapped.put(Wrapped::Unknown);
+            state.mapping.wrapped = Wrapped::Unknown;
             state.modes.add(Role::Cylinder, &ModeSet::one(ix));
             self.emit(state, Event::Modal(ix));
             return Ok(());
@@ -79,7 +81,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if cylinder.zero.abs() > SAME_ANGLE {
             self.assumptions.insert(Assumption::CylinderStart(rotary));
         }
-        state.mapping.wrapped.put(Wrapped::On(cylinder));
+        state.mapping.wrapped = Wrapped::On(cylinder);
         state.set_mode(Role::Cylinder, ix);
         self.emit(state, Event::Modal(ix));
         self.emit(state, Event::Cylinder(Some(cylinder)));
@@ -110,9 +112,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Ends mapping: the linear axis is where it stood all along.
     fn unwrap_axis(&mut self, state: &mut State<D>) {
         if *state.wrapped() != Wrapped::No {
-            state.points.actual.put(state.wrapped().standing(*state.actual()));
-            state.mapping.wrapped.put(Wrapped::No);
-            state.points.position.put(self.programmed_of(state.actual(), state));
+            state.points.actual = state.wrapped().standing(*state.actual());
+            state.mapping.wrapped = Wrapped::No;
+            state.points.position = self.programmed_of(state.actual(), state);
             self.emit(state, Event::Cylinder(None));
         }
         if state.mode(Role::Cylinder).only() != Some(CodeIx::NONE) {

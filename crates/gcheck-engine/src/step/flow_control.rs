@@ -270,7 +270,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let is_modal = effect == Effect::MacroModal;
         let Count::Known(number) = number else {
             if is_modal {
-                state.calls.modal.put(ModalCalls::unknown());
+                state.calls.modal = ModalCalls::unknown();
                 return Ok(());
             }
             return self.lose_everything(state);
@@ -279,13 +279,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(target) = self.program.find_number(number, self.origin.at.file) else {
             if is_modal {
                 self.assumptions.insert(Assumption::MissingProgram(number));
-                state.calls.modal.put(ModalCalls::off());
+                state.calls.modal = ModalCalls::off();
                 return Ok(());
             }
             return self.missing_program(number, false, state);
         };
         if is_modal {
-            state.calls.modal.put(ModalCalls::on(ModalCall { target, arguments, repeats }));
+            state.calls.modal = ModalCalls::on(ModalCall { target, arguments, repeats });
             return Ok(());
         }
         self.flow = Some(Flow::Call(Callee::of_macro(target, repeats - 1, arguments)));
@@ -362,13 +362,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut ways = Vec::new();
         if may_be_off {
             let mut without = state.clone();
-            without.calls.modal.put(ModalCalls::off());
+            without.calls.modal = ModalCalls::off();
             ways.push((here, without));
         }
         let mut refused = None;
         for call in calls {
             let mut way = state.clone();
-            way.calls.modal.put(ModalCalls::on((*call).clone()));
+            way.calls.modal = ModalCalls::on((*call).clone());
             let outcome = if runs(&call, &way) {
                 Ok(Outcome::Next)
             } else {
@@ -497,7 +497,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match &kept.bar_feed {
             Perhaps::No => {}
             Perhaps::Yes(feed) => {
-                state.calls.note_caller();
                 if let Some(ending) = self.feed_after_cutoff(caller, feed, state)? {
                     return Ok(Outcome::End(ending));
                 }
@@ -510,7 +509,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let to = match label {
             Some(label) if self.model.semantics().return_to == ReturnTo::Caller => {
                 // The block is looked for in the program that called.
-                state.calls.note_caller();
                 let Some(number) = D::known(&label) else { return Err(Fault::Undecidable) };
                 #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
                 self.label(number, caller)?.ok_or(Fault::NoSuchLabel(number as u32))?

@@ -307,8 +307,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(CycleError::Profile(_)) => Err(Fault::Profile),
             Err(CycleError::TooManyStrokes) => Err(Fault::Cycle(CycleFault::Geometry)),
             Err(CycleError::Unknown | CycleError::NotThisKind) => {
-                state.points.position.put(end);
-                state.points.actual.put(self.axes_of(&end, state));
+                state.points.position = end;
+                state.points.actual = self.axes_of(&end, state);
                 Ok(())
             }
         }
@@ -322,14 +322,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if self.compensates(state) || modes.only().is_none() {
             state.set_mode(Role::Compensation, self.model.code_with(Effect::CompensationOff));
         }
-        let on = (*state.compensation.on).clone();
-        state.compensation.on.put(Perhaps::No);
+        let on = std::mem::take(&mut state.compensation.on);
         Ok(HeldCompensation { on, modes })
     }
 
     /// Goes on with what was held.
     pub(super) fn release_compensation(held: HeldCompensation, state: &mut State<D>) {
-        state.compensation.on.put(held.on);
+        state.compensation.on = held.on;
         state.modes.put(Role::Compensation, held.modes);
     }
 
@@ -438,7 +437,7 @@ impl HeldCompensation {
 /// Keeps words of turning cycles.
 fn keep<D: Domain>(words: &TurningWords, state: &mut State<D>) {
     if state.turning() != *words {
-        state.turning.put(KeptTurningWords::of(words));
+        state.turning = KeptTurningWords::of(words);
     }
 }
 

@@ -45,8 +45,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.effect(code.effect, ix, place, words, state)?;
         if code.role == Some(Role::Length) && !(followed && is_upright(state)) {
             // The tip moved against the axes by the length along a turned tool.
-            state.points.actual.put(state.actual().with_xyz([Mm::UNKNOWN; 3]));
-            state.points.position.put(state.position().with_xyz([Mm::UNKNOWN; 3]));
+            state.points.actual = state.actual().with_xyz([Mm::UNKNOWN; 3]);
+            state.points.position = state.position().with_xyz([Mm::UNKNOWN; 3]);
         }
         Ok(())
     }
@@ -89,7 +89,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match role {
             Role::Motion => {
                 if !matches!(self.model.effect(ix), Effect::NurbsOpen | Effect::SplineCubic) {
-                    state.curve.put(Perhaps::No);
+                    state.curve = Perhaps::No;
                 }
                 state.set_mode(Role::Motion, ix);
                 if self.model.semantics().cycles.motion_ends_cycle {
@@ -104,15 +104,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             Role::Cycle => {
                 match state.active_cycle(self.model) {
-                    None => state.cycle.put(state.cycle.unknown()),
-                    Some(CodeIx::NONE) => state.cycle.put(state.cycle.series(false)),
+                    None => state.cycle = state.cycle.unknown(),
+                    Some(CodeIx::NONE) => state.cycle = state.cycle.series(false),
                     // Levels of one axis mean nothing along another.
                     Some(cycle) if self.model.drills_across(cycle) != self.model.drills_across(ix) => {
-                        state.cycle.put(state.cycle.series(false));
+                        state.cycle = state.cycle.series(false);
                     }
                     // Where cycles are motion modes, another one takes no words over, only the level that the series began at.
                     Some(cycle) if cycle != ix && self.model.cycles_are_motion => {
-                        state.cycle.put(state.cycle.series(true));
+                        state.cycle = state.cycle.series(true);
                     }
                     Some(_) => {}
                 }
@@ -239,7 +239,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.measure(effect, state)?;
             }
 
-            E::KeepTouch => state.probe.kept.put(state.touched()),
+            E::KeepTouch => state.probe.kept = state.touched(),
 
             E::FinishProfile | E::RoughAlongZ | E::RoughAlongX | E::RepeatPattern => {
                 self.profile_cycle(effect, ix, state)?;
@@ -256,7 +256,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::NurbsClose => self.nurbs_close(state)?,
 
             E::MacroCall | E::MacroModal => self.macro_call(effect, ix, place, words, state)?,
-            E::MacroModalOff => state.calls.modal.put(ModalCalls::off()),
+            E::MacroModalOff => state.calls.modal = ModalCalls::off(),
             E::CallProgram | E::CallLocal => self.call_code(effect, state)?,
             E::Return => {
                 let label = self.words.get(Letter::of('P'));
@@ -307,8 +307,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::SpindleStop => self.spindle(Spindle::Stopped, state)?,
             E::SpindleOrient => self.orient(state)?,
-            E::LiveToolOn => state.spindle.live_tool.put(Truth::True),
-            E::LiveToolOff => state.spindle.live_tool.put(Truth::False),
+            E::LiveToolOn => state.spindle.live_tool = Truth::True,
+            E::LiveToolOff => state.spindle.live_tool = Truth::False,
             E::ToolChange => self.tool_change(state)?,
             E::SetToolNumber => self.set_tool_number(state)?,
             E::MistOn => self.coolant(Coolant::Mist, true, state),
@@ -321,8 +321,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::OverridesOn | E::OverridesOff => {
                 let on = effect == E::OverridesOn;
-                state.feed.overridable.put(on.into());
-                state.spindle.overridable.put(on.into());
+                state.feed.overridable = on.into();
+                state.spindle.overridable = on.into();
                 state.cycle.feed_override_on = Truth::False;
                 self.emit(state, Event::Override { kind: Override::Feed, on });
                 self.emit(state, Event::Override { kind: Override::Speed, on });
@@ -361,7 +361,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let not_below_zero = |number: f64| if number < 0.0 { 0.0 } else { number };
         let tolerance = self.words.number(Letter::of('P')).map_or(0.0, not_below_zero);
         let naive = self.words.number(Letter::of('Q')).filter(|q| *q >= 0.0 || q.is_nan());
-        state.blending.put(Blending { tolerance, naive });
+        state.blending = Blending { tolerance, naive };
         let mode = self.blending_mode(state);
         self.path_mode(mode, state);
     }
@@ -401,7 +401,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn blending_mode(&self, state: &State<D>) -> PathMode {
         let unit = self.unit(state);
         let length = |number: f64| Mm(if number == 0.0 { 0.0 } else { number * unit });
-        let Blending { tolerance, naive } = *state.blending;
+        let Blending { tolerance, naive } = state.blending;
         PathMode::Blending { tolerance: length(tolerance), naive: naive.map(length) }
     }
 
@@ -410,20 +410,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let truth = if on { Truth::True } else { Truth::False };
         let kind = match effect {
             Effect::FeedOverride => {
-                state.feed.overridable.put(truth);
+                state.feed.overridable = truth;
                 state.cycle.feed_override_on = Truth::False;
                 Override::Feed
             }
             Effect::SpeedOverride => {
-                state.spindle.overridable.put(truth);
+                state.spindle.overridable = truth;
                 Override::Speed
             }
             Effect::AdaptiveFeed => {
-                state.feed.adaptive.put(truth);
+                state.feed.adaptive = truth;
                 Override::Adaptive
             }
             _ => {
-                state.feed.hold.put(truth);
+                state.feed.hold = truth;
                 Override::FeedStop
             }
         };
@@ -433,8 +433,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
         let truth = if on { Truth::True } else { Truth::False };
         match kind {
-            Coolant::Mist => state.coolant.mist.put(truth),
-            Coolant::Flood => state.coolant.flood.put(truth),
+            Coolant::Mist => state.coolant.mist = truth,
+            Coolant::Flood => state.coolant.flood = truth,
             Coolant::Through => {}
         }
         self.emit(state, Event::Coolant { kind, on });
@@ -454,8 +454,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 unknown.set(*axis, f64::NAN);
             }
         }
-        state.points.actual.put(unknown);
-        state.points.position.put(unknown);
+        state.points.actual = unknown;
+        state.points.position = unknown;
     }
 
     /// Some controls end a tilted plane and a rotation with one code.

@@ -329,7 +329,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.moved_off_drawing(named, &mut to, state);
         self.travel_to(kind, &to, &to, false, state);
-        state.points.position.put(self.programmed_of(&to, state));
+        state.points.position = self.programmed_of(&to, state);
         checked
     }
 
@@ -360,7 +360,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             to = to.with_xyz([Mm::UNKNOWN; 3]);
         }
         self.travel_to(kind, &target, &to, expanded, state);
-        state.points.position.put(target);
+        state.points.position = target;
         Ok(())
     }
 
@@ -378,7 +378,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         state: &mut State<D>,
     ) {
         self.travel_to(kind, target, target, expanded, state);
-        state.points.position.put(*target);
+        state.points.position = *target;
     }
 
     fn travel_to(
@@ -395,7 +395,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let from = *state.actual();
         let event = Event::Travel(Travel { kind, from, programmed: *programmed, to: *to, expanded });
-        state.points.actual.put(*to);
+        state.points.actual = *to;
         self.emit(state, event);
     }
 
@@ -468,7 +468,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             vec![start, [start[0] + i, start[1] + j], end]
         } else {
             let (Some(p), Some(q)) = (p, q) else { return Err(Fault::MissingWord(Letter::of('P'))) };
-            let first = match (i, j, &*state.curve) {
+            let first = match (i, j, &state.curve) {
                 (Some(i), Some(j), _) => [i, j],
                 (None, None, Perhaps::Yes(last)) => last.0.first().map_or([0.0; 2], |l| [-l[0], -l[1]]),
                 (None, None, Perhaps::No) => [0.0; 2],
@@ -478,14 +478,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 _ => return Err(Fault::MissingWord(Letter::of('I'))),
             };
-            state.curve.put(Perhaps::Yes(ControlPoints(Rc::new(vec![[p, q, 0.0]]))));
+            state.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[p, q, 0.0]])));
             vec![start, [start[0] + first[0], start[1] + first[1]], [end[0] + p, end[1] + q], end]
         };
         let count = points.len() as u32;
         let chords = chords(&points);
         let curve = Curve { from: *state.actual(), to: target, points: count, pieces: chords };
-        state.points.actual.put(target);
-        state.points.position.put(target);
+        state.points.actual = target;
+        state.points.position = target;
         self.emit(state, Event::Curve(curve));
         if self.refuses_incomplete() {
             // A curve is no mode that lasts.
@@ -522,13 +522,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn nurbs_point(&mut self, state: &mut State<D>) -> Step {
         let target = self.target(state)?;
         let weight = self.words.number(Letter::of('P'));
-        let open = match state.curve.take() {
+        let open = match std::mem::take(&mut state.curve) {
             Perhaps::No => None,
             Perhaps::Yes(ControlPoints(points)) => Some(points),
             Perhaps::Unknown => {
                 // Whether this is its first point or another one, the curve is not known.
                 self.assumptions.insert(Assumption::Unsettled(Unsettled::Curve));
-                state.curve.put(Perhaps::Unknown);
+                state.curve = Perhaps::Unknown;
                 return Ok(());
             }
         };
@@ -560,13 +560,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             points.push([target.raw(Axis::X), target.raw(Axis::Y), weight.unwrap_or(1.0)]);
         }
-        state.curve.put(Perhaps::Yes(ControlPoints(Rc::new(points))));
+        state.curve = Perhaps::Yes(ControlPoints(Rc::new(points)));
         Ok(())
     }
 
     /// `G5.3`: the curve is cut.
     pub(super) fn nurbs_close(&mut self, state: &mut State<D>) -> Step {
-        let (to, polygon) = match state.curve.take() {
+        let (to, polygon) = match std::mem::take(&mut state.curve) {
             Perhaps::No => return Err(Fault::NoMotionMode),
             Perhaps::Yes(ControlPoints(points)) => {
                 let count = f64::from(u32::try_from(points.len()).unwrap_or(u32::MAX));
@@ -589,8 +589,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let line = |[x, y]: &[f64; 2]| CurvePiece::Line([Mm(*x), Mm(*y)]);
         let pieces: Rc<[CurvePiece]> = polygon.iter().skip(1).map(line).collect();
         let curve = Curve { from: *state.actual(), to: end, points: polygon.len() as u32, pieces };
-        state.points.actual.put(end);
-        state.points.position.put(end);
+        state.points.actual = end;
+        state.points.position = end;
         self.emit(state, Event::Curve(curve));
         state.set_mode(Role::Motion, CodeIx::NONE);
         Ok(())

@@ -30,7 +30,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return;
         }
         let here = before.moved(&old, &after);
-        state.points.actual.put(here);
+        state.points.actual = here;
         if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
             // The axis that is wrapped stands still as all the others do.
             let linear = cylinder.linear;
@@ -40,7 +40,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             cylinder.anchor(&here);
         }
         let programmed = self.programmed_of(&here, state);
-        state.points.position.put(programmed);
+        state.points.position = programmed;
     }
 
     /// `G54` and its kin.
@@ -51,8 +51,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.reframe(state, |state| {
             let offset = number.map_or(WorkOffset::UNKNOWN, |n| state.tables().offset(n));
-            state.offsets.work.put(number.into());
-            state.offsets.in_effect.put(offset);
+            state.offsets.work = number.into();
+            state.offsets.in_effect = offset;
         });
         if number.is_none() {
             // One unknown system may have taken the place of another.
@@ -110,7 +110,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let position = if state.compensation.is_followed() { *state.position() } else { *state.actual() };
         for (axis, value) in &named {
             // Machine = work + shift stays, so the shift grows by what the position loses.
-            let counts = if self.shifts_are_one() { *state.offsets.shift_on } else { Truth::True };
+            let counts = if self.shifts_are_one() { state.offsets.shift_on } else { Truth::True };
             let base = match (counts, state.offsets.shift.raw(*axis)) {
                 (Truth::True, shift) => shift,
                 (Truth::False, _) => 0.0,
@@ -132,7 +132,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         for axis in Axis::ALL.into_iter().filter(unnamed) {
             state.offsets.shift.set(axis, in_effect.raw(axis));
         }
-        state.offsets.shift_on.put(Truth::True);
+        state.offsets.shift_on = Truth::True;
         let here = *state.actual();
         if let Some(cylinder) = state.mapping.wrapped.cylinder_mut() {
             // The drawing has a new zero; what that says of the axis that stands still is in no page.
@@ -155,8 +155,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             if shared {
                 // What is suspended does not come back with another axis.
                 let in_effect = state.offsets.shift_in_effect();
-                state.offsets.shift.put(in_effect);
-                state.offsets.shift_on.put(Truth::True);
+                state.offsets.shift = in_effect;
+                state.offsets.shift_on = Truth::True;
             }
             for (axis, value) in &named {
                 if shared {
@@ -174,9 +174,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G92.1`, `G92.2`.
     pub(super) fn clear_shift(&mut self, state: &mut State<D>, keep: bool) {
         self.reframe(state, |state| {
-            state.offsets.shift_on.put(Truth::False);
+            state.offsets.shift_on = Truth::False;
             if !keep {
-                state.offsets.shift.put(Position::ZERO);
+                state.offsets.shift = Position::ZERO;
             }
         });
         let shift = state.shift();
@@ -185,7 +185,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G92.3`.
     pub(super) fn restore_shift(&mut self, state: &mut State<D>) {
-        self.reframe(state, |state| state.offsets.shift_on.put(Truth::True));
+        self.reframe(state, |state| state.offsets.shift_on = Truth::True);
         let shift = state.shift();
         self.emit(state, Event::Shift(shift));
     }
@@ -230,14 +230,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Count::Known(number)) => {
                 if number == 0 && !rules.length_from_tool {
                     // H0 is length zero, and ends the compensation on some controls.
-                    state.tool.h.put(D::number(0.0));
+                    state.tool.h = D::number(0.0);
                     self.set_length(Position::ZERO, state);
                     return Ok(());
                 }
                 self.apply_length(number, sign, state)
             }
             Some(Count::Unknown) => {
-                state.tool.h.put(self.words.get(Letter::of('H')).unwrap_or_else(D::unknown));
+                state.tool.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
                 self.set_length(self.unknown_length(state), state);
                 Ok(())
             }
@@ -245,12 +245,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 #[expect(clippy::cast_sign_loss, reason = "tool numbers are counts")]
                 Some(tool) if tool > 0.0 => self.apply_length(tool as u32, sign, state),
                 Some(_) => {
-                    state.tool.h.put(D::number(0.0));
+                    state.tool.h = D::number(0.0);
                     self.set_length(Position::ZERO, state);
                     Ok(())
                 }
                 None => {
-                    state.tool.h.put(D::unknown());
+                    state.tool.h = D::unknown();
                     self.set_length(self.unknown_length(state), state);
                     Ok(())
                 }
@@ -270,7 +270,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The length of the tool in the spindle, as it was loaded.
     pub(super) fn loaded_length(&mut self, sign: f64, state: &mut State<D>) {
         let number = state.tool().clone();
-        state.tool.h.put(number);
+        state.tool.h = number;
         let mut length = state.tool.loaded.data.offset;
         for axis in Axis::ALL {
             length.set(axis, sign * length.raw(axis));
@@ -280,7 +280,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Any length may be in effect, of any number.
     pub(super) fn lose_length(&mut self, state: &mut State<D>) {
-        state.tool.h.put(D::unknown());
+        state.tool.h = D::unknown();
         let length = self.unknown_length(state);
         self.set_length(length, state);
     }
@@ -296,7 +296,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn apply_length(&mut self, number: u32, sign: f64, state: &mut State<D>) -> Step {
-        state.tool.h.put(D::number(f64::from(number)));
+        state.tool.h = D::number(f64::from(number));
         if number == 0 && !self.model.semantics().tools.length_from_tool {
             self.set_length(Position::ZERO, state);
             return Ok(());
@@ -350,14 +350,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn cancel_length(&mut self, state: &mut State<D>) {
-        state.tool.h.put(D::number(0.0));
+        state.tool.h = D::number(0.0);
         self.set_length(Position::ZERO, state);
     }
 
     pub(super) fn set_length(&mut self, length: Position, state: &mut State<D>) {
         self.end_length_along_tool(state);
         let old = *state.length();
-        self.reframe(state, |state| state.tool.length.put(length));
+        self.reframe(state, |state| state.tool.length = length);
         for axis in Axis::ALL {
             // One unknown length took the place of another.
             if old.raw(axis).is_nan() && length.raw(axis).is_nan() {
@@ -516,7 +516,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         self.reframe(state, |state| {
             state.offsets.tables_mut().set_offset(system, offset);
             if active {
-                state.offsets.in_effect.put(offset);
+                state.offsets.in_effect = offset;
             }
         });
         if active && self.refuses_incomplete() && old.rotation.to_bits() != offset.rotation.to_bits() {
@@ -525,7 +525,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             for axis in [Axis::X, Axis::Y] {
                 state.points.actual.set(axis, turned.raw(axis));
             }
-            state.points.position.put(self.programmed_of(state.actual(), state));
+            state.points.position = self.programmed_of(state.actual(), state);
         }
         if active {
             for (axis, _) in &named {
@@ -611,14 +611,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match state.tool.loaded.entry {
             Perhaps::Yes(loaded) if loaded == number => {
                 state.tool.loaded.data = *written;
-                state.tool.number.put(D::number(f64::from(number)));
+                state.tool.number = D::number(f64::from(number));
                 self.emit(state, Event::ToolTableEntry(ToolEntry { pocket: 0, ..entry }));
             }
             Perhaps::Unknown => {
                 let either = state.tool.loaded.data.join(written);
                 state.tool.loaded.data = either;
                 let either = state.tool().join(&D::number(f64::from(number)));
-                state.tool.number.put(either);
+                state.tool.number = either;
             }
             Perhaps::Yes(_) | Perhaps::No => {}
         }
@@ -677,7 +677,7 @@ impl Placement {
             work: state.work(),
             offset: state.work_offset(),
             shift: state.offsets.shift_in_effect(),
-            local: *state.offsets.local,
+            local: state.offsets.local,
             length: *state.length(),
         }
     }

@@ -161,8 +161,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         end.set(Axis::Z, f64::NAN);
         let held = self.hold_compensation(state)?;
-        state.points.position.put(end);
-        state.points.actual.put(self.axes_of(&end, state));
+        state.points.position = end;
+        state.points.actual = self.axes_of(&end, state);
         Self::release_compensation(held.without_path(), state);
         Ok(())
     }
@@ -186,14 +186,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.program.file(first.file).map_or(0, |file| file.loaded.outline().part_of(first.block).end);
         let blocks = ProfileBlocks { file: first.file, first: first.block, last: last.saturating_sub(1) };
         let mut drawn = state.clone();
-        drawn.points.position.put(*start);
-        drawn.points.actual.put(*start);
+        drawn.points.position = *start;
+        drawn.points.actual = *start;
         // It is read as a called program is.
         let kind = if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram };
         drawn.calls.push(Frame::new(kind, first, at, Some(0)));
-        let read = self.read_profile(blocks, Plane::Xy, &mut drawn);
-        state.note_reads_of(&drawn);
-        let profile = read?;
+        let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
         Ok(Some(profile.segments).filter(|_| profile.complete))
     }
 
@@ -201,7 +199,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn pocket_tool_radius(&mut self, state: &mut State<D>) -> Step<f64> {
         if let Some(d) = self.words.get(Letter::of('D')) {
             self.count(Letter::of('D'))?;
-            state.tool.d.put(d);
+            state.tool.d = d;
         }
         let Some(number) = D::known(state.d()) else { return Ok(f64::NAN) };
         if number == 0.0 {
@@ -218,9 +216,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Repeats that nobody knows: the tool ends over the point, at a depth nobody knows.
     fn lose_operation(&mut self, target: &Position, state: &mut State<D>) {
-        state.points.position.put(*target);
+        state.points.position = *target;
         state.points.position.set(Axis::Z, f64::NAN);
-        state.points.actual.put(self.axes_of(state.position(), state));
+        state.points.actual = self.axes_of(state.position(), state);
     }
 
     // ---- patterns ----
@@ -256,7 +254,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Err(_) => {
                 state.points.position.set(first, f64::NAN);
                 state.points.position.set(second, f64::NAN);
-                state.points.actual.put(self.axes_of(state.position(), state));
+                state.points.actual = self.axes_of(state.position(), state);
                 return Ok(());
             }
         };

@@ -1,7 +1,7 @@
 //! Going on after an alarm: the block has the effect that it has once the programmer has corrected it.
 //!
 //! Knows: where a refused block leads, and which way a run takes that nobody can decide. Must not know: how often a run goes on,
-//! who is told.
+//! what a run reports of it.
 
 use std::collections::BTreeSet;
 
@@ -78,9 +78,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, Counting<O>> {
                 let ([_, _, depth], _) = plane_axes(plane);
                 target.set(depth, state.position().raw(depth));
             }
-            state.points.position.put(target);
+            state.points.position = target;
             let to = self.axes_of(&target, state);
-            state.points.actual.put(to);
+            state.points.actual = to;
             if same_place(&to, &before.actual) {
                 return;
             }

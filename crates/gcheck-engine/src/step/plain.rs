@@ -127,9 +127,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             to: target,
             expanded: false,
         });
-        state.points.actual.put(target);
+        state.points.actual = target;
         self.observer.event(self.origin, state, &event);
-        state.points.position.put(target);
+        state.points.position = target;
         self.observer.after(self.origin, state);
         true
     }

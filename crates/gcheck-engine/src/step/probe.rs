@@ -55,7 +55,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// The probe moves. With a start that is known throughout, a run goes on as if nothing was touched, which is what a
     /// simulation without a workpiece does; else the axes that moved end nobody knows where.
     fn probing(&mut self, kind: TravelKind, target: Position, state: &mut State<D>) -> Step {
-        state.probe.touched.put(Touch::Made(self.ways_to(&target, state)));
+        state.probe.touched = Touch::Made(self.ways_to(&target, state));
         self.emit(state, Event::Probe(true));
         let mut moved: Vec<Axis> = Axis::ALL
             .into_iter()
@@ -64,10 +64,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (from, stood) = (*state.position(), *state.actual());
         self.travel(kind, target, false, state)?;
         self.emit(state, Event::Probe(false));
-        state.probe.point.put(*state.actual());
+        state.probe.point = *state.actual();
         if self.has_code(Effect::AlarmIfTouched) {
             // Who goes on behind this block has not touched anything: the move came to its end.
-            state.probe.result.put(Truth::False);
+            state.probe.result = Truth::False;
             return Ok(());
         }
         self.assumptions.insert(Assumption::ProbeTouch);
@@ -75,7 +75,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             // Without a workpiece the touch is said to be at the end of the move, and the probe stands a hundredth of an inch
             // before it: what a simulation of the reference interpreter does.
             self.stop_short(from, 0.254, state);
-            state.probe.result.put(Truth::False);
+            state.probe.result = Truth::False;
             return Ok(());
         }
         // Under a rotation an axis moves that the block does not name.
@@ -90,7 +90,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             state.probe.point.set(axis, f64::NAN);
         }
         let touches = self.has_code(Effect::AlarmIfNotTouched);
-        state.probe.result.put(if touches { Truth::True } else { Truth::Unknown });
+        state.probe.result = if touches { Truth::True } else { Truth::Unknown };
         Ok(())
     }
 
@@ -124,7 +124,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 let (start, end) = (from.raw(axis), state.position().raw(axis));
                 state.points.position.set(axis, end - (end - start) * distance / length);
             }
-            state.points.actual.put(self.axes_of(state.position(), state));
+            state.points.actual = self.axes_of(state.position(), state);
         }
     }
 

@@ -31,7 +31,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.reset_to(ix, state);
         }
         if self.model.semantics().end_clears_feed {
-            state.feed.rate.put(D::number(0.0));
+            state.feed.rate = D::number(0.0);
         }
         if pallet {
             self.emit(state, Event::PalletChange);
@@ -51,11 +51,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match effect {
             Effect::WorkOffset(number) => {
                 let machine = state.machine(self.model);
-                state.offsets.work.put(Flat::Known(number));
+                state.offsets.work = Flat::Known(number);
                 let offset = state.tables().offset(number);
-                state.offsets.in_effect.put(offset);
-                state.points.actual.put(state.from_machine(&machine, self.model));
-                state.points.position.put(self.programmed_of(state.actual(), state));
+                state.offsets.in_effect = offset;
+                state.points.actual = state.from_machine(&machine, self.model);
+                state.points.position = self.programmed_of(state.actual(), state);
                 self.announce_offset(state);
                 self.announce_rotation(state);
             }
@@ -66,22 +66,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::FeedRate(0.0));
             }
             Effect::OverridesOn => {
-                if *state.feed.overridable != Truth::True {
-                    state.feed.overridable.put(Truth::True);
+                if state.feed.overridable != Truth::True {
+                    state.feed.overridable = Truth::True;
                     self.emit(state, Event::Override { kind: Override::Feed, on: true });
                 }
-                state.spindle.overridable.put(Truth::True);
+                state.spindle.overridable = Truth::True;
             }
             Effect::SpindleStop => {
-                state.spindle.way.put(Flat::Known(Spindle::Stopped));
+                state.spindle.way = Flat::Known(Spindle::Stopped);
                 self.emit(state, Event::Spindle(Spindle::Stopped));
             }
             Effect::ConstantSpeed => self.emit(state, Event::SpindleMode(None)),
             Effect::CoolantOff => {
-                if *state.coolant.mist != Truth::False {
+                if state.coolant.mist != Truth::False {
                     self.coolant(Coolant::Mist, false, state);
                 }
-                if *state.coolant.flood != Truth::False {
+                if state.coolant.flood != Truth::False {
                     self.coolant(Coolant::Flood, false, state);
                 }
             }
@@ -106,16 +106,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             modes: state.modes.all(),
             feed: D::known(state.feed()).unwrap_or(f64::NAN),
             speed: D::known(state.speed()).unwrap_or(f64::NAN),
-            spindle: *state.spindle.way,
-            mist: *state.coolant.mist,
-            flood: *state.coolant.flood,
+            spindle: state.spindle.way,
+            mist: state.coolant.mist,
+            flood: state.coolant.flood,
             length: *state.length(),
-            feed_override: *state.feed.overridable,
-            speed_override: *state.spindle.overridable,
-            blending: *state.blending,
+            feed_override: state.feed.overridable,
+            speed_override: state.spindle.overridable,
+            blending: state.blending,
             speed_limit: state.speed_limit(),
-            adaptive: *state.feed.adaptive,
-            feed_hold: *state.feed.hold,
+            adaptive: state.feed.adaptive,
+            feed_hold: state.feed.hold,
         }
     }
 
@@ -184,7 +184,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.restore_offsets(&was, saved, state);
         if restores_path {
-            state.blending.put(saved.blending);
+            state.blending = saved.blending;
             if let Some(mode) = self.current_path_mode(state) {
                 self.path_mode(mode, state);
             }
@@ -206,7 +206,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if state.compensation.on.is_no() && self.compensates(state) {
             // The mode is back, the path beside the programmed one is not.
-            state.compensation.on.put(Perhaps::Yes(Course::Unknown));
+            state.compensation.on = Perhaps::Yes(Course::Unknown);
         }
         if units && let Some(units) = state.units(self.model) {
             self.emit(state, Event::Units(units));
@@ -216,10 +216,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         // A change of the feed mode leaves no feed; else the saved one is in effect again.
         let feed = if feed_mode { 0.0 } else { saved.feed };
-        state.feed.rate.put(known::<D>(feed));
+        state.feed.rate = known::<D>(feed);
         let mode = *state.mode(Role::FeedMode);
-        state.feed.given_under.put(mode);
-        state.spindle.speed.put(known::<D>(saved.speed));
+        state.feed.given_under = mode;
+        state.spindle.speed = known::<D>(saved.speed);
         if (feed_mode || was.feed.to_bits() != saved.feed.to_bits())
             && state.feed_mode(self.model) != Some(FeedMode::InverseTime)
         {
@@ -233,7 +233,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.emit(state, Event::SpindleSpeed(saved.speed));
         }
         if was.spindle != saved.spindle {
-            state.spindle.way.put(saved.spindle);
+            state.spindle.way = saved.spindle;
             if let Flat::Known(spindle) = saved.spindle {
                 self.emit(state, Event::Spindle(spindle));
             }
@@ -273,18 +273,18 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         if state.mode(Role::Compensation).only().is_none() {
-            state.compensation.on.put(Perhaps::Unknown);
+            state.compensation.on = Perhaps::Unknown;
         }
         state.feed.forget();
         let mode = *state.mode(Role::FeedMode);
-        state.feed.given_under.put(mode);
+        state.feed.given_under = mode;
         let limit = state.speed_limit();
         let live_tool = state.live_tool();
         state.spindle.forget();
-        state.spindle.limit.put(limit);
-        state.spindle.live_tool.put(live_tool);
+        state.spindle.limit = limit;
+        state.spindle.live_tool = live_tool;
         state.coolant.forget();
-        state.blending.put(Blending::UNKNOWN);
+        state.blending = Blending::UNKNOWN;
         self.lose_length(state);
         if state.mode(Role::WorkOffset).only().is_none() {
             self.select_work_offset(None, state);
@@ -306,22 +306,22 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return;
             }
             Switch::Overrides => {
-                state.feed.overridable.put(Truth::True);
-                state.spindle.overridable.put(Truth::True);
+                state.feed.overridable = Truth::True;
+                state.spindle.overridable = Truth::True;
                 self.emit(state, Event::Override { kind: Override::Feed, on: true });
                 self.emit(state, Event::Override { kind: Override::Speed, on: true });
                 return;
             }
             Switch::Speed => {
-                state.spindle.overridable.put(truth);
+                state.spindle.overridable = truth;
                 Override::Speed
             }
             Switch::Adaptive => {
-                state.feed.adaptive.put(truth);
+                state.feed.adaptive = truth;
                 Override::Adaptive
             }
             Switch::FeedStop => {
-                state.feed.hold.put(truth);
+                state.feed.hold = truth;
                 Override::FeedStop
             }
         };

@@ -48,7 +48,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let programmed = self.programmed_of(&to, state);
         self.travel(TravelKind::Rapid, programmed, true, state)?;
         // Beyond the turning of unknown coordinates, this is where the axes stand.
-        state.points.actual.put(to);
+        state.points.actual = to;
         if self.model.semantics().reference_cancels_length {
             self.cancel_length(state);
         }

@@ -23,17 +23,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if D::known(&value).is_some_and(|f| f < 0.0) {
             return Err(Fault::WordRange(Letter::of('F')));
         }
-        state.feed.word.put(value.clone());
-        state.feed.given_under.put(*state.mode(Role::FeedMode));
+        state.feed.word = value.clone();
+        state.feed.given_under = *state.mode(Role::FeedMode);
         let mode = state.feed_mode(self.model);
-        state.feed.rate.put(match (mode, D::known(&value)) {
+        state.feed.rate = match (mode, D::known(&value)) {
             (Some(FeedMode::InverseTime), _) => value,
             (_, Some(0.0)) => D::number(0.0),
             // Moves a minute have no unit, and it may be those.
             (None, Some(_)) if state.mode(Role::FeedMode).only().is_none() => D::unknown(),
             (_, Some(number)) => D::number(number * self.unit(state)),
             (_, None) => D::unknown(),
-        });
+        };
         if mode != Some(FeedMode::InverseTime) {
             let rate = D::known(state.feed()).unwrap_or(f64::NAN);
             self.emit(state, Event::FeedRate(rate));
@@ -54,7 +54,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         let rate = D::known(&value).unwrap_or(f64::NAN);
-        state.spindle.speed.put(value);
+        state.spindle.speed = value;
         self.emit(state, Event::SpindleSpeed(rate));
         Ok(())
     }
@@ -66,9 +66,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(());
         }
         if let Some(limit) = self.words.number(Letter::of('D')) {
-            state.spindle.limit.put(limit.abs());
+            state.spindle.limit = limit.abs();
         } else if self.model.semantics().feed_mode_clears_feed {
-            state.spindle.limit.put(f64::INFINITY);
+            state.spindle.limit = f64::INFINITY;
         }
         let limit = state.speed_limit();
         self.emit(state, Event::SpindleMode(Some(limit)));
@@ -77,7 +77,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G50 S` of lathes: the limit holds at once where constant surface speed is on.
     pub(super) fn limit_speed(&mut self, state: &mut State<D>) {
-        state.spindle.limit.put(self.words.number(Letter::of('S')).unwrap_or(f64::NAN));
+        state.spindle.limit = self.words.number(Letter::of('S')).unwrap_or(f64::NAN);
         if state.effect(Role::SpindleMode, self.model) == Some(Effect::SurfaceSpeed) {
             let limit = state.speed_limit();
             self.emit(state, Event::SpindleMode(Some(limit)));
@@ -86,7 +86,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `M3`, `M4`, `M5`.
     pub(super) fn spindle(&mut self, spindle: Spindle, state: &mut State<D>) -> Step {
-        state.spindle.way.put(Flat::Known(spindle));
+        state.spindle.way = Flat::Known(spindle);
         self.emit(state, Event::Spindle(spindle));
         Ok(())
     }
@@ -96,7 +96,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         match spindle {
             Some(spindle) => self.spindle(spindle, state),
             None => {
-                state.spindle.way.put(Flat::Unknown);
+                state.spindle.way = Flat::Unknown;
                 Ok(())
             }
         }
@@ -122,7 +122,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if timeout.is_some_and(|timeout| timeout <= 0.0) {
             return Err(Fault::WordRange(Letter::of('Q')));
         }
-        state.spindle.way.put(Flat::Known(Spindle::Stopped));
+        state.spindle.way = Flat::Known(Spindle::Stopped);
         self.emit(state, Event::OrientSpindle { angle, way });
         if let Some(timeout) = timeout {
             self.emit(state, Event::WaitOrient(Seconds(timeout)));
@@ -163,12 +163,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let rules = self.model.semantics().tools;
         let Some(word) = self.count(Letter::of('T'))? else { return Ok(()) };
         let Count::Known(mut number) = word else {
-            state.tool.selected.put(self.words.get(Letter::of('T')).unwrap_or_else(D::unknown));
+            state.tool.selected = self.words.get(Letter::of('T')).unwrap_or_else(D::unknown);
             self.emit(state, Event::SelectTool(None));
             if rules.change_by_t {
-                state.tool.number.put(D::unknown());
-                state.tool.length.put(Position::UNKNOWN);
-                state.tool.h.put(D::unknown());
+                state.tool.number = D::unknown();
+                state.tool.length = Position::UNKNOWN;
+                state.tool.h = D::unknown();
                 self.emit(state, Event::ToolChange(None));
             }
             return Ok(());
@@ -184,14 +184,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if state.tables().is_complete() && number != 0 && state.tables().tool(number).is_none() {
             return Err(Fault::NoSuchTool(number));
         }
-        state.tool.selected.put(D::number(f64::from(number)));
+        state.tool.selected = D::number(f64::from(number));
         self.emit(state, Event::SelectTool(Some(number)));
         if rules.change_by_t {
             self.put_tool(Some(number), state);
         }
         if let Some(offset) = offset {
             self.apply_length(offset, 1.0, state)?;
-            state.tool.d.put(D::number(f64::from(offset)));
+            state.tool.d = D::number(f64::from(offset));
         }
         Ok(())
     }
@@ -222,7 +222,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {
-        state.tool.number.put(number.map_or_else(D::unknown, |n| D::number(f64::from(n))));
+        state.tool.number = number.map_or_else(D::unknown, |n| D::number(f64::from(n)));
         self.load(number, state);
         self.emit(state, Event::ToolChange(number));
     }
@@ -235,9 +235,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(number) => {
                 let data = state.tables().tool(number).copied().unwrap_or(unknown);
                 let entry = Self::entry_of(number, state);
-                state.tool.loaded.put(Loaded { data, entry });
+                state.tool.loaded = Loaded { data, entry };
             }
-            None => state.tool.loaded.put(Loaded { data: unknown, entry: Perhaps::Unknown }),
+            None => state.tool.loaded = Loaded { data: unknown, entry: Perhaps::Unknown },
         }
     }
 
@@ -253,13 +253,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if state.tables().is_complete() && number != 0 && state.tables().tool(number).is_none() {
                     return Err(Fault::NoSuchTool(number));
                 }
-                state.tool.number.put(D::number(f64::from(number)));
+                state.tool.number = D::number(f64::from(number));
                 // Only its number: the data of the tool that was loaded stay in effect.
                 state.tool.loaded.entry = Self::entry_of(number, state);
                 self.emit(state, Event::SetToolNumber(Some(number)));
             }
             Some(Count::Unknown) => {
-                state.tool.number.put(D::unknown());
+                state.tool.number = D::unknown();
                 self.emit(state, Event::SetToolNumber(None));
             }
             None => return Err(Fault::MissingWord(Letter::of('Q'))),

@@ -51,7 +51,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::WorkPosition | V::EndPosition => coordinate(state.actual()),
             V::MachinePosition => coordinate(&state.machine(self.model)),
             V::ProbePosition => coordinate(&state.probe.point),
-            V::ProbeResult => truth(*state.probe.result),
+            V::ProbeResult => truth(state.probe.result),
             V::LengthOffset => coordinate(&state.tool.length),
             V::WorkOffset => {
                 let first = variable.of.as_deref().and_then(|of| of.parse::<u32>().ok()).unwrap_or(1);
@@ -59,7 +59,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             V::WorkRotation => number(state.tables().offset((row + 1) as u16).rotation),
             V::Shift => machine_units(&state.offsets.shift),
-            V::ShiftActive => truth(*state.offsets.shift_on),
+            V::ShiftActive => truth(state.offsets.shift_on),
             V::WorkOffsetNumber => state.work().map_or_else(D::unknown, |n| {
                 if variable.name.is_some() { self.work_code(n) } else { D::number(f64::from(n)) }
             }),
@@ -109,8 +109,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             V::IsPerRevolution => flag(state.feed_mode(self.model).map(|m| m == FeedMode::PerRevolution)),
             V::SpindleOn => flag(state.spindle().map(|s| s != Spindle::Stopped)),
             V::SpindleClockwise => flag(state.spindle().map(|s| s == Spindle::Clockwise)),
-            V::MistOn => truth(*state.coolant.mist),
-            V::FloodOn => truth(*state.coolant.flood),
+            V::MistOn => truth(state.coolant.mist),
+            V::FloodOn => truth(state.coolant.flood),
             V::CompensationOn => {
                 let mode = state.mode(Role::Compensation).only();
                 flag(mode.map(|_| self.compensates(state)))
@@ -124,10 +124,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     _ => D::unknown(),
                 }
             }
-            V::FeedOverrideOn => truth(*state.feed.overridable),
-            V::SpeedOverrideOn => truth(*state.spindle.overridable),
-            V::AdaptiveFeedOn => truth(*state.feed.adaptive),
-            V::FeedStopOn => truth(*state.feed.hold),
+            V::FeedOverrideOn => truth(state.feed.overridable),
+            V::SpeedOverrideOn => truth(state.spindle.overridable),
+            V::AdaptiveFeedOn => truth(state.feed.adaptive),
+            V::FeedStopOn => truth(state.feed.hold),
             V::LengthOffsetOn => {
                 let length = state.tool.length.values();
                 flag(length.iter().all(|l| !l.is_nan()).then(|| length.iter().any(|l| *l != 0.0)))
@@ -244,9 +244,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 // Written, but in effect only when the system is chosen again; elsewhere at once.
                 if state.work() == Some(system) && !self.refuses_incomplete() {
-                    state.offsets.in_effect.put(offset);
-                    state.points.actual.put(Position::UNKNOWN);
-                    state.points.position.put(Position::UNKNOWN);
+                    state.offsets.in_effect = offset;
+                    state.points.actual = Position::UNKNOWN;
+                    state.points.position = Position::UNKNOWN;
                 }
                 state.offsets.tables_mut().set_offset(system, offset);
             }

@@ -45,11 +45,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return Ok(());
             }
             Some(Count::Known(number)) => {
-                state.tool.h.put(D::number(f64::from(number)));
+                state.tool.h = D::number(f64::from(number));
                 self.length_of_tool(number, state)?
             }
             Some(Count::Unknown) => {
-                state.tool.h.put(self.words.get(Letter::of('H')).unwrap_or_else(D::unknown));
+                state.tool.h = self.words.get(Letter::of('H')).unwrap_or_else(D::unknown);
                 // It may be the zero that ends the mode.
                 let off = ModeSet::one(self.model.code_with(Effect::LengthOff));
                 state.modes.add(Role::Length, &off);
@@ -106,7 +106,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G141`: the size of `D` along the vector of each block.
     pub(super) fn cutter_along_vectors(&mut self, state: &mut State<D>) -> Step {
         self.flush_compensation(state)?;
-        state.compensation.on.put(Perhaps::No);
+        state.compensation.on = Perhaps::No;
         let (radius, _) = self.cutter_radius(state)?;
         state.tool_shift.cutter = Some(radius);
         self.stand_beside(state);
@@ -129,7 +129,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.length_along_tool(state)?;
             } else {
                 // On or off: the word may be read, or not.
-                state.tool.h.put(D::unknown());
+                state.tool.h = D::unknown();
                 state.tool_shift.along = Some(f64::NAN);
                 self.stand_beside(state);
             }
@@ -139,7 +139,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.remember_offset_number(state)?;
                 state.tool_shift.cutter = Some(self.cutter_radius(state)?.0);
             } else {
-                state.tool.d.put(D::unknown());
+                state.tool.d = D::unknown();
                 state.tool_shift.cutter = Some(f64::NAN);
             }
         }
@@ -216,7 +216,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.tool_shift(&here, state)
             }
         };
-        state.points.position.put(self.programmed_of(state.actual(), state));
+        state.points.position = self.programmed_of(state.actual(), state);
     }
 
     /// After a block: how far the axes stand beside the programmed point.

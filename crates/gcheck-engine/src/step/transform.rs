@@ -23,7 +23,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G50`, `G51`, `G68`, `G69`, mirrors.
     pub(super) fn transform_code(&mut self, effect: Effect, state: &mut State<D>) -> Step {
         let unit = self.unit(state);
-        let mut transform = *state.transform;
+        let mut transform = state.transform;
         let word = |letter: char| self.words.number(Letter::of(letter));
         let position = *state.position();
         let centre = XYZ.map(|axis| word(axis.name()).map_or(position.raw(axis), |value| value * unit));
@@ -65,9 +65,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             _ => {}
         }
-        state.transform.put(transform);
+        state.transform = transform;
         let programmed = self.programmed_of(state.actual(), state);
-        state.points.position.put(programmed);
+        state.points.position = programmed;
         Ok(())
     }
 

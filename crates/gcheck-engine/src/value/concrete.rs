@@ -1,6 +1,6 @@
 //! Values of a run.
 //!
-//! Knows: numbers, nothing, and values that nobody told us. Must not know: what an operator gives on numbers (`scalar`).
+//! Knows: numbers, nothing, and values that are not known. Must not know: what an operator gives on numbers (`scalar`).
 
 use std::hash::{Hash, Hasher};
 

@@ -68,7 +68,7 @@ pub(super) fn offer_renumber(snapshot: &Snapshot, actions: &mut Vec<CodeAction>)
     if snapshot.survey().labels.is_empty() {
         return;
     }
-    // Why it cannot be done is said to people who ask for it, not to those who look at what can be done.
+    // The reason of a refusal is for people who ask for the action, not for those who look at the list.
     if let Ok(edits) = renumber(&snapshot.text(), &snapshot.dialect(), &NUMBERING)
         && !edits.is_empty()
     {

@@ -70,7 +70,7 @@ impl ChunkFindings {
     pub fn new(text: &str, end: u32, environment: Environment<'_>, selection: &Selection) -> Self {
         let plan = Plan::new(selection);
         let table = lower(text, environment.dialect);
-        let mut collector = Collector::new(environment.control());
+        let mut collector = Collector::new(environment);
         check_blocks(environment, &plan, end, 0, &table, text, &mut collector);
         let (findings, omitted) = collector.into_parts();
         Self { findings, omitted }

@@ -14,8 +14,8 @@ use std::rc::Rc;
 
 use gcheck_diagnostics::{Finding, Severity};
 use gcheck_engine::{
-    Assumption, At, Checkpoint, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult, GivenUp, Leg,
-    Machine, Model, Options, Program, ProgramFile, Trace, flow_from,
+    Assumption, At, Checkpoint, Choice, Ending, Event, Facts, Fault, FlowCx, FlowObserver, FlowResult,
+    GivenUp, Leg, Machine, Model, Options, Parting, Program, ProgramFile, Task, Trace, flow_from,
 };
 use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
@@ -23,14 +23,17 @@ use rustc_hash::FxHashMap;
 use super::anchored::AnchoredFinding;
 use super::layout::Layout;
 use super::rule_state::RuleState;
+use crate::Environment;
 use crate::check::{Assumptions, Collector};
-use crate::watchers::Watchers;
-use crate::{Environment, RuleEntry};
+use crate::partitions::{Case, Partitions, Rules, Told};
+use crate::watchers::{Scope, Watchers};
 
 /// What is kept of the analysis, for each position of the block delete switches.
 #[derive(Debug, Default)]
 pub(crate) struct Paths {
     chains: Vec<Chain>,
+    /// Ways of the first conditions, each followed by itself.
+    partitions: Vec<Chain>,
     /// The rules that had something to watch.
     active: Vec<&'static str>,
     /// What was done is no base for going on: all is analysed again at the next change.
@@ -41,6 +44,12 @@ pub(crate) struct Paths {
 #[derive(Debug)]
 struct Chain {
     skip: u16,
+    /// What its findings hold for.
+    scope: Scope,
+    /// Blocks have their names in them.
+    choices: Vec<Choice>,
+    /// It was given up, or cut where it must not be: the next analysis cannot go on from it.
+    is_used_up: bool,
     segments: Vec<Segment>,
     /// What the rules remember at the end.
     end: Option<RuleState>,
@@ -66,6 +75,8 @@ struct Segment {
     asked: Facts,
     set: Facts,
     reached: Vec<Run>,
+    /// Blocks have their names in them.
+    partings: Vec<Parting>,
     /// Slots of the chunks that it read or names in findings.
     reads: Vec<u32>,
     /// It asked for all blocks with these flags.
@@ -105,12 +116,13 @@ pub(crate) enum Broken {
 }
 
 /// What the analysis needs to know.
+#[derive(Clone, Copy)]
 pub(crate) struct Inputs<'g> {
     pub(crate) environment: Environment<'g>,
     pub(crate) program: &'g Program<'g>,
     pub(crate) model: &'g Model<'g>,
     pub(crate) survey: &'g Survey,
-    pub(crate) rules: &'g [(&'static RuleEntry, Option<Severity>)],
+    pub(crate) rules: Rules<'g>,
     pub(crate) fuel: u64,
     pub(crate) layout: &'g Layout,
     pub(crate) stop: &'g dyn Fn() -> bool,
@@ -132,7 +144,8 @@ pub struct Work {
 impl Paths {
     /// Marks what an edit makes stale beside what it changes itself: chunks with blocks of these flags came.
     pub(crate) fn note_flags(&mut self, flags: BlockFlags) {
-        for segment in self.chains.iter_mut().flat_map(|chain| &mut chain.segments) {
+        let chains = self.chains.iter_mut().chain(&mut self.partitions);
+        for segment in chains.flat_map(|chain| &mut chain.segments) {
             segment.is_stale |= segment.flags.intersects(flags);
         }
     }
@@ -153,7 +166,7 @@ impl Paths {
         let mut add =
             |severity: Option<Severity>, finding: Finding| found.borrow_mut().push((severity, finding));
         let Inputs { environment, program, model, survey, rules, .. } = *inputs;
-        let mut watchers = Watchers::new(environment, program, model, survey, rules, &mut add);
+        let mut watchers = Watchers::new(environment, program, model, survey, rules.active, &mut add);
         let active = watchers.active();
         let is_known = !self.unsure
             && self.active == active
@@ -163,21 +176,28 @@ impl Paths {
                 return Err(Broken::Useless);
             }
             self.active = active;
-            self.chains =
-                switches.iter().map(|skip| Chain { skip: *skip, segments: Vec::new(), end: None }).collect();
+            let scope = |index| if index == 0 { Scope::All } else { Scope::Skipping };
+            let chain = |(index, skip): (usize, &u16)| Chain::new(*skip, scope(index), Vec::new());
+            self.chains = switches.iter().enumerate().map(chain).collect();
+            self.partitions.clear();
         }
         let remembers = watchers.remembers_all();
-        for chain in &mut self.chains {
+        for index in 0..self.chains.len() {
+            let Some(chain) = self.chains.get_mut(index) else { break };
             loop {
                 let offers = remembers && !self.unsure;
                 let went_back = match advance(chain, inputs, &mut watchers, &found, offers, work) {
                     Err(Broken::Enough) => {
-                        collect(inputs.layout, [&*chain], collector, Vec::new());
+                        // Those before it are whole, and say what holds with either position of the switch.
+                        let known = self.chains.iter().take(index + 1);
+                        collect(inputs.layout, known, Vec::new(), &mut |severity, finding| {
+                            collector.add(severity, finding);
+                        });
                         return Err(Broken::Enough);
                     }
                     done => done?,
                 };
-                self.unsure |= chain.segments.iter().any(|segment| !segment.given_up.is_empty());
+                self.unsure |= chain.is_given_up();
                 if !went_back {
                     break;
                 }
@@ -185,15 +205,15 @@ impl Paths {
                 self.unsure = true;
                 chain.segments.clear();
             }
-            if chain.segments.iter().map(|segment| segment.work).sum::<u64>() >= inputs.fuel && work.kept > 0
-            {
+            if chain.work() >= inputs.fuel && work.kept > 0 {
                 return Err(Broken::Useless);
             }
         }
         self.unsure |= !remembers && self.chains.iter().any(|chain| chain.segments.len() > 1);
+        let left_some_out = self.update_partitions(inputs, &mut watchers, &found, remembers, work)?;
         let results: Vec<FlowResult> = self.chains.iter().map(|chain| chain.result(inputs.layout)).collect();
         if let Some(end) = self.chains.last().and_then(|chain| chain.end.as_ref()) {
-            watchers.restart();
+            watchers.restart(Scope::All);
             if !end.restore(&mut watchers, inputs.layout) {
                 return Err(Broken::Useless);
             }
@@ -204,12 +224,78 @@ impl Paths {
             watchers.finish(first, others);
         }
         drop(watchers);
-        collect(inputs.layout, &self.chains, collector, found.into_inner());
+        let mut told = Told::default();
+        collect(inputs.layout, &self.chains, found.into_inner(), &mut |severity, finding| {
+            told.note(&finding);
+            collector.add(severity, finding);
+        });
+        self.collect_partitions(inputs, &mut told, collector);
         let mut assumptions = Assumptions::new();
         for result in &results {
             assumptions.extend(result.assumptions.iter().cloned());
         }
+        if left_some_out {
+            assumptions.insert(Assumption::PathsJoined);
+        }
         Ok((assumptions, results.iter().any(FlowResult::is_incomplete)))
+    }
+
+    /// Follows the ways of the first conditions, each by itself. True when some were left out.
+    fn update_partitions(
+        &mut self,
+        inputs: &Inputs<'_>,
+        watchers: &mut Watchers<'_, '_>,
+        found: &RefCell<Vec<(Option<Severity>, Finding)>>,
+        offers: bool,
+        work: &mut Work,
+    ) -> Result<bool, Broken> {
+        let Some(first) = self.chains.first() else { return Ok(false) };
+        let mut partitions = Partitions::default();
+        partitions.add(&[], first.partings(inputs.layout));
+        let mut left = Partitions::work(first.work());
+        let mut known = std::mem::take(&mut self.partitions);
+        while let Some(choices) = partitions.next() {
+            let same = known.iter().position(|chain| chain.choices(inputs.layout).as_ref() == Some(&choices));
+            let kept = same.map(|index| known.swap_remove(index)).filter(|chain| !chain.is_used_up);
+            let is_kept = kept.is_some();
+            let mut chain =
+                kept.unwrap_or_else(|| Chain::new(first.skip, Scope::OneWay, named(&choices, inputs.layout)));
+            let fuel = inputs.fuel.min(left);
+            let inputs = Inputs { fuel, enough: u32::MAX, ..*inputs };
+            let went_back = advance(&mut chain, &inputs, watchers, found, offers, work)?;
+            if is_kept && (went_back || chain.is_given_up()) {
+                return Err(Broken::Useless);
+            }
+            if went_back {
+                chain.segments.clear();
+                advance(&mut chain, &inputs, watchers, found, false, work)?;
+            }
+            left = left.saturating_sub(chain.work());
+            if left == 0 {
+                partitions.leave_rest();
+            }
+            partitions.add(&choices, chain.partings(inputs.layout));
+            chain.is_used_up = went_back || chain.is_given_up();
+            self.partitions.push(chain);
+        }
+        Ok(partitions.left_some_out())
+    }
+
+    /// Adds what holds on some paths only.
+    fn collect_partitions(&self, inputs: &Inputs<'_>, told: &mut Told, collector: &mut Collector<'_>) {
+        for chain in &self.partitions {
+            let Some(choices) = chain.choices(inputs.layout) else { continue };
+            let case = Case::new(&choices, inputs.program, inputs.environment);
+            collect(inputs.layout, [chain], Vec::new(), &mut |severity, finding| {
+                if told.has(&finding) {
+                    return;
+                }
+                if let Some((severity, finding)) = case.of(severity, finding, inputs.rules) {
+                    told.note(&finding);
+                    collector.add(severity, finding);
+                }
+            });
+        }
     }
 
     /// Executes again what came by any of the blocks, with every switch of block delete off, and shows it to an observer.
@@ -241,7 +327,8 @@ impl Paths {
                 }
                 let mut once = Once { observer, stop: inputs.stop };
                 let fuel = inputs.fuel.saturating_sub(spent);
-                flow_from(inputs.program, inputs.model, machine, Options::NONE, fuel, checkpoint, &mut once);
+                let task = Task::all_paths(fuel);
+                flow_from(inputs.program, inputs.model, machine, task, checkpoint, &mut once);
             }
             spent += segment.work;
         }
@@ -253,26 +340,62 @@ impl Paths {
 fn collect<'c>(
     layout: &'c Layout,
     chains: impl IntoIterator<Item = &'c Chain>,
-    collector: &mut Collector<'_>,
     last: Vec<(Option<Severity>, Finding)>,
+    add: &mut dyn FnMut(Option<Severity>, Finding),
 ) {
     let mut made: HashSet<(&'static str, u32, &str)> = HashSet::new();
     let known = |chain: &'c Chain| chain.segments.iter().take_while(|segment| !segment.is_gap);
     for segment in chains.into_iter().flat_map(known) {
         for kept in &segment.findings {
             if made.insert(kept.key(layout)) {
-                collector.add(kept.severity, kept.found(layout));
+                add(kept.severity, kept.found(layout));
             }
         }
     }
     for (severity, finding) in last {
         if !made.contains(&(finding.rule.id, finding.range.start, finding.message.as_str())) {
-            collector.add(severity, finding);
+            add(severity, finding);
         }
     }
 }
 
+fn named(choices: &[Choice], layout: &Layout) -> Vec<Choice> {
+    let mut named = choices.to_vec();
+    for choice in &mut named {
+        layout.name(&mut choice.at);
+    }
+    named
+}
+
 impl Chain {
+    fn new(skip: u16, scope: Scope, choices: Vec<Choice>) -> Self {
+        Self { skip, scope, choices, is_used_up: false, segments: Vec::new(), end: None }
+    }
+
+    fn work(&self) -> u64 {
+        self.segments.iter().map(|segment| segment.work).sum()
+    }
+
+    fn is_given_up(&self) -> bool {
+        self.segments.iter().any(|segment| !segment.given_up.is_empty())
+    }
+
+    /// Its choices by the numbers of blocks; `None` when one of the blocks is not there any more.
+    fn choices(&self, layout: &Layout) -> Option<Vec<Choice>> {
+        let mut choices = self.choices.clone();
+        choices.iter_mut().all(|choice| layout.number_again(&mut choice.at)).then_some(choices)
+    }
+
+    /// Where its paths part.
+    fn partings(&self, layout: &Layout) -> Vec<Parting> {
+        let all = self.segments.iter().flat_map(|segment| &segment.partings);
+        let numbered = |parting: &Parting| {
+            let mut parting = *parting;
+            layout.number_again(&mut parting.at).then_some(parting)
+        };
+        all.filter_map(numbered).collect()
+    }
+
     /// Is all known of the paths that come by some blocks? An analysis that was given up, or has come far enough, knows what is
     /// in front of the block where it is to be taken up: nothing leads back over that.
     fn covers(&self, blocks: &Range<u32>, layout: &Layout) -> bool {
@@ -337,6 +460,35 @@ impl Entry {
     }
 }
 
+/// Takes over the old segments from `at` on that hold: the first that does not.
+fn take_over(
+    chain: &mut Chain,
+    old: &mut [Option<Segment>],
+    mut at: usize,
+    layout: &Layout,
+    carried: &mut Carried,
+    work: &mut Work,
+) -> usize {
+    while let Some(Some(segment)) = old.get(at) {
+        let differing = carried.as_ref().map_or(Facts::default(), |(facts, _)| *facts);
+        if !segment.holds(layout, differing) {
+            break;
+        }
+        let Some(mut segment) = old.get_mut(at).and_then(Option::take) else { break };
+        if let Some(entry) = &mut segment.entry {
+            entry.carry(carried);
+        }
+        if let Some((facts, _)) = carried {
+            *facts = facts.without(segment.set);
+        }
+        *carried = carried.take().filter(|(facts, _)| !facts.is_empty());
+        chain.segments.push(segment);
+        work.kept += 1;
+        at += 1;
+    }
+    at
+}
+
 /// Brings a chain up to date. True when execution came back over a checkpoint.
 fn advance(
     chain: &mut Chain,
@@ -353,24 +505,7 @@ fn advance(
     let mut carried: Carried = None;
     let mut entries: Option<FxHashMap<At, usize>> = None;
     loop {
-        // What holds is taken over.
-        while let Some(Some(segment)) = old.get(at) {
-            let differing = carried.as_ref().map_or(Facts::default(), |(facts, _)| *facts);
-            if !segment.holds(layout, differing) {
-                break;
-            }
-            let Some(mut segment) = old.get_mut(at).and_then(Option::take) else { break };
-            if let Some(entry) = &mut segment.entry {
-                entry.carry(&carried);
-            }
-            if let Some((facts, _)) = &mut carried {
-                *facts = facts.without(segment.set);
-            }
-            carried = carried.filter(|(facts, _)| !facts.is_empty());
-            chain.segments.push(segment);
-            work.kept += 1;
-            at += 1;
-        }
+        at = take_over(chain, &mut old, at, layout, &mut carried, work);
         if at == old.len() && at > 0 {
             return Ok(false);
         }
@@ -389,7 +524,7 @@ fn advance(
             work.kept = work.kept.saturating_sub(1);
         }
         // From here on it is executed.
-        watchers.restart();
+        watchers.restart(chain.scope);
         watchers.forget_made();
         found.take();
         let mut checkpoint = None;
@@ -404,7 +539,8 @@ fn advance(
             }
         }
         file.loaded.note_touched();
-        let fuel = inputs.fuel.saturating_sub(chain.segments.iter().map(|segment| segment.work).sum());
+        let fuel = inputs.fuel.saturating_sub(chain.work());
+        let choices = chain.choices(layout).ok_or(Broken::Useless)?;
         let mut recorder = Recorder {
             watchers: &mut *watchers,
             file: &file,
@@ -423,8 +559,9 @@ fn advance(
             executed: 0,
         };
         let options = Options { skip: chain.skip, ..Options::NONE };
+        let task = Task { options, choices: &choices, work: fuel };
         let machine = &inputs.environment.machine.engine;
-        let leg = flow_from(inputs.program, inputs.model, machine, options, fuel, checkpoint, &mut recorder);
+        let leg = flow_from(inputs.program, inputs.model, machine, task, checkpoint, &mut recorder);
         let (joined, stopped) = (recorder.joined.take(), leg.stopped);
         if joined.is_none() && !stopped {
             recorder.close(leg);
@@ -462,6 +599,7 @@ impl Segment {
             asked: Facts::default(),
             set: Facts::default(),
             reached: Vec::new(),
+            partings: Vec::new(),
             reads: Vec::new(),
             flags: BlockFlags::empty(),
             findings: Vec::new(),
@@ -538,6 +676,10 @@ impl Recorder<'_, '_, '_> {
                 }
             }
         }
+        let mut partings = leg.partings;
+        for parting in &mut partings {
+            self.layout.name(&mut parting.at);
+        }
         self.went_back |= leg.went_back;
         self.executed += 1;
         self.segments.push(Segment {
@@ -548,6 +690,7 @@ impl Recorder<'_, '_, '_> {
             set: leg.set,
             assumptions: leg.assumptions,
             reached,
+            partings,
             reads,
             flags: touched.flags,
             findings,

@@ -2,7 +2,7 @@
 //!
 //! Knows: the same ranges, signs and whole numbers that written words are judged by. Must not know: any rule.
 
-use gcheck_controls::{Confidence, WordKind};
+use gcheck_controls::{Code, Confidence, WordKind};
 use gcheck_engine::AbstractValue;
 use gcheck_program::{BlockFlags, Word};
 
@@ -52,8 +52,8 @@ pub(crate) fn refused<'a>(cx: &PathCx<'a>) -> Vec<Refused<'a>> {
         let Some(facts) = cx.facts(word.letter).filter(|facts| facts.kind != WordKind::Flag) else {
             continue;
         };
-        if let Some((value, why, is_certain)) = judged(&value, &facts) {
-            found.push(Refused { word, facts, value, why, is_certain });
+        if let Some((value, why, is_certain)) = judged(value, &facts) {
+            found.push(Refused { word: *word, facts, value, why, is_certain });
         }
     }
     found
@@ -95,7 +95,7 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     let Refused { word, facts, value, why, is_certain } = refused;
     let letter = word.letter;
     let range = cx.find_word(cx.origin().at, |other| other.range() == word.range());
-    let of = facts.code.map(|code| format!(" for `{}`", code.number())).unwrap_or_default();
+    let of = facts.code.map(|code| format!(" for `{}`", written(cx, code))).unwrap_or_default();
     let sure = if *is_certain { "is" } else { "may be" };
     let (what, takes, confidence) = match why {
         Why::Small => ("too small", range_of(facts), range_confidence(cx, refused)),
@@ -116,6 +116,17 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     let rounds = *why == Why::Fraction && facts.kind != WordKind::Program;
     let finding = if rounds { finding.at_most(Severity::Warning) } else { finding };
     if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
+}
+
+/// A code as the block writes it, `G04` where it says so.
+fn written(cx: &PathCx<'_>, code: Code<'_>) -> String {
+    let is_code =
+        |word: &Word| cx.control().code_at(word.code).is_some_and(|own| own.number() == code.number());
+    let at = cx.origin().at;
+    let range = cx.find_word(at, is_code);
+    let file = cx.program.file(at.file);
+    let text = range.zip(file.as_ref()).map(|(range, file)| file.loaded.slice(range).to_owned());
+    text.unwrap_or_else(|| code.number().to_string())
 }
 
 /// How sure a bound is: the code's own, or that of the address about its sign.

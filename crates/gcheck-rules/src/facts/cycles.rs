@@ -13,7 +13,7 @@ use crate::{PathCx, remembers};
 
 /// Bytes of the code that names the cycle; the block when none does.
 pub(crate) fn cycle_range(cx: &PathCx<'_>) -> Range<u32> {
-    cx.effect_range(is_cycle)
+    cx.effect_range(|effect| is_cycle(effect) || is_operation(effect))
 }
 
 /// Is it a canned cycle that stays on?
@@ -27,6 +27,16 @@ pub(crate) fn cycle_code<'a>(cx: &PathCx<'a>) -> Option<Code<'a>> {
     let own = cx.codes().iter().copied().find(|ix| is_operation(cx.model.effect(*ix)));
     let active = || cx.state().active_cycle(cx.model).filter(|ix| ix.is_some());
     control.code_at(own.or_else(active)?)
+}
+
+/// The code of the operation that the block makes, as programs write it.
+pub(crate) fn cycle_name(cx: &PathCx<'_>) -> String {
+    cycle_code(cx).map_or_else(String::new, |code| code.number().to_string())
+}
+
+/// Is the operation one of the block itself, not a canned cycle that stays on?
+pub(crate) fn is_own_operation(cx: &PathCx<'_>) -> bool {
+    cycle_code(cx).is_some_and(|code| is_operation(code.effect()))
 }
 
 /// Does it make several moves from the words of one block?

@@ -6,6 +6,7 @@ use gcheck_controls::{Code, CodeIx, CodeNumber, Effect};
 use gcheck_engine::{At, Fact, Role};
 
 use crate::facts::modes::{ActiveMode, in_effect};
+use crate::facts::probing::is_touch;
 use crate::{Finding, PathCx, RuleMeta, Severity, limit};
 
 /// Is the length of the tool added along the tool?
@@ -211,6 +212,9 @@ fn kind(code: Code<'_>) -> &'static str {
             Effect::CircularPocketClockwise | Effect::CircularPocketCounterClockwise | Effect::GeneralPocket,
         ) => "pocket",
         (_, Effect::BoltArc | Effect::BoltCircle | Effect::BoltLine) => "hole pattern",
+        (_, effect) if is_touch(effect) => "probing",
+        (_, Effect::Engrave) => "engraving",
+        (_, Effect::TapHere | Effect::LeftTapHere) => "tapping",
         _ => "code",
     }
 }

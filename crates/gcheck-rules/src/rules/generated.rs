@@ -22,6 +22,7 @@ pub(crate) mod bar_feeder {
     pub(crate) mod bar_push_shorter_than_part;
     pub(crate) mod bar_setup_mode_in_program;
     pub(crate) mod bar_too_short_for_part;
+    pub(crate) mod bar_without_second_part;
     pub(crate) mod chuck_moved_at_bar_feed;
     pub(crate) mod cutoff_program_without_return;
     pub(crate) mod mode_on_at_bar_feed;
@@ -63,7 +64,9 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_outline_unfit;
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
+    pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
+    pub(crate) mod thread_numbers_contradict;
     pub(crate) mod turning_profile_first_block;
     pub(crate) mod turning_profile_not_usable;
     pub(crate) mod turning_profile_turns_back;
@@ -100,6 +103,7 @@ pub(crate) mod flow {
 }
 
 pub(crate) mod machine {
+    pub(crate) mod axis_not_on_machine;
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
     pub(crate) mod data_starved;
@@ -187,6 +191,7 @@ pub(crate) mod motion {
     pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
+    pub(crate) mod rapid_below_zero_on_approach;
     pub(crate) mod rapid_between_cuts;
     pub(crate) mod rapid_in_material;
     pub(crate) mod rapid_plunge;
@@ -212,6 +217,7 @@ pub(crate) mod offsets {
 
 pub(crate) mod probing {
     pub(crate) mod first_touch_missing;
+    pub(crate) mod goes_on_after_touch;
     pub(crate) mod kept_touch_never_used;
     pub(crate) mod length_written_for_another_tool;
     pub(crate) mod maybe_first_touch_missing;
@@ -239,6 +245,7 @@ pub(crate) mod program {
     pub(crate) mod subprogram_missing;
     pub(crate) mod tape_mark_missing;
     pub(crate) mod units_comment_contradicts;
+    pub(crate) mod unsupported_dialect;
     pub(crate) mod wrong_control_suspicion;
 }
 
@@ -316,7 +323,9 @@ pub(crate) mod tool {
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
+    pub(crate) mod tool_call_in_comment;
     pub(crate) mod tool_called_not_changed;
+    pub(crate) mod tool_change_at_part;
     pub(crate) mod tool_change_without_stop;
     pub(crate) mod tool_change_without_t;
     pub(crate) mod tool_comment_of_another_tool;
@@ -328,12 +337,14 @@ pub(crate) mod words {
     pub(crate) mod arc_without_centre;
     pub(crate) mod axis_given_twice;
     pub(crate) mod axis_word_passed_over;
+    pub(crate) mod axis_word_unsure;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod dwell_time_in_other_word;
     pub(crate) mod lasting_word_never_given;
     pub(crate) mod maybe_computed_value_out_of_range;
     pub(crate) mod missing_decimal_point;
+    pub(crate) mod needed_word_missing;
     pub(crate) mod number_out_of_range;
     pub(crate) mod required_word_missing;
     pub(crate) mod sign_not_accepted;
@@ -369,6 +380,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &bar_feeder::bar_push_shorter_than_part::RULE,
     &bar_feeder::bar_setup_mode_in_program::RULE,
     &bar_feeder::bar_too_short_for_part::RULE,
+    &bar_feeder::bar_without_second_part::RULE,
     &bar_feeder::chuck_moved_at_bar_feed::RULE,
     &bar_feeder::cutoff_program_without_return::RULE,
     &bar_feeder::mode_on_at_bar_feed::RULE,
@@ -404,7 +416,9 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::pocket_outline_unfit::RULE,
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
+    &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
+    &cycles::thread_numbers_contradict::RULE,
     &cycles::turning_profile_first_block::RULE,
     &cycles::turning_profile_not_usable::RULE,
     &cycles::turning_profile_turns_back::RULE,
@@ -432,6 +446,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::return_outside_subroutine::RULE,
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
+    &machine::axis_not_on_machine::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
     &machine::data_starved::RULE,
@@ -507,6 +522,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
+    &motion::rapid_below_zero_on_approach::RULE,
     &motion::rapid_between_cuts::RULE,
     &motion::rapid_in_material::RULE,
     &motion::rapid_plunge::RULE,
@@ -526,6 +542,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &offsets::work_offset_not_chosen::RULE,
     &offsets::work_offset_of_one_tool::RULE,
     &probing::first_touch_missing::RULE,
+    &probing::goes_on_after_touch::RULE,
     &probing::kept_touch_never_used::RULE,
     &probing::length_written_for_another_tool::RULE,
     &probing::maybe_first_touch_missing::RULE,
@@ -550,6 +567,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::subprogram_missing::RULE,
     &program::tape_mark_missing::RULE,
     &program::units_comment_contradicts::RULE,
+    &program::unsupported_dialect::RULE,
     &program::wrong_control_suspicion::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::speed_missing::RULE,
@@ -612,7 +630,9 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,
+    &tool::tool_call_in_comment::RULE,
     &tool::tool_called_not_changed::RULE,
+    &tool::tool_change_at_part::RULE,
     &tool::tool_change_without_stop::RULE,
     &tool::tool_change_without_t::RULE,
     &tool::tool_comment_of_another_tool::RULE,
@@ -621,12 +641,14 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::arc_without_centre::RULE,
     &words::axis_given_twice::RULE,
     &words::axis_word_passed_over::RULE,
+    &words::axis_word_unsure::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::dwell_time_in_other_word::RULE,
     &words::lasting_word_never_given::RULE,
     &words::maybe_computed_value_out_of_range::RULE,
     &words::missing_decimal_point::RULE,
+    &words::needed_word_missing::RULE,
     &words::number_out_of_range::RULE,
     &words::required_word_missing::RULE,
     &words::sign_not_accepted::RULE,

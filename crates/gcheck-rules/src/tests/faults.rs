@@ -25,7 +25,7 @@ fn said(fault: &Fault) -> Said {
             ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
             ValueFault::NoSuchFunction => By(&["function-unknown"]),
         },
-        Fault::Undecidable => Nobody("what nobody told us is no mistake of the program"),
+        Fault::Undecidable => Nobody("what is not known is not a mistake of the program"),
         Fault::UnsetParameter => By(&["named-parameter-unset"]),
         Fault::ReadOnlyVariable(_) => {
             By(&["assignment-to-read-only-variable", "computed-variable-read-only"])
@@ -58,11 +58,13 @@ fn said(fault: &Fault) -> Said {
         Fault::NoInverseTimeFeed => By(&["inverse-time-feed-missing"]),
         Fault::SpindleStopped => By(&["spindle-stopped-while-cutting"]),
         Fault::SpindleDirection => By(&["tap-in-wrong-direction"]),
-        Fault::NoSuchAxis(_) => By(&["unknown-address"]),
+        Fault::NoSuchAxis(_) => {
+            By(&["axis-not-on-machine", "cylinder-axis-not-on-machine", "unknown-address"])
+        }
         Fault::NoMotionMode => By(&["axis-words-without-motion-mode"]),
         Fault::NoAxisWords => By(&["motion-without-axis-words"]),
         Fault::Arc(fault) => match fault {
-            ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on"]),
+            ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on", "arc-wrong-plane-word"]),
             ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
             ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
             ArcFault::ZeroRadius => By(&["zero-radius-arc"]),

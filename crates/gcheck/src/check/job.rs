@@ -16,7 +16,7 @@ use gcheck_syntax::SourceText;
 use super::cache::{Cache, Entry, Key, Questions, Run, Verdict, answers_hold};
 use crate::args::{Assignment, CheckOptions, Global, Switch};
 use crate::config::{Config, FileSettings, RuleWishes, unknown_rule};
-use crate::control_choice::choose;
+use crate::control_choice::{choose, narrow_for_dialect};
 use crate::in_force::Controls;
 use crate::programs::{ProgramFolders, Reachable};
 use crate::{Problem, in_force, reading};
@@ -108,8 +108,9 @@ fn decide(
 ) -> Result<Prepared, Problem> {
     let from = settings.control.as_deref().map(|name| (name, settings.control_from.as_deref()));
     let choice = choose(&target.path, &source, bench.control, from)?;
-    let selection =
+    let mut selection =
         settings.selection(&bench.wishes).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    narrow_for_dialect(&mut selection, choice.source, source.text());
     Ok(Prepared { source, settings, choice, selection })
 }
 

@@ -90,7 +90,6 @@ impl<'t> Checked<'t> {
             &table.max_rpm,
             &table.max_feed,
             &table.rotary_rapid,
-            &table.feed_override,
             &table.rapid_override,
             &table.corner_speed_change,
             &table.block_time,
@@ -106,6 +105,7 @@ impl<'t> Checked<'t> {
             &table.spindle_orient_seconds,
             &table.auxiliary_seconds,
             &table.pivot_length,
+            &table.feed_override,
         ];
         if let Some(number) = not_negative.into_iter().flatten().find(|n| n.value.is_nan() || n.value < 0.0) {
             return Err(self.text.problem(number, "must not be negative"));
@@ -120,8 +120,18 @@ impl<'t> Checked<'t> {
             self.figures(figures)?;
         }
         let [endless_numbers, whole_numbers] = [
-            [&table.block_time, &table.spindle_acceleration, &table.corner_speed_change],
-            [&table.tool_change_seconds, &table.pocket_seconds, &table.auxiliary_seconds],
+            [
+                &table.block_time,
+                &table.spindle_acceleration,
+                &table.corner_speed_change,
+                &table.feed_override,
+            ],
+            [
+                &table.tool_change_seconds,
+                &table.pocket_seconds,
+                &table.auxiliary_seconds,
+                &table.rapid_override,
+            ],
         ];
         for number in endless_numbers.into_iter().chain(whole_numbers).flatten() {
             if !number.value.is_finite() {

@@ -105,13 +105,16 @@ fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin
             (fault_words::alarm(*number, comment.as_deref()), None)
         }
         Stopped::Ended(_) => {
-            (fault_words::words(&gcheck_engine::Fault::NoProgramEnd, session.model, units), None)
+            let nothing = fault_words::Written::default();
+            let end = &gcheck_engine::Fault::NoProgramEnd;
+            (fault_words::words(end, session.model, &nothing, units), None)
         }
         Stopped::Faulted(gcheck_engine::Fault::Undecidable) => {
             (fault_words::undecidable(&unknown_variables(session, result, origin)), None)
         }
         Stopped::Faulted(fault) => {
-            (fault_words::words(fault, session.model, units), fault_words::culprit(fault))
+            let block = written(session, origin);
+            (fault_words::words(fault, session.model, &block, units), fault_words::culprit(fault))
         }
         Stopped::OutOfFuel => (fault_words::out_of_fuel(result.blocks), None),
     };
@@ -122,6 +125,19 @@ fn fault_at(session: &Session<'_>, result: &RunResult, stopped: &Stopped, origin
     };
     let range = range(session, origin, culprit);
     Fault { words, range, name: name.to_owned(), text }
+}
+
+/// Codes and addresses of the block.
+fn written<'s>(session: &'s Session<'_>, origin: Origin) -> fault_words::Written<'s> {
+    let file = session.program.file(origin.at.file);
+    let place = file.and_then(|file| file.loaded.place(origin.at.block, session.program.dialect()));
+    let Some(place) = place else { return fault_words::Written::default() };
+    let words = place.table.words(place.block());
+    let control = session.model.control();
+    fault_words::Written {
+        codes: words.iter().filter_map(|word| control.code_at(word.code)).collect(),
+        letters: words.iter().map(|word| word.letter).collect(),
+    }
 }
 
 /// The word that a fault is about, else the block.

@@ -84,6 +84,7 @@ impl Equipment {
         equipment.machine.kinematics = rotary.kinematics();
         equipment.timing = Timing::of_machine(model, &equipment.machine);
         equipment.contradictions(in_force)?;
+        equipment.switch_positions(control)?;
         equipment.plan = Plan::of_machine(model, &equipment.machine, &equipment.timing);
         let helix = control.semantics().helix.setting.as_ref();
         equipment.helix_setting =
@@ -168,6 +169,19 @@ impl Equipment {
                 None => Ok(()),
             },
             None => Ok(()),
+        }
+    }
+
+    /// Positions that the control's switches do not have.
+    fn switch_positions(&self, control: &Control) -> Result<(), Problem> {
+        match (self.machine.dynamics.feed_override, &control.limits().feed_override) {
+            (Some(percent), Some(switch)) if !switch.takes(percent) => Err(Problem::new(format!(
+                "[machine] feed_override is {percent}: the switch of {} has {}  [{}]",
+                control.name(),
+                switch.positions(),
+                switch.source
+            ))),
+            _ => Ok(()),
         }
     }
 
@@ -336,7 +350,8 @@ impl<'m> AxesSeen<'m> {
                     let effect = self.model.effect(word.code);
                     let is_macro = matches!(effect, Effect::MacroCall | Effect::MacroModal)
                         || self.model.control().code_at(word.code).is_some_and(|code| code.alias().is_some());
-                    has_arguments |= is_macro;
+                    // A word for the time of a dwell moves no axis.
+                    has_arguments |= is_macro || effect == Effect::Dwell;
                     self.says_units |= matches!(effect, Effect::Inch | Effect::Millimetre);
                     self.calls |= is_macro || effect == Effect::CallProgram;
                 }

@@ -72,7 +72,7 @@ fn what_was_found_many_times_in_a_file_is_named_once() {
 }
 
 #[test]
-fn what_is_mended_is_stale_until_the_next_update() {
+fn what_is_fixed_is_stale_until_the_next_update() {
     let shop = shop();
     update(&shop);
     shop.file("a.nc", GOOD);

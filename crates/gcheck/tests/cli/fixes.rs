@@ -117,7 +117,7 @@ fn standard_input_and_flags_without_their_command() {
 /// The second input is a pipe that is not filled before the first file was checked and changed by somebody else.
 #[cfg(unix)]
 #[test]
-fn a_file_that_changes_while_it_is_mended_is_left_alone() {
+fn a_file_that_changes_while_it_is_fixed_is_left_alone() {
     use std::fs;
     use std::process::{Command, Stdio};
 

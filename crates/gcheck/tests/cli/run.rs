@@ -584,3 +584,21 @@ fn past_alarms_every_block_is_reported_and_the_rest_is_run() {
     "#]],
     );
 }
+
+/// A fault speaks of the words that the programmer can change.
+#[test]
+fn faults_name_words_that_exclude_or_replace_each_other() {
+    let stops = |block: &str| {
+        let text = format!("O1\nG20 G90 G54\n{block}\nM30\n");
+        let shop = Shop::with(&[("part.nc", &text), ("gcheck.toml", "control = \"haas-mill\"\n")]);
+        shop.gcheck("run part.nc").stderr
+    };
+    for (block, says) in [
+        ("G107 Y0. Q2.", "`A` or `B` is missing in this block"),
+        ("G107 X0. Y0. A0.", "`X` and `Y` cannot be together in a block of `G107`"),
+        ("G107 Y0. A0. Q2. R1.", "`Q` and `R` cannot be together in a block of `G107`"),
+    ] {
+        let stderr = stops(block);
+        assert!(stderr.contains(says), "{block}: {stderr}");
+    }
+}

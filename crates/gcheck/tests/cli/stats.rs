@@ -386,3 +386,43 @@ fn names_of_tools_come_from_the_program_or_the_table() {
         json["tools"].as_array().unwrap().iter().filter_map(|tool| tool["name"].as_str()).collect();
     assert_eq!(names, ["from the table", "mine"]);
 }
+
+/// The pages of the control give the positions of its switch; 0 stands for axes that wait.
+#[test]
+fn a_feed_override_that_the_switch_does_not_have_is_refused() {
+    let program = "G21 G90 G94\nG0 X0. Y0. Z0.\nG1 X10. F100.\nM30\n";
+    for (percent, is_refused) in
+        [("160.0", true), ("85.0", true), ("0.0", false), ("90.0", false), ("150.0", false)]
+    {
+        let config = format!("control = \"generic-mill\"\n[machine]\nfeed_override = {percent}\n");
+        let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", &config)]);
+        for command in ["check part.nc", "stats part.nc"] {
+            let run = shop.gcheck(command);
+            assert_eq!(run.code == 2, is_refused, "{percent} {command}: {run}");
+            assert_eq!(
+                run.stderr.contains("0 to 150 percent in steps of 10"),
+                is_refused,
+                "{percent}: {run}"
+            );
+        }
+    }
+    let config = "control = \"generic-mill\"\n[machine]\nfeed_override = 0.0\n";
+    let shop = Shop::with(&[("part.nc", program), ("gcheck.toml", config)]);
+    let run = shop.gcheck("stats part.nc");
+    assert!(run.stdout.contains("1 move without a feed: not in time"), "{run}");
+    assert!(run.stdout.contains("the feed override is at 0 %"), "{run}");
+}
+
+/// A push that is shorter than a part makes none, however many bars are loaded.
+#[test]
+fn bars_that_give_no_part_are_counted_as_such() {
+    let program = "O1\nG21 G18 G99 G54\nT101\nM5\nG105 I20. J100. K190.\nG97 S500 M3\nG0 X10. Z2.\nG1 Z-15. F0.1\nG0 X50. Z50.\nM5\nM99\n";
+    let stats = |push: &str| {
+        let text = program.replace("I20.", push);
+        let config = "control = \"haas-lathe\"\n[machine]\nunits = \"mm\"\nbar_length = 300.0\nbars = 3\n";
+        let shop = Shop::with(&[("part.nc", &text), ("gcheck.toml", config)]);
+        shop.gcheck("stats part.nc").stdout
+    };
+    assert!(stats("I20.").contains("0 parts from"), "{}", stats("I20."));
+    assert!(stats("I105.").contains("1 a bar"), "{}", stats("I105."));
+}

@@ -5,7 +5,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use gcheck_engine::{FlowObserver, Machine, Model, NoLibrary, Options, Program, flow};
+use gcheck_engine::{FlowObserver, Machine, Model, NoLibrary, Program, Task, flow};
 use gcheck_format::{Style, formatted};
 use gcheck_program::{Dialect, Loaded, lower};
 use gcheck_syntax::{SourceText, count_tokens, cut, parse};
@@ -90,7 +90,7 @@ pub(super) fn rows() -> anyhow::Result<Vec<Row>> {
     let seconds = best(|| {
         let loaded = Loaded::new(program.as_str(), &dialect, |_, _, _| ());
         let program = Program::new(loaded, &dialect, &NoLibrary);
-        black_box(flow(&program, &model, &Machine::default(), Options::NONE, FUEL, &mut Nobody));
+        black_box(flow(&program, &model, &Machine::default(), Task::all_paths(FUEL), &mut Nobody));
     });
     rows.push(Row {
         name: "flow, 2,000 lines of macros".to_owned(),

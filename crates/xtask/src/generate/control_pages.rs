@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gcheck_controls::{
-    Access, Confidence, Control, LetterEntry, Limits, Machine, Motion, Need, NumberRules, Semicolon,
-    SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
+    Access, Confidence, Control, LetterEntry, Limits, Machine, Motion, Need, NumberRules, OverrideSwitch,
+    Semicolon, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
 };
 
 use super::generated::Generated;
@@ -141,6 +141,7 @@ fn limits(limits: &Limits) -> String {
         ("nesting of calls", limits.call_depth.map(|n| n.to_string())),
         ("highest sequence number", limits.max_sequence_number.map(|n| n.to_string())),
         ("program numbers", limits.program_numbers.map(range)),
+        ("feed override", limits.feed_override.as_ref().map(OverrideSwitch::positions)),
         ("numbers after `DO`", limits.do_numbers.map(|[low, high]| range([low.into(), high.into()]))),
     ];
     let rows: Vec<Vec<String>> =

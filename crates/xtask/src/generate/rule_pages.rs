@@ -32,7 +32,7 @@ fn page(rule: &RuleMeta) -> String {
     let row = vec![
         rule.severity.name().to_owned(),
         sets(rule),
-        mended_by(rule),
+        fixed_by(rule),
         rule.group.to_owned(),
         rule.tier.name().to_owned(),
         rule.since.to_owned(),
@@ -112,7 +112,7 @@ fn index(rules: &[&RuleMeta]) -> String {
             .map(|rule| {
                 let link = format!("[{id}]({id}.md)", id = rule.id);
                 let severity = rule.severity.name().to_owned();
-                vec![link, severity, sets(rule), mended_by(rule), rule.summary.to_owned()]
+                vec![link, severity, sets(rule), fixed_by(rule), rule.summary.to_owned()]
             })
             .collect();
         text.push_str(&markdown::table(&["rule", "severity", "in the sets", "fixed by", "reports"], &rows));
@@ -136,7 +136,7 @@ fn sets(rule: &RuleMeta) -> String {
     sets.iter().filter(is_told).copied().collect::<Vec<_>>().join(", ")
 }
 
-fn mended_by(rule: &RuleMeta) -> String {
+fn fixed_by(rule: &RuleMeta) -> String {
     match rule.fixability.option() {
         "" => String::new(),
         option => format!("`{option}`"),

@@ -823,7 +823,11 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &[],
         expected: Expected {
-            findings: &[],
+            findings: &[Finding(
+                "info[word-passed-over] 3",
+                Verdict::True,
+                "a snippet without the code that the offset is for",
+            )],
             shows: &[],
             not_yet: &[Shows::Finds("error[computed-value-out-of-range] 3")],
         },

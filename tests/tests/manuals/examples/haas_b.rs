@@ -1093,11 +1093,6 @@ const EXAMPLES: &[Example] = &[
                     Verdict::False,
                     "the block that begins it has no direction in the manual",
                 ),
-                Finding(
-                    "warning[lead-in-too-short] 14",
-                    Verdict::False,
-                    "it needs no lead-in: each point has its own direction",
-                ),
             ],
             shows: &[Shows::Run(&[
                 "feed 0.0350 0.0600 0.2537",
@@ -1181,18 +1176,11 @@ const EXAMPLES: &[Example] = &[
         )],
         config: &["tools.1.diameter=0.5"],
         expected: Expected {
-            findings: &[
-                Finding(
-                    "error[nested-comment] 17",
-                    Verdict::False,
-                    "the manual writes a comment in this way in four examples",
-                ),
-                Finding(
-                    "warning[lead-in-too-short] 18",
-                    Verdict::False,
-                    "the outline is in the file beside it: after it the tool is where the pocket was left",
-                ),
-            ],
+            findings: &[Finding(
+                "error[nested-comment] 17",
+                Verdict::False,
+                "the manual writes a comment in this way in four examples",
+            )],
             shows: &[],
             not_yet: &[Shows::Run(&["-0.1500", "-0.4000", "-1.5000"])],
         },
@@ -1223,18 +1211,11 @@ const EXAMPLES: &[Example] = &[
         )],
         config: &["tools.1.diameter=0.5"],
         expected: Expected {
-            findings: &[
-                Finding(
-                    "error[nested-comment] 18",
-                    Verdict::False,
-                    "the manual writes a comment in this way in four examples",
-                ),
-                Finding(
-                    "warning[lead-in-too-short] 19",
-                    Verdict::False,
-                    "the outline is in the file beside it: after it the tool is where the pocket was left",
-                ),
-            ],
+            findings: &[Finding(
+                "error[nested-comment] 18",
+                Verdict::False,
+                "the manual writes a comment in this way in four examples",
+            )],
             shows: &[],
             not_yet: &[Shows::Run(&["-0.2400", "-0.4900", "-0.5000"])],
         },
@@ -1265,18 +1246,11 @@ const EXAMPLES: &[Example] = &[
         )],
         config: &["tools.1.diameter=0.5"],
         expected: Expected {
-            findings: &[
-                Finding(
-                    "error[nested-comment] 18",
-                    Verdict::False,
-                    "the manual writes a comment in this way in four examples",
-                ),
-                Finding(
-                    "warning[lead-in-too-short] 19",
-                    Verdict::False,
-                    "the outline is in the file beside it: after it the tool is where the pocket was left",
-                ),
-            ],
+            findings: &[Finding(
+                "error[nested-comment] 18",
+                Verdict::False,
+                "the manual writes a comment in this way in four examples",
+            )],
             shows: &[],
             not_yet: &[Shows::Run(&["-0.4900"])],
         },
@@ -1307,18 +1281,11 @@ const EXAMPLES: &[Example] = &[
         )],
         config: &["tools.1.diameter=0.5"],
         expected: Expected {
-            findings: &[
-                Finding(
-                    "error[nested-comment] 16",
-                    Verdict::False,
-                    "the manual writes a comment in this way in four examples",
-                ),
-                Finding(
-                    "warning[lead-in-too-short] 17",
-                    Verdict::False,
-                    "the outline is in the file beside it: after it the tool is where the pocket was left",
-                ),
-            ],
+            findings: &[Finding(
+                "error[nested-comment] 16",
+                Verdict::False,
+                "the manual writes a comment in this way in four examples",
+            )],
             shows: &[],
             not_yet: &[Shows::Run(&["-0.4900"])],
         },
@@ -1335,14 +1302,7 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &[],
         expected: Expected {
-            findings: &[
-                Finding("info[program-number-missing] 7", Verdict::True, "the page gives no number"),
-                Finding(
-                    "warning[five-axis-feed-per-minute] 15",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
-            ],
+            findings: &[Finding("info[program-number-missing] 7", Verdict::True, "the page gives no number")],
             shows: &[],
             not_yet: &[],
         },
@@ -1364,11 +1324,6 @@ const EXAMPLES: &[Example] = &[
         config: &[],
         expected: Expected {
             findings: &[
-                Finding(
-                    "warning[five-axis-feed-per-minute] 7",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
                 Finding(
                     "error[five-axis-length-in-incremental] 13",
                     Verdict::False,
@@ -1407,11 +1362,6 @@ const EXAMPLES: &[Example] = &[
         expected: Expected {
             findings: &[
                 Finding(
-                    "warning[five-axis-feed-per-minute] 6",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
-                Finding(
                     "error[five-axis-length-in-incremental] 12",
                     Verdict::False,
                     "the manual goes home by G28 in this way; G28 takes no part in the length",
@@ -1448,11 +1398,6 @@ const EXAMPLES: &[Example] = &[
         config: &[],
         expected: Expected {
             findings: &[
-                Finding(
-                    "warning[five-axis-feed-per-minute] 7",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
                 Finding(
                     "error[five-axis-length-in-incremental] 13",
                     Verdict::False,
@@ -1491,11 +1436,6 @@ const EXAMPLES: &[Example] = &[
         expected: Expected {
             findings: &[
                 Finding(
-                    "warning[five-axis-feed-per-minute] 7",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
-                Finding(
                     "error[five-axis-length-in-incremental] 13",
                     Verdict::False,
                     "the manual goes home by G28 in this way; G28 takes no part in the length",
@@ -1533,11 +1473,6 @@ const EXAMPLES: &[Example] = &[
         expected: Expected {
             findings: &[
                 Finding(
-                    "warning[five-axis-feed-per-minute] 6",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
-                Finding(
                     "error[five-axis-length-in-incremental] 12",
                     Verdict::False,
                     "the manual goes home by G28 in this way; G28 takes no part in the length",
@@ -1574,11 +1509,6 @@ const EXAMPLES: &[Example] = &[
         config: &[],
         expected: Expected {
             findings: &[
-                Finding(
-                    "warning[five-axis-feed-per-minute] 7",
-                    Verdict::False,
-                    "nothing turns while the tool feeds",
-                ),
                 Finding(
                     "error[five-axis-length-in-incremental] 13",
                     Verdict::False,

@@ -4,7 +4,8 @@
 
 use std::fmt::Write as _;
 
-use crate::proof::{Program, Proof, on};
+use crate::proof::{Program, Proof, legal, noticed, on, open, rule, run, same};
+use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
 /// A milling control of which the page is all that is known.
@@ -36,7 +37,7 @@ pub(crate) const SYSTEM: System = System {
         // ---- helices ----
         Sentence {
             says: "The first two words of an arc are the end point on the two axes of the active plane.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill(
                         "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. R15. F200.\nG18 G3 X0. Z-4. R30.\nG19 G2 Y8. Z0. R20.\nM30\n",
@@ -57,11 +58,27 @@ pub(crate) const SYSTEM: System = System {
                     code: "G3",
                     says: "The two words of the active plane give the end point",
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=20.\nG2 X#100 Y[#100-20.] R[#100*0.75] F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. R15. F200.\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. R15. F200.\nM30\n"), &["arc 20.0000 0.0000 0.0000"]),
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG19\nG2 Y8. Z0. R20. F200.\nM30\n"), &["arc 0.0000 8.0000 0.0000"]),
+]),
+missing: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. R15. F200.\nM30\n"), &["arc 20.0000 0.0000 0.0000"]),
+rule("warning[full-circle-by-radius]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 R15. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 Y0. X20. R15. F200.\nM30\n")),
+]),
+extra: By(&[
+rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. I10. J0. K5. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. I10. J0. F200.\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "The third word is a linear axis beside the plane; its value is the height that the spiral reaches.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill(HELIX),
                     prints: &["arc 10.0000 0.0000 -8.0000 200 19.002 cw 360 deg about X0 Y0"],
@@ -83,11 +100,57 @@ pub(crate) const SYSTEM: System = System {
                     code: "G3",
                     says: "helix**, and its value is the height reached at the end",
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=-8.\nG2 X20. Y0. Z#100 I10. J0. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nZ-3.\nG2 X20. Y0. I10. J0. F200.\nM30\n"), &["arc 20.0000 0.0000 -3.0000"]),
+]),
+missing: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. I10. J0. F200.\nM30\n"), &["arc 20.0000 0.0000 0.0000"]),
+]),
+extra: By(&[
+rule("info[axis-word-unsure]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0. A0.\nG2 X20. Y0. A90. I10. J0. F200.\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"]), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0. A0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nG0 Z5.\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"])),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "Everything else of a helix, words and limits, is as for circular interpolation.",
-            proofs: &[
+            literal: By(&[
+legal(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nG3 X0. Y0. Z0. I-10. J0.\nM30\n")),
+]),
+computed: By(&[
+rule("warning[arc-radius-too-small]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=18.\nG2 X20. Y0. Z-5. R[#100/2] F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=22.\nG2 X20. Y0. Z-5. R[#100/2] F200.\nM30\n")),
+rule("warning[arc-end-off-circle]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=3.\nG2 X20. Y#100 I10. J0. Z-5. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=0\nG2 X20. Y#100 I10. J0. Z-5. F200.\nM30\n")),
+]),
+lasting: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nF200.\nG2 X20. Y0. Z-5. R11.\nM30\n")),
+rule("info[arc-mode-left-on]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. F200.\nX0. Y0. Z-10.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. F200.\nX0. Y0. Z-10. I-10. J0.\nM30\n")),
+]),
+missing: By(&[
+                Proof::Rule {
+                    finding: "warning[arc-without-centre]",
+                    violates: mill("G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. F200.\nM30\n"),
+                    conforms: mill(
+                        "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R#500 F200.\nM30\n",
+                    ),
+                },
+                Proof::Rule {
+                    finding: "error[feed-missing]",
+                    violates: mill("G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11.\nM30\n"),
+                    conforms: mill(
+                        "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n",
+                    ),
+                },
+rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. J10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. I10. F200.\nM30\n")),
+]),
+extra: By(&[
+open("a centre and another radius are not reported", &noticed("info", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. R11. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n"))),
+rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. K10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. F200.\nM30\n")),
+]),
+range: By(&[
                 Proof::Rule {
                     finding: "warning[arc-end-off-circle]",
                     violates: mill(
@@ -115,26 +178,13 @@ pub(crate) const SYSTEM: System = System {
                         "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X0. Y0. Z-5. I10. J0. F200.\nM30\n",
                     ),
                 },
-                Proof::Rule {
-                    finding: "warning[arc-without-centre]",
-                    violates: mill("G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. F200.\nM30\n"),
-                    conforms: mill(
-                        "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R#500 F200.\nM30\n",
-                    ),
-                },
-                Proof::Rule {
-                    finding: "error[feed-missing]",
-                    violates: mill("G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11.\nM30\n"),
-                    conforms: mill(
-                        "G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n",
-                    ),
-                },
-            ],
+]),
+
         },
         // ---- feed modes ----
         Sentence {
             says: "Under G94 F is millimetres or inches per minute.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill("G21 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n"),
                     prints: &["feed 100.0000 0.0000 0.0000 300 20.000"],
@@ -148,11 +198,30 @@ pub(crate) const SYSTEM: System = System {
                     prints: &["300/min"],
                 },
                 Proof::Explains { control: "generic-mill", code: "G94", says: "feed in mm/min or inch/min" },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=300.\nG1 X100. F#100\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n")),
+rule("error[feed-zero]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=0\nG1 X100. F#100\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=300.\nG1 X100. F#100\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nF300.\nG1 X100.\nM30\n"), &["feed 100.0000 0.0000 0.0000 300 20.000"]),
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X50. F300.\nG0 X0.\nG1 X100.\nM30\n"), &["feed 100.0000 0.0000 0.0000 300 20.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n")),
+]),
+extra: By(&[
+rule("warning[word-given-twice]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n")),
+]),
+range: By(&[
+rule("error[feed-zero]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F0.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F1.\nM30\n")),
+rule("warning[sign-not-accepted]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F-300.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n")),
+]),
+
         },
         Sentence {
             says: "Under G95 F is millimetres or inches for each turn of the spindle.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill("G21 G90 G54\nS1200 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n"),
                     prints: &["feed 60.0000 0.0000 0.0000 0.25 12.000"],
@@ -170,11 +239,29 @@ pub(crate) const SYSTEM: System = System {
                     code: "G95",
                     says: "feed in mm or inch per revolution",
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\n#100=0.25\nG95 G1 X60. F#100\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n")),
+rule("error[feed-zero]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\n#100=0\nG95 G1 X60. F#100\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\n#100=0.25\nG95 G1 X60. F#100\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 F0.25\nG1 X60.\nM30\n"), &["feed 60.0000 0.0000 0.0000 0.25 24.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60.\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n")),
+]),
+extra: By(&[
+rule("warning[word-given-twice]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25 F0.2\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n")),
+]),
+range: By(&[
+rule("error[feed-zero]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.01\nM30\n")),
+rule("warning[sign-not-accepted]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F-0.25\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n")),
+]),
+
         },
         Sentence {
             says: "The feed is held along the path: the speed along the tangent is the one that F says.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X30. Y40. F100.\nM30\n"),
                     prints: &["feed 30.0000 40.0000 0.0000 100 30.000"],
@@ -190,11 +277,23 @@ pub(crate) const SYSTEM: System = System {
                     code: "G94",
                     says: "**along the path**: each axis gets its share",
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=100.\nG1 X30. Y[#100*0.4] F#100\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X30. Y40. F100.\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X10. F100.\nX40. Y40.\nM30\n"), &["feed 40.0000 40.0000 0.0000 100 30.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X30. Y40.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X30. Y40. F100.\nM30\n")),
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "Along a helix F is the speed on the path of the tool, or on its circle, as the control has it.",
-            proofs: &[
+            literal: By(&[
                 // 2 pi 10 = 62.832 along the circle, 63.339 with 8 of height.
                 Proof::Run { program: mill(HELIX), prints: &["arc 10.0000 0.0000 -8.0000 200 19.002"] },
                 Proof::Run { program: haas(HELIX), prints: &["arc 10.0000 0.0000 -8.0000 200 19.002"] },
@@ -215,11 +314,25 @@ pub(crate) const SYSTEM: System = System {
                     code: "G2",
                     says: "measured along the circle in the plane",
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=200.\nG2 X20. Y0. Z-8. I10. J0. F#100\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nM30\n")),
+]),
+lasting: By(&[
+same(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nF200.\nG2 X20. Y0. Z-8. I10. J0.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nM30\n")),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nM30\n")),
+]),
+extra: No("no other word"),
+range: By(&[
+rule("error[feed-zero]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F0.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-8. I10. J0. F200.\nM30\n")),
+]),
+
         },
         Sentence {
             says: "At power-on the feed is per minute.",
-            proofs: &[
+            literal: By(&[
                 Proof::Assumes {
                     program: mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n"),
                     says: "in effect at the start, as at power-on: G0 G80 G17 G90 G94",
@@ -233,11 +346,28 @@ pub(crate) const SYSTEM: System = System {
                     code: "G94",
                     says: "stays in effect, active at power-on",
                 },
-            ],
+]),
+computed: By(&[
+run(mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=300.\nG1 X100. F#100\nM30\n"), &["feed 100.0000 0.0000 0.0000 300 20.000"]),
+]),
+lasting: By(&[
+run(mill("G21 G90 G54 F300.\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100.\nM30\n"), &["feed 100.0000 0.0000 0.0000 300 20.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100.\nM30\n"), mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n")),
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "G94 is modal: the feed is per minute until G95.",
-            proofs: &[
+            literal: By(&[
+                Proof::Explains { control: "generic-mill", code: "G94", says: "stays until `G95`" },
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94 G1 X10. F300.\nM30\n"), &["feed 10.0000 0.0000 0.0000 300 2.000"]),
+]),
+computed: No("code, no value"),
+lasting: By(&[
                 Proof::Run {
                     program: mill(
                         "G21 G90 G94 G54\nS600 M3\nG0 X0. Y0. Z0.\nG1 X10. F300.\nG0 X0.\nG1 X30.\nG95 G1 X60. F0.1\nM30\n",
@@ -248,12 +378,25 @@ pub(crate) const SYSTEM: System = System {
                         "feed 60.0000 0.0000 0.0000 0.1 30.000",
                     ],
                 },
-                Proof::Explains { control: "generic-mill", code: "G94", says: "stays until `G95`" },
-            ],
+run(mill("G21 G17 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG95 F0.1\nG94\nG1 X10. F300.\nG2 X20. Y0. R5.\nG1 X50.\nM30\n"), &["feed 10.0000 0.0000 0.0000 300 2.000", "feed 50.0000 0.0000 0.0000 300 6.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94\nG1 X10.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94\nG1 X10. F300.\nM30\n")),
+]),
+extra: By(&[
+rule("warning[two-codes-of-one-group]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94 G95 G1 X10. F300.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94 G1 X10. F300.\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "G95 is modal: the feed is per turn until G94.",
-            proofs: &[
+            literal: By(&[
+                Proof::Explains { control: "generic-mill", code: "G95", says: "Stays until `G94`" },
+run(mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X6. F0.1\nM30\n"), &["feed 6.0000 0.0000 0.0000 0.1 6.000"]),
+]),
+computed: No("code, no value"),
+lasting: By(&[
                 Proof::Run {
                     program: mill(
                         "G21 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X6. F0.1\nG0 X0.\nG1 X3.\nG94 G1 X33. F300.\nM30\n",
@@ -264,12 +407,20 @@ pub(crate) const SYSTEM: System = System {
                         "feed 33.0000 0.0000 0.0000 300 6.000",
                     ],
                 },
-                Proof::Explains { control: "generic-mill", code: "G95", says: "Stays until `G94`" },
-            ],
+run(mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95\nG0 X10.\nG1 X16. F0.1\nM30\n"), &["feed 16.0000 0.0000 0.0000 0.1 6.000"]),
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95\nG1 X10.\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95\nG1 X10. F0.1\nM30\n")),
+]),
+extra: By(&[
+rule("warning[two-codes-of-one-group]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G94 G1 X10. F0.1\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X10. F0.1\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "Under G95 the feed follows the turns, so the spindle has to turn.",
-            proofs: &[
+            literal: By(&[
                 Proof::Rule {
                     finding: "warning[spindle-stopped-while-cutting]",
                     violates: mill("G21 G90 G95 G54\nT1 M6\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n"),
@@ -293,11 +444,31 @@ pub(crate) const SYSTEM: System = System {
                     conforms: linuxcnc("G21 G90 G95\nS600 M3\nG0 X0 Y0\nG1 X10 F0.1\nM2\n"),
                 },
                 Proof::Explains { control: "generic-mill", code: "G95", says: "The spindle must turn" },
-            ],
+]),
+computed: By(&[
+rule("warning[speed-missing]", mill("G21 G90 G95 G54\n#100=0\nS#100 M3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n"), mill("G21 G90 G95 G54\n#100=600\nS#100 M3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n")),
+]),
+lasting: By(&[
+rule("warning[spindle-stopped-while-cutting]", mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X10. F0.1\nM5\nG1 X20.\nM30\n"), mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X10. F0.1\nM5\nS600 M3\nG1 X20.\nM30\n")),
+]),
+missing: By(&[
+rule("info[speed-missing]", mill("G21 G90 G95 G54\nT1 M6\nM3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n"), mill("G21 G90 G95 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n")),
+]),
+extra: No("no other word"),
+range: By(&[
+rule("warning[speed-missing]", mill("G21 G90 G95 G54\nT1 M6\nS0 M3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n"), mill("G21 G90 G95 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z5.\nG1 Z-5. F0.1\nG0 Z50.\nM30\n")),
+]),
+
         },
         Sentence {
             says: "A number that was given for F under one feed mode means something else under another; each control keeps or forgets it in its own way.",
-            proofs: &[
+            literal: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG94 G1 X10. F300.\nG95 G1 X16. F0.1\nM30\n"), &["feed 10.0000 0.0000 0.0000 300 2.000", "feed 16.0000 0.0000 0.0000 0.1 4.000"]),
+]),
+computed: By(&[
+rule("warning[feed-of-another-mode]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=300.\nG1 X10. F#100\nG95\nG1 X20.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=300.\nG1 X10. F#100\nG95\nG1 X20. F[#100/1000]\nM30\n")),
+]),
+lasting: By(&[
                 Proof::Rule {
                     finding: "warning[feed-of-another-mode]",
                     violates: mill("G21 G90 G94 G54\nS600 M3\nG0 X0.\nG1 X10. F300.\nG95\nG1 X20.\nM30\n"),
@@ -315,11 +486,6 @@ pub(crate) const SYSTEM: System = System {
                     ),
                 },
                 Proof::Rule {
-                    finding: "error[feed-missing]",
-                    violates: linuxcnc("G21 G90 G94\nS600 M3\nG0 X0 Y0\nG1 X10 F300\nG95\nG1 X20\nM2\n"),
-                    conforms: linuxcnc("G21 G90 G94\nS600 M3\nG0 X0 Y0\nG1 X10 F300\nG95\nG1 X20 F0.2\nM2\n"),
-                },
-                Proof::Rule {
                     finding: "info[maybe-feed-of-another-mode]",
                     violates: mill(
                         "G21 G90 G54\nS600 M3\nG0 X0.\nG1 X10. F300.\nIF [#500 EQ 1] GOTO 10\nG95 G1 X20. F0.2\nN10 G94 G1 X30.\nM30\n",
@@ -328,11 +494,36 @@ pub(crate) const SYSTEM: System = System {
                         "G21 G90 G54\nS600 M3\nG0 X0.\nG1 X10. F300.\nIF [#500 EQ 1] GOTO 10\nG95 G1 X20. F0.2\nN10 G94 G1 X30. F300.\nM30\n",
                     ),
                 },
-            ],
+rule("warning[maybe-feed-of-another-mode]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X10. F300.\nIF [#500 EQ 1] GOTO 10\nG95\nN10 G1 X20.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X10. F300.\nIF [#500 EQ 1] GOTO 10\nG95\nN10 G94 G1 X20. F300.\nM30\n")),
+]),
+missing: By(&[
+                Proof::Rule {
+                    finding: "error[feed-missing]",
+                    violates: linuxcnc("G21 G90 G94\nS600 M3\nG0 X0 Y0\nG1 X10 F300\nG95\nG1 X20\nM2\n"),
+                    conforms: linuxcnc("G21 G90 G94\nS600 M3\nG0 X0 Y0\nG1 X10 F300\nG95\nG1 X20 F0.2\nM2\n"),
+                },
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "Under G93 every cutting block has its own F.",
-            proofs: &[
+            literal: By(&[
+                Proof::Run {
+                    program: haas(
+                        "G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40.\nG94 F300.\nM30\n",
+                    ),
+                    prints: &["feed 10.0000 0.0000 0.0000 5.0000 40 1.500"],
+                },
+]),
+computed: By(&[
+same(haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\n#100=40.\nG93 G1 X10. A5. F#100\nG94 F300.\nM30\n"), haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40.\nG94 F300.\nM30\n")),
+]),
+lasting: By(&[
+rule("error[inverse-time-feed-missing]", haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 F40.\nG1 X10. A5.\nG94 F300.\nM30\n"), haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93\nG1 X10. A5. F40.\nG94 F300.\nM30\n")),
+]),
+missing: By(&[
                 Proof::Rule {
                     finding: "error[inverse-time-feed-missing]",
                     violates: haas(
@@ -342,17 +533,18 @@ pub(crate) const SYSTEM: System = System {
                         "G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. A0.\nG93 G1 X10. A5. F40.\nX20. A9. F30.\nG94 F300.\nM30\n",
                     ),
                 },
-                Proof::Run {
-                    program: haas(
-                        "G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40.\nG94 F300.\nM30\n",
-                    ),
-                    prints: &["feed 10.0000 0.0000 0.0000 5.0000 40 1.500"],
-                },
-            ],
+]),
+extra: By(&[
+rule("warning[word-given-twice]", haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40. F30.\nG94 F300.\nM30\n"), haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40.\nG94 F300.\nM30\n")),
+]),
+range: By(&[
+rule("error[feed-zero]", haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F0.\nG94 F300.\nM30\n"), haas("G21 G90 G54\nT1 M6\nS600 M3\nG0 X0. Y0. Z0. A0.\nG93 G1 X10. A5. F40.\nG94 F300.\nM30\n")),
+]),
+
         },
         Sentence {
             says: "The override switch changes the feed per minute from 0 to 150 % in steps of 10 %.",
-            proofs: &[
+            literal: By(&[
                 Proof::Explains {
                     control: "generic-mill",
                     code: "G94",
@@ -363,11 +555,25 @@ pub(crate) const SYSTEM: System = System {
                         .with(&["machine.feed_override=150"]),
                     prints: &["cutting 0:13.3", "the feed override is at 150 %"],
                 },
-            ],
+]),
+computed: No("a switch"),
+lasting: By(&[
+Proof::Stats { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X50. F300.\nX100.\nM30\n").with(&["machine.feed_override=50"]), prints: &["cutting 0:40.0"] },
+]),
+missing: By(&[
+Proof::Stats { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n"), prints: &["cutting 0:20.0"] },
+]),
+extra: No("a switch"),
+range: By(&[
+open("160 % and 85 % are taken", &Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=160"]), says: "from 0 to 150" }),
+open("160 % and 85 % are taken", &Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=85"]), says: "from 0 to 150" }),
+Proof::Accepts { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=0"]) },
+]),
+
         },
         Sentence {
             says: "It changes the feed per turn in the same way.",
-            proofs: &[
+            literal: By(&[
                 Proof::Explains {
                     control: "generic-mill",
                     code: "G95",
@@ -378,11 +584,21 @@ pub(crate) const SYSTEM: System = System {
                         .with(&["machine.feed_override=50"]),
                     prints: &["cutting 0:24.0"],
                 },
-            ],
+]),
+computed: No("a switch"),
+lasting: By(&[
+Proof::Stats { program: mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 F0.25\nG1 X30.\nX60.\nM30\n").with(&["machine.feed_override=50"]), prints: &["cutting 0:48.0"] },
+]),
+missing: By(&[
+Proof::Stats { program: mill("G21 G17 G90 G54\nS600 M3\nG0 X0. Y0. Z0.\nG95 G1 X60. F0.25\nM30\n"), prints: &["cutting 0:24.0"] },
+]),
+extra: No("a switch"),
+range: No("see Feed-14"),
+
         },
         Sentence {
             says: "Some codes leave the override no say: tapping cycles keep their feed.",
-            proofs: &[
+            literal: By(&[
                 Proof::Explains {
                     control: "generic-mill",
                     code: "G94",
@@ -407,26 +623,75 @@ pub(crate) const SYSTEM: System = System {
                     .with(&["machine.feed_override=50"]),
                     prints: &["cutting 0:06.0"],
                 },
-            ],
+]),
+computed: By(&[
+Proof::Stats { program: mill("G21 G90 G94 G54\nS500 M3\nG0 X0. Y0. Z5.\n#100=500.\nG84 X0. Y0. Z-20. R5. F#100\nG80\nM30\n").with(&["machine.feed_override=50"]), prints: &["cutting 0:06.0"] },
+]),
+lasting: By(&[
+Proof::Stats { program: mill("G21 G90 G94 G54\nS500 M3\nF500.\nG0 X0. Y0. Z5.\nG84 X0. Y0. Z-20. R5.\nG80\nM30\n").with(&["machine.feed_override=50"]), prints: &["cutting 0:06.0"] },
+]),
+missing: By(&[
+rule("error[feed-missing]", mill("G21 G90 G94 G54\nS500 M3\nG0 X0. Y0. Z5.\nG84 X0. Y0. Z-20. R5.\nG80\nM30\n"), mill("G21 G90 G94 G54\nS500 M3\nG0 X0. Y0. Z5.\nG84 X0. Y0. Z-20. R5. F500.\nG80\nM30\n")),
+]),
+extra: No("a switch"),
+range: No("no range"),
+
         },
         // ---- dwell ----
         Sentence {
             says: "G04 with P waits milliseconds.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run { program: mill("G04 P500\nM30\n"), prints: &["dwell 0.500"] },
                 Proof::Explains { control: "generic-mill", code: "G4", says: "**P** is milliseconds" },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G90 G54\n#100=500\nG04 P#100\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+rule("warning[computed-value-out-of-range]", mill("G21 G90 G54\n#100=-1\nG04 P#100\nM30\n"), mill("G21 G90 G54\n#100=500\nG04 P#100\nM30\n")),
+]),
+lasting: By(&[
+rule("info[dwell-without-time]", mill("G21 G90 G54\nG04 P500\nG04\nM30\n"), mill("G21 G90 G54\nG04 P500\nG04 P500\nM30\n")),
+]),
+missing: By(&[
+rule("info[dwell-without-time]", mill("G21 G90 G54\nG04\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+]),
+extra: By(&[
+rule("warning[dwell-without-time]", mill("G21 G90 G54\nG04 F500.\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+rule("warning[axis-word-passed-over]", mill("G21 G90 G54\nG04 P500 Z5.\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+]),
+range: By(&[
+rule("warning[number-out-of-range]", mill("G21 G90 G54\nG04 P0\nM30\n"), mill("G21 G90 G54\nG04 P1\nM30\n")),
+rule("warning[decimal-point-on-integer]", mill("G21 G90 G54\nG04 P0.5\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+]),
+
         },
         Sentence {
             says: "G04 with X waits seconds.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run { program: mill("G04 X0.5\nM30\n"), prints: &["dwell 0.500"] },
                 Proof::Explains { control: "generic-mill", code: "G4", says: "**X** or **U** seconds" },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G90 G54\n#100=0.5\nG04 X#100\nM30\n"), mill("G21 G90 G54\nG04 X0.5\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("G21 G90 G54\n#100=100000.\nG04 X#100\nM30\n"), mill("G21 G90 G54\n#100=0.5\nG04 X#100\nM30\n")),
+]),
+lasting: By(&[
+rule("info[dwell-without-time]", mill("G21 G90 G54\nG04 X0.5\nG04\nM30\n"), mill("G21 G90 G54\nG04 X0.5\nG04 X0.5\nM30\n")),
+]),
+missing: By(&[
+rule("warning[dwell-without-time]", mill("G21 G90 G54\nG04 S500\nM30\n"), mill("G21 G90 G54\nG04 X0.5\nM30\n")),
+]),
+extra: By(&[
+rule("warning[axis-word-passed-over]", mill("G21 G90 G54\nG04 X0.5 Y2.\nM30\n"), mill("G21 G90 G54\nG04 X0.5\nM30\n")),
+rule("warning[dwell-beside-motion]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG01 G04 X10. F100.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG04 X10.\nG01 X10. F100.\nM30\n")),
+]),
+range: By(&[
+rule("error[number-out-of-range]", mill("G21 G90 G54\nG04 X100000.\nM30\n"), mill("G21 G90 G54\nG04 X99999.999\nM30\n")),
+]),
+
         },
         Sentence {
             says: "G04 with U waits seconds; neither U nor X is an axis word then.",
-            proofs: &[
+            literal: By(&[
                 Proof::Run {
                     program: mill("G21 G90 G54\nG0 X1.\nG04 U0.5\nG04 X2.\nG91 G0 X1.\nM30\n"),
                     prints: &["dwell 0.500", "dwell 2.000", "rapid 2.0000"],
@@ -434,18 +699,62 @@ pub(crate) const SYSTEM: System = System {
                 Proof::Legal {
                     program: mill("G21 G90 G54\nG1 X1. F100. S900 M3\nG04 U0.5\nG04 X2.\nG1 X2.\nM30\n"),
                 },
-            ],
+]),
+computed: By(&[
+same(mill("G21 G90 G54\n#100=0.5\nG04 U#100\nM30\n"), mill("G21 G90 G54\nG04 U0.5\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("G21 G90 G54\n#100=-2.\nG04 U[#100/2]\nM30\n"), mill("G21 G90 G54\n#100=2.\nG04 U[#100/2]\nM30\n")),
+]),
+lasting: By(&[
+run(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X10. F100.\nG04 U2.\nX20.\nM30\n"), &["dwell 2.000", "feed 20.0000 0.0000 0.0000"]),
+]),
+missing: By(&[
+rule("info[dwell-without-time]", mill("G21 G90 G54\nG04\nM30\n"), mill("G21 G90 G54\nG04 U0.5\nM30\n")),
+]),
+extra: By(&[
+rule("warning[words-exclude-each-other]", mill("G21 G90 G54\nG04 X0.5 U0.5\nM30\n"), mill("G21 G90 G54\nG04 U0.5\nM30\n")),
+]),
+range: By(&[
+rule("error[number-out-of-range]", mill("G21 G90 G54\nG04 U-0.5\nM30\n"), mill("G21 G90 G54\nG04 U0.5\nM30\n")),
+]),
+
         },
         Sentence {
             says: "The next block begins when the time is over, so the dwell is part of the cycle time.",
-            proofs: &[Proof::Stats {
+            literal: By(&[
+Proof::Stats {
                 program: mill("G21 G90 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nG04 X10.\nM30\n"),
                 prints: &["cutting 0:20.0 (67 %), dwell 0:10.0 (33 %)"],
-            }],
+            },
+]),
+computed: By(&[
+Proof::Stats { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=10.\nG1 X100. F300.\nG04 X#100\nM30\n"), prints: &["dwell 0:10.0 (33 %)"] },
+]),
+lasting: No("not lasting"),
+missing: No("see Feed-17"),
+extra: No("no other word"),
+range: No("see Feed-21"),
+
         },
         Sentence {
             says: "The time is from 0.001 to 99999.999.",
-            proofs: &[
+            literal: By(&[
+                Proof::Explains {
+                    control: "generic-mill",
+                    code: "G4",
+                    says: "From 0.001 to 99999.999 seconds",
+                },
+legal(mill("G21 G90 G54\nG04 P1\nG04 X0.001\nG04 U10.\nM30\n")),
+]),
+computed: By(&[
+rule("error[computed-value-out-of-range]", mill("G21 G90 G54\n#100=0\nG04 X#100\nM30\n"), mill("G21 G90 G54\n#100=0.001\nG04 X#100\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("G21 G90 G54\n#100=50000.\nG04 U[#100*2.]\nM30\n"), mill("G21 G90 G54\n#100=40000.\nG04 U[#100*2.]\nM30\n")),
+rule("warning[computed-value-out-of-range]", mill("G21 G90 G54\n#100=0\nG04 P#100\nM30\n"), mill("G21 G90 G54\n#100=1\nG04 P#100\nM30\n")),
+rule("warning[maybe-computed-value-out-of-range]", mill("G21 G90 G54\n#100=0\nIF [#500 EQ 1] GOTO 10\n#100=2.\nN10 G04 X#100\nM30\n"), mill("G21 G90 G54\n#100=1.\nIF [#500 EQ 1] GOTO 10\n#100=2.\nN10 G04 X#100\nM30\n")),
+]),
+lasting: No("not lasting"),
+missing: No("see Feed-17"),
+extra: No("see Feed-22"),
+range: By(&[
                 Proof::Rule {
                     finding: "error[number-out-of-range]",
                     violates: mill("G04 X0.\nM30\n"),
@@ -461,16 +770,24 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("G04 X-1.5\nM30\n"),
                     conforms: mill("G04 X1.5\nM30\n"),
                 },
-                Proof::Explains {
-                    control: "generic-mill",
-                    code: "G4",
-                    says: "From 0.001 to 99999.999 seconds",
-                },
-            ],
+rule("warning[number-out-of-range]", mill("G21 G90 G54\nG04 P0\nM30\n"), mill("G21 G90 G54\nG04 P1\nM30\n")),
+rule("warning[number-out-of-range]", mill("G21 G90 G54\nG04 P100000000\nM30\n"), mill("G21 G90 G54\nG04 P99999999\nM30\n")),
+]),
+
         },
         Sentence {
             says: "The format has one of the three words; two of them contradict each other.",
-            proofs: &[
+            literal: By(&[
+run(mill("G21 G90 G54\nG04 X0.5\nG04 P500\nG04 U0.5\nM30\n"), &["dwell 0.500", "dwell 0.500", "dwell 0.500"]),
+]),
+computed: By(&[
+rule("warning[words-exclude-each-other]", mill("G21 G90 G54\n#100=0.5\nG04 X#100 P[#100*1000]\nM30\n"), mill("G21 G90 G54\n#100=0.5\nG04 X#100\nG04 P[#100*1000]\nM30\n")),
+]),
+lasting: No("not lasting"),
+missing: By(&[
+rule("info[dwell-without-time]", mill("G21 G90 G54\nG04\nM30\n"), mill("G21 G90 G54\nG04 X0.5\nM30\n")),
+]),
+extra: By(&[
                 Proof::Rule {
                     finding: "warning[words-exclude-each-other]",
                     violates: mill("G04 X0.5 P500\nM30\n"),
@@ -481,19 +798,30 @@ pub(crate) const SYSTEM: System = System {
                     violates: fanuc("G04 X0.5 U0.5\nM30\n"),
                     conforms: fanuc("G04 U0.5\nM30\n"),
                 },
-            ],
+rule("warning[words-exclude-each-other]", mill("G21 G90 G54\nG04 U0.5 P500\nM30\n"), mill("G21 G90 G54\nG04 P500\nM30\n")),
+]),
+range: No("see Feed-21"),
+
         },
         Sentence {
             says: "A pause cleans flat bottoms and countersinks.",
-            proofs: &[Proof::Explains {
+            literal: By(&[
+Proof::Explains {
                 control: "generic-mill",
                 code: "G4",
                 says: "For a clean bottom in flat boring and countersinking",
-            }],
+            },
+]),
+computed: No("no word"),
+lasting: No("no word"),
+missing: No("no word"),
+extra: No("no word"),
+range: No("no word"),
+
         },
         Sentence {
             says: "In cutting mode (G64) a pause makes an exact stop.",
-            proofs: &[
+            literal: By(&[
                 Proof::Explains {
                     control: "generic-mill",
                     code: "G4",
@@ -515,11 +843,42 @@ pub(crate) const SYSTEM: System = System {
                         "G21 G90 G64 G54\nS900 M3\nG0 X0. Y0. Z2.\nG1 Z-1. F100.\nG1 X10.\nG04\nG1 Y10.\nM30\n",
                     ),
                 },
-            ],
+]),
+computed: By(&[
+legal(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\n#100=0.1\nG64 G1 Z-1. F100.\nG04 X#100\nG1 Y10.\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG64\nG1 Z-1. F100.\nX10.\nG04 X0.1\nG1 Y10.\nM30\n")),
+]),
+missing: By(&[
+rule("info[dwell-without-time]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG64 G1 Z-1. F100.\nG04\nG1 Y10.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG64 G1 Z-1. F100.\nG04 X0.1\nG1 Y10.\nM30\n")),
+]),
+extra: No("see Feed-18"),
+range: No("see Feed-21"),
+
         },
         Sentence {
             says: "Other controls read the time from other words: P alone on Haas and LinuxCNC.",
-            proofs: &[
+            literal: By(&[
+run(haas("G21 G90\nG4 P2.\nM30\n"), &["dwell 2.000"]),
+run(linuxcnc("G21 G90\nG4 P2.\nM2\n"), &["dwell 2.000"]),
+]),
+computed: By(&[
+rule("error[dwell-time-in-other-word]", linuxcnc("G21 G90\n#1=2.\nG4 X#1\nM2\n"), linuxcnc("G21 G90\n#1=2.\nG4 P#1\nM2\n")),
+rule("error[computed-value-out-of-range]", linuxcnc("G21 G90\n#1=-2.\nG4 P#1\nM2\n"), linuxcnc("G21 G90\n#1=2.\nG4 P#1\nM2\n")),
+]),
+lasting: By(&[
+rule("error[required-word-missing]", linuxcnc("G21 G90\nG4 P2.\nG4\nM2\n"), linuxcnc("G21 G90\nG4 P2.\nG4 P2.\nM2\n")),
+]),
+missing: By(&[
+                Proof::Rule {
+                    finding: "error[required-word-missing]",
+                    violates: linuxcnc("G21 G90\nG4\nM2\n"),
+                    conforms: linuxcnc("G21 G90\nG4 P0\nM2\n"),
+                },
+rule("warning[required-word-missing]", haas("G21 G90\nG4\nM30\n"), haas("G21 G90\nG4 P2.\nM30\n")),
+]),
+extra: By(&[
                 Proof::Rule {
                     finding: "error[dwell-time-in-other-word]",
                     violates: linuxcnc("G21 G90\nG4 X2.\nM2\n"),
@@ -530,16 +889,16 @@ pub(crate) const SYSTEM: System = System {
                     violates: haas("G21 G90\nG4 U2.\nM30\n"),
                     conforms: haas("G21 G90\nG4 P2.\nM30\n"),
                 },
-                Proof::Rule {
-                    finding: "error[required-word-missing]",
-                    violates: linuxcnc("G21 G90\nG4\nM2\n"),
-                    conforms: linuxcnc("G21 G90\nG4 P0\nM2\n"),
-                },
-            ],
+]),
+range: By(&[
+rule("error[number-out-of-range]", linuxcnc("G21 G90\nG4 P-2.\nM2\n"), linuxcnc("G21 G90\nG4 P2.\nM2\n")),
+rule("warning[number-out-of-range]", haas("G21 G90\nG4 P-2.\nM30\n"), haas("G21 G90\nG4 P2.\nM30\n")),
+]),
+
         },
         Sentence {
             says: "The same number is another time on another control, and a decimal point may decide it.",
-            proofs: &[
+            literal: By(&[
                 Proof::Assumes {
                     program: mill("G4 X500\nM30\n"),
                     says: "numbers without a decimal point count as the control usually reads them",
@@ -557,6 +916,16 @@ pub(crate) const SYSTEM: System = System {
                     program: fanuc("G4 P500\nG4 X500\nG4 X0.5\nM30\n"),
                     prints: &["dwell 0.500", "dwell 0.500", "dwell 0.500"],
                 },
+]),
+computed: By(&[
+run(linuxcnc("#1=500\nG4 P#1\nM2\n"), &["dwell 500.000"]),
+run(fanuc("#100=0.5\nG4 X#100\nM30\n"), &["dwell 0.500"]),
+run(mill("G21 G90 G54\n#100=500\nG4 P#100\nM30\n"), &["dwell 0.500"]),
+]),
+lasting: No("not lasting"),
+missing: No("see Feed-17"),
+extra: No("see Feed-25"),
+range: By(&[
                 Proof::Rule {
                     finding: "warning[dwell-very-long]",
                     violates: linuxcnc("G21 G90 F100\nG1 X1\nG4 P500\nM2\n"),
@@ -577,17 +946,32 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("G4 P0.5\nM30\n"),
                     conforms: mill("G4 X0.5\nM30\n"),
                 },
-            ],
+]),
+
         },
         Sentence {
             says: "Rapid moves pay no attention to F.",
-            proofs: &[
+            literal: By(&[
+                Proof::Explains { control: "generic-mill", code: "G0", says: "**F** has no influence" },
+run(mill("G21 G90 G54\nG0 X0. Y0. Z0.\nG0 X254.\nM30\n"), &["rapid 254.0000 0.0000 0.0000 0.600"]),
+]),
+computed: By(&[
+run(mill("G21 G90 G54\nG0 X0. Y0. Z0.\n#100=100.\nF#100\nG0 X254.\nM30\n"), &["rapid 254.0000 0.0000 0.0000 0.600"]),
+]),
+lasting: By(&[
                 Proof::Run {
                     program: mill("G21 G90 G54\nG0 X0. Y0. Z0.\nF100.\nG0 X254.\nM30\n"),
                     prints: &["rapid 254.0000 0.0000 0.0000 0.600"],
                 },
-                Proof::Explains { control: "generic-mill", code: "G0", says: "**F** has no influence" },
-            ],
+]),
+missing: By(&[
+run(mill("G21 G90 G54\nG0 X0. Y0. Z0.\nG0 X254.\nM30\n"), &["rapid 254.0000 0.0000 0.0000 0.600"]),
+]),
+extra: By(&[
+legal(mill("G21 G90 G54\nG0 X0. Y0. Z0.\nG0 X254. F100.\nM30\n")),
+]),
+range: No("no range"),
+
         },
     ],
 };
@@ -723,7 +1107,7 @@ fn bad_input() {
         dwell with a time twice, haas-mill: warning[word-given-twice]
         dwell with a time twice, fanuc-mill: warning[word-given-twice]
         dwell with two times, generic-mill: warning[words-exclude-each-other]
-        dwell with two times, haas-mill: 
+        dwell with two times, haas-mill: warning[axis-word-unsure]
         dwell with two times, fanuc-mill: warning[words-exclude-each-other]
         dwell of a negative time, generic-mill: error[number-out-of-range]
         dwell of a negative time, haas-mill: warning[dwell-time-in-other-word]

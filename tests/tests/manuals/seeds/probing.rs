@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 use expect_test::expect;
 
 use crate::proof::Proof::{Assumes, Explains, Legal, Rule, Run};
-use crate::proof::{Program, on};
+use crate::proof::{Program, Proof, legal, noticed, on, rule, run, same};
+use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
 const MILL: &str = "haas-mill";
@@ -28,10 +29,10 @@ const CENTRE: Program = mill(
 
 /// As [`CENTRE`], with a first touch that is not kept.
 const NOT_KEPT: Program =
-    mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nG0 Y-8.\nG136 Y1. F10.\nG90\nM30\n");
+    mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n");
 /// As [`CENTRE`], from end to end in increments.
 const KEPT: Program =
-    mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. F10.\nG90\nM30\n");
+    mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n");
 /// A surface becomes work zero.
 const SURFACE: Program = mill("O1\nG90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10. M79\nG90\nM30\n");
 /// A tool's length is measured.
@@ -50,7 +51,7 @@ pub(crate) const SYSTEM: System = System {
         Sentence {
             says: "The centre of a part is probed by: probe on, to the first side, `G31 … M75`, back, up and over, `G136` at the other side, \
                    back, probe off. A program in this order is legal as it stands.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: CENTRE },
                 Run {
                     program: CENTRE,
@@ -63,34 +64,78 @@ pub(crate) const SYSTEM: System = System {
                         "17 dwell 0.100",
                     ],
                 },
-            ],
+]),
+computed: By(&[
+same(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=1.\nG31 Y[0-#1] F10. M75\nG0 Z2.\nY-8.\nG136 Y#1 F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
+run(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"), &["probe 0.0000 4.0000"]),
+]),
+missing: By(&[
+rule("error[required-word-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+extra: By(&[
+rule("warning[word-given-twice]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. Y-2. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+range: No("see G136-17"),
+
         },
         Sentence {
             says: "User relay 3 (`M53` on, `M63` off) with a dwell of `G04 P100` between switches the probe; the codes are the \
                    control's own, and the dwell is 0.1 seconds.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: mill("O1\nM53\nG04 P100\nM63\nM30\n") },
                 Run { program: mill("O1\nM53\nG04 P100\nM63\nM30\n"), prints: &["3 dwell 0.100"] },
                 explains("M53", "switches its spindle probe on, and off again, by `M53`, `G4 P100`, `M63`"),
                 explains("M63", "Switches off what M53 switched on"),
                 explains("G136", "Switch the probe on before"),
-            ],
+]),
+computed: By(&[
+run(mill("O1\n#1=0.1\nM53\nG04 P#1\nM63\nM30\n"), &["dwell 0.100"]),
+]),
+lasting: No("not lasting"),
+missing: By(&[
+rule("warning[required-word-missing]", mill("O1\nM53\nG04\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
+]),
+extra: By(&[
+rule("warning[axis-word-unsure]", mill("O1\nM53\nG04 P100 Z2.\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
+]),
+range: By(&[
+rule("warning[number-out-of-range]", mill("O1\nM53\nG04 P-100\nM63\nM30\n"), mill("O1\nM53\nG04 P100\nM63\nM30\n")),
+]),
+
         },
         Sentence {
             says: "`M75` on the `G31` block keeps its touch as the first point; without one, `G136` has nothing to measure from.",
-            proofs: &[
+            literal: By(&[
+                explains("M75", "Belongs on the G31 block of the **first** touch"),
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("error[first-touch-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10.\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
+rule("error[first-touch-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nM98 P2\nG91 G0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\nO2\nG91 G31 Y-1. F10.\nM99\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nM98 P2\nG91 G0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\nO2\nG91 G31 Y-1. F10. M75\nM99\n")),
+]),
+missing: By(&[
                 Rule { finding: "error[first-touch-missing]", violates: NOT_KEPT, conforms: KEPT },
                 Rule {
                     finding: "error[first-touch-missing]",
                     violates: mill("O1\nG91 G136 Y1. F10.\nG31 Y-1. F10. M75\nG90\nM30\n"),
                     conforms: CENTRE,
                 },
-                explains("M75", "Belongs on the G31 block of the **first** touch"),
-            ],
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "A first touch on some paths only may be missing; after a block delete it is missing when the switch is on.",
-            proofs: &[
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nIF [#100 EQ 1] GOTO10\nG91 G31 Y-1. F10. M75\nGOTO20\nN10 G91 G31 Y-2. F10. M75\nN20 G0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+computed: No("a path, no value"),
+lasting: By(&[
                 Rule {
                     finding: "warning[maybe-first-touch-missing]",
                     violates: mill("O1\nIF [#100 EQ 1] GOTO10\nG91 G31 Y-1. F10. M75\nN10 G91 G136 Y1. F10.\nG90\nM30\n"),
@@ -98,26 +143,21 @@ pub(crate) const SYSTEM: System = System {
                         "O1\nIF [#100 EQ 1] GOTO10\nG91 G31 Y-1. F10. M75\nGOTO20\nN10 G91 G31 Y-2. F10. M75\nN20 G136 Y1. F10.\nG90\nM30\n",
                     ),
                 },
+]),
+missing: By(&[
                 Rule {
                     finding: "error[first-touch-missing]",
                     violates: mill("O1\nG91\n/G31 Y-1. F10. M75\nG0 Y-5.\nG136 Y1. F10.\nG90\nM30\n"),
                     conforms: mill("O1\nG91\nG31 Y-1. F10. M75\n/G0 Y-5.\nG136 Y1. F10.\nG90\nM30\n"),
                 },
-            ],
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "A first touch that a subprogram keeps counts, in a loop as well; a program that gcheck does not have is not judged.",
-            proofs: &[
-                Legal {
-                    program: mill(
-                        "O1\nG90 G54 G0 X0. Y5.\nM97 P100\nG91 G0 Y-8.\nG136 Y1. F10.\nG90\nM30\nN100 G91 G31 Y-1. F10. M75\nM99\n",
-                    ),
-                },
-                Rule {
-                    finding: "error[first-touch-missing]",
-                    violates: mill("O1\nM97 P100 L2\nM30\nN100 G91 G36 Y-1. F10.\nG136 Y1. F10.\nG90\nM99\n"),
-                    conforms: mill("O1\nM97 P100 L2\nM30\nN100 G91 G31 Y-1. F10. M75\nG136 Y1. F10.\nG90\nM99\n"),
-                },
+            literal: By(&[
                 Rule {
                     finding: "error[first-touch-missing]",
                     violates: mill(
@@ -127,62 +167,119 @@ pub(crate) const SYSTEM: System = System {
                         "O1\n#1 = 0\nWHILE [#1 LT 3] DO1\nG91 G31 Y-1. F10. M75\nG136 Y1. F10.\n#1 = #1 + 1\nEND1\nG90\nM30\n",
                     ),
                 },
+]),
+computed: No("a path, no value"),
+lasting: By(&[
+                Legal {
+                    program: mill(
+                        "O1\nG90 G54 G0 X0. Y5.\nM97 P100\nG91 G0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\nN100 G91 G31 Y-1. F10. M75\nM99\n",
+                    ),
+                },
+                Rule {
+                    finding: "error[first-touch-missing]",
+                    violates: mill("O1\nM97 P100 L2\nM30\nN100 G91 G36 Y-1. F10.\nG136 Y1. F10.\nG90\nM99\n"),
+                    conforms: mill("O1\nM97 P100 L2\nM30\nN100 G91 G31 Y-1. F10. M75\nG136 Y1. F10.\nG90\nM99\n"),
+                },
+]),
+missing: By(&[
                 Rule {
                     finding: "error[first-touch-missing]",
                     violates: NOT_KEPT,
                     conforms: mill("O1\nG65 P9700\nG91 G136 Y1. F10.\nG90\nM30\n"),
                 },
-            ],
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "`M75` belongs to a probing move: on another move, or before any, it keeps nothing.",
-            proofs: &[
-                Rule {
-                    finding: "error[touch-code-without-probing]",
-                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G1 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. F10.\nG90\nM30\n"),
-                    conforms: KEPT,
-                },
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("error[touch-code-without-probing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=-1.\nG91 G1 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=-1.\nG91 G31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nM75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+missing: By(&[
                 Rule {
                     finding: "error[touch-code-without-probing]",
                     violates: mill("O1\nM75\nM30\n"),
                     conforms: mill("O1\nG91 G31 Y-1. F10.\nM75\nG136 Y1. F10.\nG90\nM30\n"),
                 },
-            ],
+]),
+extra: By(&[
+                Rule {
+                    finding: "error[touch-code-without-probing]",
+                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G1 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"),
+                    conforms: KEPT,
+                },
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "A touch is kept for a second one that measures from it.",
-            proofs: &[Rule {
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("warning[kept-touch-never-used]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG31 Y1. F10. M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+lasting: No("a path"),
+missing: By(&[
+Rule {
                 finding: "warning[kept-touch-never-used]",
-                violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG31 Y1. F10.\nG90\nM30\n"),
+                violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG31 Y1. F10.\nG90\nM30\n"),
                 conforms: KEPT,
-            }],
+            },
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "The work zero comes to the middle of the line between the two points: they are touched along one axis, from two sides.",
-            proofs: &[
+            literal: By(&[
                 Rule {
                     finding: "warning[touches-do-not-meet]",
-                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y-1. F10.\nG90\nM30\n"),
+                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y-1. F10.\nG90\nM30\n"),
                     conforms: KEPT,
                 },
                 Rule {
                     finding: "warning[touches-do-not-meet]",
-                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 X1. F10.\nG90\nM30\n"),
-                    conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y#100 F10.\nG90\nM30\n"),
+                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 X1. F10.\nG90\nM30\n"),
+                    conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y#100 F10.\nG90\nM30\n"),
                 },
                 explains("G136", "halfway between the two"),
-            ],
+]),
+computed: By(&[
+rule("warning[touches-do-not-meet]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y#1 F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M75\nG0 Z2.\nY-8.\nG136 Y[0-#1] F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+missing: By(&[
+rule("error[word-choice-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+extra: By(&[
+noticed("warning", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. X1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "The active work offset is set, on each axis that the block names. Which value it gets is known to nobody beforehand; the other \
                    axes keep theirs.",
-            proofs: &[
+            literal: By(&[
                 Run {
                     program: mill(
-                        "O1\nG21 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. F10.\nG90 G0 Y0.\nG0 X#5221\nY#5222\nM30\n",
+                        "O1\nG21 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90 G0 Y0.\nG0 X#5221\nY#5222\nM30\n",
                     )
                     .with(&["machine.units=\"mm\"", "offsets.G54={ X = 30.0, Y = 40.0, Z = 0.0 }"]),
-                    prints: &["5 probe 0.0000 ?", "6 rapid 0.0000 0.0000", "7 rapid 30.0000 0.0000", "8 rapid 30.0000 ?"],
+                    prints: &["6 probe 0.0000 ?", "7 rapid 0.0000 0.0000", "8 rapid 30.0000 0.0000", "9 rapid 30.0000 ?"],
                 },
                 Run {
                     program: mill("O1\nG21 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90 G0 Y0.\nG0 Y#5222\nM30\n")
@@ -190,56 +287,114 @@ pub(crate) const SYSTEM: System = System {
                     prints: &["3 probe 0.0000 4.0000", "4 rapid 0.0000 0.0000", "5 rapid 0.0000 ?"],
                 },
                 Assumes { program: KEPT, says: "work offset G54" },
-            ],
+]),
+computed: By(&[
+Proof::Assumes { program: mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG36 Y#1 F10.\nG90\nM30\n"), says: "work offset G54" },
+]),
+lasting: By(&[
+run(mill("O1\nG21 G90 G55 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90 G0 Y#5242\nM30\n").with(&["machine.units=\"mm\"", "offsets.G55={ X = 30.0, Y = 40.0, Z = 0.0 }"]), &["rapid 0.0000 ?"]),
+]),
+missing: By(&[
+rule("error[word-choice-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "The work offset may be selected in the block itself, or before it.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: mill("O1\nG90 G55 G0 X0. Y5.\nG91 G55 G36 Y-1. F10.\nG90\nM30\n") },
                 explains("G36", "Choose the offset (G54 ...) in the block or before it"),
-            ],
+]),
+computed: By(&[
+legal(mill("O1\nG90 G55 G0 X0. Y5.\n#1=-1.\nG91 G55 G36 Y#1 F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("O1\nG90 G55 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+missing: No("no word"),
+extra: By(&[
+rule("error[two-codes-of-one-group]", mill("O1\nG90 G55 G0 X0. Y5.\nG91 G54 G55 G36 Y-1. F10.\nG90\nM30\n"), mill("O1\nG90 G55 G0 X0. Y5.\nG91 G55 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "`I`, `J`, `K` shift the measured offset along X, Y and Z.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G36 Y-1. J.5 F10.\nG90\nM30\n") },
+                explains("G136", "`I`, `J`, `K` shift the result along X, Y, Z"),
+]),
+computed: By(&[
+rule("warning[shift-of-axis-not-probed]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=0.5\nG36 Y-1. I#1 F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=0.5\nG36 Y-1. J#1 F10.\nG90\nM30\n")),
+]),
+lasting: No("not lasting"),
+missing: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+extra: By(&[
                 Rule {
                     finding: "warning[shift-of-axis-not-probed]",
                     violates: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G36 Y-1. I.5 F10.\nG90\nM30\n"),
                     conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG91 G36 Y-1. J.5 F10.\nG90\nM30\n"),
                 },
-                explains("G136", "`I`, `J`, `K` shift the result along X, Y, Z"),
-            ],
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "The points are corrected for the tip of the probe by settings 59 to 62.",
-            proofs: &[
+            literal: By(&[
                 explains("G36", "Settings 59 to 62 correct for the tip of the probe"),
                 explains("G136", "Settings 59 to 62 correct for the probe tip"),
-            ],
+]),
+computed: No("no word"),
+lasting: No("no word"),
+missing: No("no word"),
+extra: No("no word"),
+range: No("no word"),
+
         },
         Sentence {
             says: "The axis words are read in the offset that is about to be set, so that increments (`G91`) are the way to write them.",
-            proofs: &[
+            literal: By(&[
                 Rule {
                     finding: "info[measures-in-positions]",
                     violates: mill("O1\nG90 G54 G0 X0. Y5.\nG31 Y4. F10. M75\nG0 Y-5.\nG136 Y-4. F10.\nM30\n"),
                     conforms: KEPT,
                 },
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("info[measures-in-positions]", mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=4.\nG36 Y#1 F10.\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=-1.\nG91 G36 Y#1 F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
                 Rule {
                     finding: "info[measures-in-positions]",
                     violates: mill("O1\nG90 G54 G0 X0. Y5.\nG36 Y4. F10.\nM30\n"),
                     conforms: SURFACE,
                 },
-            ],
+rule("info[measures-in-positions]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG90\nG136 Y-2. F10.\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n")),
+]),
+missing: No("no word"),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "No tool length compensation is in effect while a work offset is measured (`G36`, `G136`).",
-            proofs: &[
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("error[probing-in-wrong-mode]", mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=1\nG43 H#1 Z1.\nG91 G36 Y-1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=1\nG43 H#1 Z1.\nG49\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
                 Rule {
                     finding: "error[probing-in-wrong-mode]",
-                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG43 H1 Z1.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. F10.\nG90\nM30\n"),
-                    conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG43 H1 Z1.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG49 G136 Y1. F10.\nG90\nM30\n"),
+                    violates: mill("O1\nG90 G54 G0 X0. Y5.\nG43 H1 Z1.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. F10.\nG90\nM30\n"),
+                    conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG43 H1 Z1.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG49 G136 Y1. F10.\nG90\nM30\n"),
                 },
                 Rule {
                     finding: "error[probing-in-wrong-mode]",
@@ -251,11 +406,23 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nG90 G54 G0 X0. Y5.\nIF [#100 EQ 1] GOTO10\nG43 H1 Z1.\nN10 G91 G36 Y-1. F10.\nG90\nM30\n"),
                     conforms: mill("O1\nG90 G54 G0 X0. Y5.\nIF [#100 EQ 1] GOTO10\nG43 H1 Z1.\nN10 G49\nG91 G36 Y-1. F10.\nG90\nM30\n"),
                 },
-            ],
+]),
+missing: No("no word"),
+extra: By(&[
+rule("error[probing-in-wrong-mode]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G43 H1 G36 Y-1. F10.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "No cutter compensation is in effect while a probe touches (`G31`, `G35`, `G36`, `G37`, `G136`).",
-            proofs: &[
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("error[probing-in-wrong-mode]", mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=1\nG41 D#1 G1 X1. F10.\nG91 G31 Y-1. F10. M79\nG40 X1.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=1\nG41 D#1 G1 X1. F10.\nG40 X1.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+]),
+lasting: By(&[
                 Rule {
                     finding: "error[probing-in-wrong-mode]",
                     violates: mill("O1\nG41 D1 G1 X1. F10.\nG91 G31 Y-1. F10.\nG40 X1.\nG90\nM30\n"),
@@ -271,21 +438,23 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nG41 D1 G1 X1. F10.\nIF [#100 EQ 1] GOTO10\nG40 X2.\nN10 G91 G31 Y-1. F10.\nG40 X1.\nG90\nM30\n"),
                     conforms: mill("O1\nG41 D1 G1 X1. F10.\nIF [#100 EQ 1] GOTO10\nG1 Y2.\nN10 G40 X2.\nG91 G31 Y-1. F10.\nG90\nM30\n"),
                 },
-            ],
+]),
+missing: No("no word"),
+extra: By(&[
+rule("error[probing-in-wrong-mode]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G41 D1 G31 Y-1. F10. M79\nG40 X1.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "A probing move needs an axis and a feed in its block.",
-            proofs: &[
-                Rule {
-                    finding: "error[word-choice-missing]",
-                    violates: mill("O1\nG91 G31 F10.\nG90\nM30\n"),
-                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
-                },
-                Rule {
-                    finding: "error[word-choice-missing]",
-                    violates: mill("O1\nG91 G36 F10.\nG90\nM30\n"),
-                    conforms: SURFACE,
-                },
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+]),
+computed: By(&[
+same(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=10.\nG31 Y-1. F#1\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nG90\nM30\n")),
+]),
+lasting: By(&[
                 Rule {
                     finding: "error[required-word-missing]",
                     violates: mill("O1\nG91 G1 Y2. F10.\nG31 Y-1.\nG90\nM30\n"),
@@ -296,11 +465,46 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nG91 G31 Y-1. F10. M75\nG136 Y1.\nG90\nM30\n"),
                     conforms: KEPT,
                 },
-            ],
+]),
+missing: By(&[
+                Rule {
+                    finding: "error[word-choice-missing]",
+                    violates: mill("O1\nG91 G31 F10.\nG90\nM30\n"),
+                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
+                },
+                Rule {
+                    finding: "error[word-choice-missing]",
+                    violates: mill("O1\nG91 G36 F10.\nG90\nM30\n"),
+                    conforms: SURFACE,
+                },
+]),
+extra: By(&[
+rule("info[word-passed-over]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. Q2. M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+noticed("info", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10. R2.\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nG90\nM30\n")),
+]),
+range: No("see G136-17"),
+
         },
         Sentence {
             says: "The feed of a probing move is above zero and has no sign.",
-            proofs: &[
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("error[computed-value-out-of-range]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=0\nG31 Y-1. F#1 M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=10.\nG31 Y-1. F#1 M79\nG90\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-10.\nG31 Y-1. F#1 M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=10.\nG31 Y-1. F#1 M79\nG90\nM30\n")),
+rule("warning[maybe-computed-value-out-of-range]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=10.\nIF [#500 EQ 1] GOTO 10\n#1=-10.\nN10 G31 Y-1. F#1 M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=10.\nIF [#500 EQ 1] GOTO 10\n#1=12.\nN10 G31 Y-1. F#1 M79\nG90\nM30\n")),
+]),
+lasting: No("see G136-16"),
+missing: No("see G136-16"),
+extra: By(&[
+                Rule {
+                    finding: "warning[word-given-twice]",
+                    violates: mill("O1\nG91 G31 Y-1. F10. F12. M79\nG90\nM30\n"),
+                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
+                },
+]),
+range: By(&[
                 Rule {
                     finding: "error[number-out-of-range]",
                     violates: mill("O1\nG91 G31 Y-1. F0. M79\nG90\nM30\n"),
@@ -311,16 +515,21 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nG91 G31 Y-1. F-10. M79\nG90\nM30\n"),
                     conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
                 },
-                Rule {
-                    finding: "warning[word-given-twice]",
-                    violates: mill("O1\nG91 G31 Y-1. F10. F12. M79\nG90\nM30\n"),
-                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
-                },
-            ],
+]),
+
         },
         Sentence {
             says: "The feed of a probing move stays below 100 inch (2500 mm) a minute.",
-            proofs: &[
+            literal: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F99. M79\nG90\nM30\n")),
+]),
+computed: By(&[
+rule("warning[probe-feed-too-high]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=12.\nG31 Y-1. F[#1*10.] M79\nG90\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=12.\nG31 Y-1. F#1 M79\nG90\nM30\n")),
+]),
+lasting: No("see G136-16"),
+missing: No("see G136-16"),
+extra: No("no other word"),
+range: By(&[
                 Rule {
                     finding: "warning[probe-feed-too-high]",
                     violates: mill("O1\nG20 G91 G31 Y-1. F120. M79\nG90\nM30\n"),
@@ -331,69 +540,122 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nG21 G91 G36 Y-1. F99999.\nG90\nM30\n"),
                     conforms: mill("O1\nG21 G91 G36 Y-1. F250.\nG90\nM30\n"),
                 },
-            ],
+]),
+
         },
         Sentence {
             says: "`G31` moves as feed does until the touch, or to its end point, and the program goes on either way; the point is in `#5061` and up, \
                    which nobody knows beforehand.",
-            proofs: &[
+            literal: By(&[
                 Run {
                     program: mill("O1\nG21 G90 G54 G0 X0. Y5.\nG31 Y-5. F100.\nX1.\nY#5062\nX#5061\nM30\n"),
                     prints: &["3 probe 0.0000 -5.0000", "4 rapid 1.0000 ?", "5 rapid 1.0000 ?", "6 rapid 0.0000 ?"],
                 },
+                explains("G31", "the program goes on either way"),
+]),
+computed: By(&[
+run(mill("O1\nG21 G90 G54 G0 X0. Y5.\n#1=-5.\nG31 Y#1 F100.\nX1.\nM30\n"), &["probe 0.0000 -5.0000", "rapid 1.0000 ?"]),
+rule("warning[probe-goes-nowhere]", mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=5.\nG31 Y#1 F10. M79\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\n#1=4.\nG31 Y#1 F10. M79\nM30\n")),
+]),
+lasting: By(&[
+run(mill("O1\nG21 G90 G54 G1 X0. Y5. F200.\nG31 Y-5. F100.\nY9.\nM30\n"), &["probe 0.0000 -5.0000", "feed 0.0000 9.0000"]),
+]),
+missing: By(&[
+rule("error[word-choice-missing]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG31 F10. M79\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG31 Y4. F10. M79\nM30\n")),
+]),
+extra: By(&[
+rule("info[word-passed-over]", mill("O1\nG20 G90 G54 G0 X0. Y5.\nG31 Y4. F10. K2. M79\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y5.\nG31 Y4. F10. M79\nM30\n")),
+]),
+range: By(&[
                 Rule {
                     finding: "warning[probe-goes-nowhere]",
                     violates: mill("O1\nG90 G54 G0 X0. Y5.\nG31 Y5. F10. M79\nM30\n"),
                     conforms: mill("O1\nG90 G54 G0 X0. Y5.\nG31 Y4. F10. M79\nM30\n"),
                 },
-                explains("G31", "the program goes on either way"),
-            ],
+]),
+
         },
         Sentence {
             says: "`M79` makes no touch an alarm, `M78` a touch; they are in the probing block or after it.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: mill("O1\nG91 G31 Y-1. F10.\nM79\nG90\nM30\n") },
-                Rule {
-                    finding: "warning[touch-code-without-probing]",
-                    violates: mill("O1\nG91 G1 Y-1. F10. M79\nG90\nM30\n"),
-                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
-                },
                 Run {
                     program: mill("O1\nG21 G90 G54 G0 X0. Y5.\nG31 Y-5. F100. M78\nX1.\nM30\n"),
                     prints: &["3 probe 0.0000 -5.0000", "4 rapid 1.0000 -5.0000"],
                 },
                 explains("M78", "it turns a touch into an alarm"),
                 explains("M79", "no touch on the way is an alarm then"),
-            ],
+]),
+computed: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 #1=-1.\nG31 Y#1 F10. M79\nG90\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nM78\nG90\nM30\n")),
+]),
+missing: By(&[
+legal(mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10.\nG90\nM30\n")),
+]),
+extra: By(&[
+                Rule {
+                    finding: "warning[touch-code-without-probing]",
+                    violates: mill("O1\nG91 G1 Y-1. F10. M79\nG90\nM30\n"),
+                    conforms: mill("O1\nG91 G31 Y-1. F10. M79\nG90\nM30\n"),
+                },
+]),
+range: No("no range"),
+
         },
         Sentence {
             says: "`G35` is the second touch of a tool's size, which becomes the offset `D`: one that is not 0.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: SIZE },
+                explains("G35", "less the width of the probe (Setting 63)"),
+]),
+computed: By(&[
+same(mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\n#1=1\nG35 Y1. D#1 F5.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\n#1=0\nG35 Y1. D#1 F5.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\n#1=1\nG35 Y1. D#1 F5.\nM5\nG90\nM30\n")),
+]),
+lasting: By(&[
+rule("error[required-word-missing]", mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nD1\nG35 Y1. F5.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nD1\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+]),
+missing: By(&[
                 Rule {
                     finding: "error[first-touch-missing]",
-                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5.\nG0 Y-4.\nG35 Y1. D1 F5.\nG90\nM30\n"),
+                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5.\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nG90\nM30\n"),
                     conforms: SIZE,
                 },
                 Rule {
                     finding: "error[required-word-missing]",
-                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Y-4.\nG35 Y1. F5.\nG90\nM30\n"),
+                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. F5.\nG90\nM30\n"),
                     conforms: SIZE,
                 },
+]),
+extra: By(&[
+noticed("info", mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5. Q1.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+]),
+range: By(&[
                 Rule {
                     finding: "error[number-out-of-range]",
-                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Y-4.\nG35 Y1. D0 F5.\nG90\nM30\n"),
+                    violates: mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D0 F5.\nG90\nM30\n"),
                     conforms: SIZE,
                 },
-                explains("G35", "less the width of the probe (Setting 63)"),
-            ],
+noticed("error", mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1.5 F5.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+noticed("error", mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D-1 F5.\nM5\nG90\nM30\n"), mill("O1\nS200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+]),
+
         },
         Sentence {
             says: "A right-hand cutter turns backward (`M4`) while its size is measured; a spindle probe does not turn.",
-            proofs: &[
+            literal: By(&[
+legal(SIZE),
+]),
+computed: By(&[
+rule("warning[spindle-turns-while-probing]", mill("O1\n#1=200\nS#1 M3\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n"), mill("O1\n#1=200\nS#1 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n")),
+]),
+lasting: By(&[
                 Rule {
                     finding: "warning[spindle-turns-while-probing]",
-                    violates: mill("O1\nS200 M3\nG91 G31 Y-1. F5. M75\nG0 Y-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n"),
+                    violates: mill("O1\nS200 M3\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n"),
                     conforms: SIZE,
                 },
                 Rule {
@@ -401,48 +663,78 @@ pub(crate) const SYSTEM: System = System {
                     violates: mill("O1\nS500 M3\nG90 G54 G0 X0. Y5.\nG91 G36 Y-1. F10.\nM5\nG90\nM30\n"),
                     conforms: SURFACE,
                 },
-            ],
+]),
+missing: No("no word"),
+extra: No("no other word"),
+range: No("no range"),
+
         },
         Sentence {
             says: "`G37` needs `G43` or `G44` with an `H` that is not 0, in its block or before it.",
-            proofs: &[
+            literal: By(&[
                 Legal { program: LENGTH },
+]),
+computed: By(&[
+same(mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\n#1=1\nG37 H#1 Z0. F10. M79\nM30\n"), mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H1 Z0. F10. M79\nM30\n")),
+rule("error[computed-value-out-of-range]", mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\n#1=0\nG37 H#1 Z0. F10. M79\nM30\n"), mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\n#1=1\nG37 H#1 Z0. F10. M79\nM30\n")),
+]),
+lasting: By(&[
+legal(mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 Z0. F10. M79\nM30\n")),
+]),
+missing: By(&[
                 Rule {
                     finding: "error[probing-in-wrong-mode]",
                     violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG49\nG37 H1 Z0. F10.\nM30\n"),
                     conforms: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 Z0. F10. M79\nM30\n"),
                 },
-                Rule {
-                    finding: "error[number-out-of-range]",
-                    violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H0 Z0. F10.\nM30\n"),
-                    conforms: LENGTH,
-                },
+]),
+extra: By(&[
                 Rule {
                     finding: "warning[length-written-for-another-tool]",
                     violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H2 Z0. F10. M79\nM30\n"),
                     conforms: LENGTH,
                 },
-            ],
+]),
+range: By(&[
+                Rule {
+                    finding: "error[number-out-of-range]",
+                    violates: mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H0 Z0. F10.\nM30\n"),
+                    conforms: LENGTH,
+                },
+]),
+
         },
         Sentence {
             says: "`G37` names Z, and no X, Y or A. Its Z is what the touched point shall read, not where the move ends: 0 for no shift.",
-            proofs: &[
-                Rule {
-                    finding: "error[required-word-missing]",
-                    violates: mill("O1\nG90 G43 H1 Z2.\nG37 H1 F10.\nM30\n"),
-                    conforms: LENGTH,
-                },
-                Rule {
-                    finding: "error[word-forbidden]",
-                    violates: mill("O1\nG90 G43 H1 Z2.\nG37 H1 X1. Z0. F10.\nM30\n"),
-                    conforms: LENGTH,
-                },
+            literal: By(&[
                 Run {
                     program: mill("O1\nG21 G90 G54 G0 X0. Y0.\nG43 H1 Z20.\nG37 H1 Z0. F100.\nG0 Z20.\nM30\n"),
                     prints: &["3 rapid 0.0000 0.0000 20.0000", "4 probe 0.0000 0.0000 ?", "5 rapid 0.0000 0.0000 20.0000"],
                 },
                 explains("G37", "writes length offset `H` so that the touched point reads the `Z` of the block"),
-            ],
+]),
+computed: By(&[
+rule("error[word-forbidden]", mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\n#1=1.\nG37 H1 X#1 Z0. F10. M79\nM30\n"), LENGTH),
+same(mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\n#1=0\nG37 H1 Z#1 F10. M79\nM30\n"), mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H1 Z0. F10. M79\nM30\n")),
+]),
+lasting: No("not lasting"),
+missing: By(&[
+                Rule {
+                    finding: "error[required-word-missing]",
+                    violates: mill("O1\nG90 G43 H1 Z2.\nG37 H1 F10.\nM30\n"),
+                    conforms: LENGTH,
+                },
+]),
+extra: By(&[
+                Rule {
+                    finding: "error[word-forbidden]",
+                    violates: mill("O1\nG90 G43 H1 Z2.\nG37 H1 X1. Z0. F10.\nM30\n"),
+                    conforms: LENGTH,
+                },
+rule("error[word-forbidden]", mill("O1\nT1 M6\nG90 G54 G0 X0. Y0.\nG43 H1 Z2.\nG37 H1 A1. Z0. F10. M79\nM30\n"), LENGTH),
+]),
+range: No("no range"),
+
         },
     ],
 };
@@ -456,13 +748,15 @@ fn holds() {
 const BLOCKS: [(Program, &str); 5] = [
     (mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M79\nG90\nM30\n"), "G31 Y-1. F10."),
     (
-        mill("O1\nG20 S200 M4\nG91 G31 Y-1. F5. M75\nG0 Y-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n"),
+        mill("O1\nG20 S200 M4\nG91 G31 Y-1. F5. M75\nG0 Z2.\nY-4.\nG35 Y1. D1 F5.\nM5\nG90\nM30\n"),
         "G35 Y1. D1 F5.",
     ),
     (mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G36 Y-1. J.5 F10.\nG90\nM30\n"), "G36 Y-1. J.5 F10."),
     (mill("O1\nG20 G90 G54 G0 X0. Y5.\nG43 H1 Z2.\nG37 H1 Z0. F10.\nM30\n"), "G37 H1 Z0. F10."),
     (
-        mill("O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Y-8.\nG136 Y1. I0. F10.\nG90\nM30\n"),
+        mill(
+            "O1\nG20 G90 G54 G0 X0. Y5.\nG91 G31 Y-1. F10. M75\nG0 Z2.\nY-8.\nG136 Y1. I0. F10.\nG90\nM30\n",
+        ),
         "G136 Y1. I0. F10.",
     ),
 ];

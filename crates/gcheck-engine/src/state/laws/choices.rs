@@ -94,8 +94,8 @@ made! {
     WorkOffset, 10, c => WorkOffset { origin: c.make(), rotation: c.make() };
     Points, 27, c => {
         let mut points = Points::at(c.make());
-        points.actual.put(c.make());
-        points.passed.put(c.make());
+        points.actual = c.make();
+        points.passed = c.make();
         points
     };
     ToolData, 14, c => ToolData {
@@ -108,25 +108,25 @@ made! {
     Blending, 2, c => Blending { tolerance: c.make(), naive: c.make() };
     CoolantState, 2, c => {
         let mut coolant = CoolantState::all(c.make());
-        coolant.mist.put(c.make());
+        coolant.mist = c.make();
         coolant
     };
     SpindleState<Abstract>, 10, c => {
         let mut spindle = SpindleState::<Abstract>::stopped();
-        spindle.speed.put(c.make());
-        spindle.limit.put(c.make());
-        spindle.way.put(c.make());
-        spindle.live_tool.put(c.make());
-        spindle.overridable.put(c.make());
+        spindle.speed = c.make();
+        spindle.limit = c.make();
+        spindle.way = c.make();
+        spindle.live_tool = c.make();
+        spindle.overridable = c.make();
         spindle
     };
     Feed<Abstract>, 24, c => {
         let mut feed = Feed::<Abstract>::none(c.make());
-        feed.rate.put(c.make());
-        feed.word.put(c.make());
-        feed.overridable.put(c.make());
-        feed.adaptive.put(c.make());
-        feed.hold.put(c.make());
+        feed.rate = c.make();
+        feed.word = c.make();
+        feed.overridable = c.make();
+        feed.adaptive = c.make();
+        feed.hold = c.make();
         feed
     };
     Loaded, 16, c => Loaded { data: c.make(), entry: c.some() };
@@ -159,21 +159,21 @@ made! {
     };
     Offsets, 130, c => {
         let mut offsets = Offsets::unshifted(c.make(), Some(1));
-        offsets.work.put(c.make());
-        offsets.in_effect.put(c.make());
-        offsets.shift.put(c.make());
-        offsets.shift_on.put(c.make());
-        offsets.local.put(c.make());
+        offsets.work = c.make();
+        offsets.in_effect = c.make();
+        offsets.shift = c.make();
+        offsets.shift_on = c.make();
+        offsets.local = c.make();
         offsets
     };
     ToolState<Abstract>, 45, c => {
         let mut tool = ToolState::<Abstract>::at_start(c.make(), &Tables::of(&Machine::default()));
-        tool.number.put(c.make());
-        tool.selected.put(c.make());
-        tool.loaded.put(c.make());
-        tool.length.put(c.make());
-        tool.h.put(c.make());
-        tool.d.put(c.make());
+        tool.number = c.make();
+        tool.selected = c.make();
+        tool.loaded = c.make();
+        tool.length = c.make();
+        tool.h = c.make();
+        tool.d = c.make();
         tool
     };
     CycleWords, 20, c => {
@@ -224,8 +224,7 @@ made! {
         }),
     };
     Mapping, 8, c => {
-        let mut mapping = Mapping::default();
-        mapping.wrapped.put(c.make());
+        let mut mapping = Mapping { wrapped: c.make(), ..Mapping::default() };
         for axis in [Axis::A, Axis::B] {
             if c.make::<bool>() {
                 mapping.diameters.set(axis, c.make());
@@ -247,10 +246,10 @@ made! {
     };
     Probe, 17, c => {
         let mut probe = Probe::at_start(c.make());
-        probe.point.put(c.make());
-        probe.result.put(c.make());
-        probe.touched.put(c.make());
-        probe.kept.put(c.make());
+        probe.point = c.make();
+        probe.result = c.make();
+        probe.touched = c.make();
+        probe.kept = c.make();
         probe
     };
     Bar, 4, c => {
@@ -269,12 +268,7 @@ made! {
     };
     Rc<Compensation>, 3, c => Rc::new(compensation(c));
     Course, 3, c => if c.below(4) == 0 { Course::Unknown } else { Course::Followed(c.make()) };
-    CompensationState, 8, c => {
-        let mut state = CompensationState::default();
-        state.on.put(c.some());
-        state.left.put(c.some());
-        state
-    };
+    CompensationState, 8, c => CompensationState { on: c.some(), left: c.some() };
     ControlPoints, 8, c => {
         let count = c.below(3);
         ControlPoints(Rc::new((0..count).map(|_| [c.make(), c.make(), 1.0]).collect()))
@@ -374,7 +368,7 @@ made! {
             kept.wanted_branch = c.some();
             kept.restore_on_return = c.make();
         }
-        calls.modal.put(c.make());
+        calls.modal = c.make();
         calls
     };
     Modes, 160, c => Modes::new(&std::array::from_fn(|_| c.make()));
@@ -401,16 +395,16 @@ made! {
         state.feed = c.make();
         state.spindle = c.make();
         state.coolant = c.make();
-        state.cycle.put(c.make());
-        state.turning.put(c.make());
-        state.transform.put(c.make());
+        state.cycle = c.make();
+        state.turning = c.make();
+        state.transform = c.make();
         state.mapping = c.make();
         state.compensation = c.make();
-        state.blending.put(c.make());
-        state.curve = Tracked::new(c.some());
+        state.blending = c.make();
+        state.curve = c.some();
         state.probe = c.make();
-        state.tool_shift.put(c.make());
-        state.bar.put(c.make());
+        state.tool_shift = c.make();
+        state.bar = c.make();
         state
     };
 }

@@ -157,9 +157,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn rough_profile(&mut self, effect: Effect, blocks: ProfileBlocks, state: &mut State<D>) -> Step {
         let checked = self.check_feed(state);
         let mut scratch = state.clone();
-        let read = self.read_profile(blocks, Plane::Zx, &mut scratch);
-        state.note_reads_of(&scratch);
-        let profile = read?;
+        let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
         let half = if state.is_diameter(self.model) == Some(true) { 2.0 } else { 1.0 };
         let length = |letter: char| self.length(Letter::of(letter), state).unwrap_or(0.0);
         let stock = (Mm(length('W')), Mm(length('U') / half));
@@ -313,9 +311,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         scratch.calls.push(Frame { locals: Perhaps::Yes(locals), ..frame });
         // The way to the first point was a rapid, and so is what the subprogram gives no code.
         scratch.set_mode(Role::Motion, self.model.code_with(Effect::Rapid));
-        let read = self.read_profile(blocks, Plane::Zx, &mut scratch);
-        state.note_reads_of(&scratch);
-        let profile = read?;
+        let profile = self.read_profile(blocks, Plane::Zx, &mut scratch)?;
         // What the subprogram leaves as motion mode and in variables stays.
         if let Some(mode) = scratch.mode(Role::Motion).only() {
             state.set_mode(Role::Motion, mode);
@@ -332,8 +328,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let words = LayeredFinish { first: Mm(depth), last: Mm(nearest), passes: passes as u32, units };
             if words.passes == 0 {
                 // Nothing moves, and yet the interpreter goes on from the end of the subprogram.
-                state.points.position.put(*scratch.position());
-                state.points.actual.put(self.axes_of(scratch.position(), state));
+                state.points.position = *scratch.position();
+                state.points.actual = self.axes_of(scratch.position(), state);
                 Ok(from)
             } else {
                 layered_finish(from, &profile.segments, &words, &mut out)
@@ -406,8 +402,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     ) -> Step<ReadProfile> {
         let (origin, words) = (self.origin, self.words.clone());
         let pending = std::mem::take(&mut self.pending);
-        state.compensation.on.put(Perhaps::No);
-        state.compensation.left.put(Perhaps::No);
+        state.compensation.on = Perhaps::No;
+        state.compensation.left = Perhaps::No;
         let [first, second, _] = plane.to_local(state.position().xyz());
         let mut drawing = Drawing { plane, segments: Vec::new(), corners: Vec::new(), complete: true };
         drawing.complete &= self.read_blocks(blocks, state, &mut drawing)?;
@@ -568,8 +564,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
         drawing.segments.push(ProfileSegment::Line { to, rapid });
-        state.points.position.put(target);
-        state.points.actual.put(target);
+        state.points.position = target;
+        state.points.actual = target;
         Ok(())
     }
 
@@ -606,8 +602,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let arc = arc.map_err(|error| Fault::Arc(arc_fault(&error)))?;
         let to = (Mm(target.raw(first)), Mm(target.raw(second)));
         drawing.segments.push(ProfileSegment::Arc { to, centre: arc.centre(), ccw });
-        state.points.position.put(target);
-        state.points.actual.put(target);
+        state.points.position = target;
+        state.points.actual = target;
         Ok(())
     }
 }

@@ -9,7 +9,8 @@ use crate::declare::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// An arc has the centre word of the axis that is perpendicular to its plane: `K` in the XY plane (`G17`). Or an
+    /// An arc has the centre word of the axis that is perpendicular to its plane: `K` in the XY plane (`G17`), beside
+    /// the centre words of its plane or in place of them. Or an
     /// arc in the ZX or YZ plane (`G18`, `G19`) has words for X and Y, as end point or centre, and no word for Z: it
     /// looks like an arc in the XY plane.
     ///
@@ -26,6 +27,11 @@ declare_rule! {
     /// ```nc,reported,haas-mill
     /// G17 G21 G90 G0 X0 Y0 Z0
     /// G2 X10. Y0 I5. K2. F100.
+    /// M30
+    /// ```
+    /// ```nc,reported,haas-mill
+    /// G17 G21 G90 G0 X0 Y0 Z0
+    /// G2 X10. Y0 K5. F100.
     /// M30
     /// ```
     /// ```nc,reported,haas-mill
@@ -58,9 +64,25 @@ struct ArcWrongPlaneWord;
 
 impl PathRule for ArcWrongPlaneWord {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        let Fault::Arc(ArcFault::WrongPlane(letter)) = *fault else { return };
-        if let Some(plane) = cx.state().plane(cx.model) {
-            report.add(finding(cx, char::from(letter.ascii()), plane));
+        let Some(plane) = cx.state().plane(cx.model) else { return };
+        match *fault {
+            Fault::Arc(ArcFault::WrongPlane(letter)) => {
+                report.add(finding(cx, char::from(letter.ascii()), plane));
+            }
+            Fault::Arc(ArcFault::NoCentre) => {
+                let foreign = centre_word_across(plane);
+                if cx.origin().letters.contains(Letter::of(foreign)) {
+                    report.add(alone(cx, foreign, plane));
+                }
+            }
+            // The words of a helix in another plane seldom meet on a circle.
+            Fault::Arc(ArcFault::OffCircle { .. } | ArcFault::RadiusTooSmall { .. }) => {
+                let foreign = centre_word_across(plane);
+                if cx.origin().letters.contains(Letter::of(foreign)) {
+                    report.add(finding(cx, foreign, plane).at_most(Severity::Warning));
+                }
+            }
+            _ => {}
         }
     }
 
@@ -137,6 +159,17 @@ const fn name_of(plane: Plane) -> &'static str {
     }
 }
 
+/// The word across is the only one: the arc has neither a centre in its plane nor a radius.
+fn alone(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
+    let finding = finding(cx, letter, plane)
+        .note("without another centre word or a radius, the arc has no centre in its plane")
+        .at_most(Severity::Warning);
+    match cx.model.semantics().arcs.straight_setting.as_deref() {
+        Some(setting) => finding.note(format!("setting {setting} decides: a straight line, or an alarm")),
+        None => finding,
+    }
+}
+
 fn finding(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
     let name = name_of(plane);
     let code = cx.code_name(Role::Plane).unwrap_or_default();
@@ -156,7 +189,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, check_rule_in, findings, only};
 
     #[test]
     fn arcs_of_the_xy_plane_in_another_one() {
@@ -184,6 +217,64 @@ mod tests {
                   |              ^^ error[arc-wrong-plane-word] `J` does not belong to an arc in the ZX plane
                 3 | G17 G2 X0 Y0 K1
                   |              ^^ error[arc-wrong-plane-word] `K` does not belong to an arc in the XY plane
+            "#]],
+        );
+    }
+
+    /// In each plane, on each control, with the twin whose word is of the plane.
+    #[test]
+    fn the_word_across_alone() {
+        let planes = [
+            ("G17", "X10. Y0.", "K5.", "I5."),
+            ("G18", "X10. Z0.", "J5.", "I5."),
+            ("G19", "Y10. Z0.", "I5.", "J5."),
+        ];
+        for control in [
+            "generic-mill",
+            "haas-mill",
+            "haas-lathe",
+            "fanuc-mill",
+            "fanuc-lathe",
+            "tsnc-yh-a1m",
+            "linuxcnc",
+        ] {
+            for (plane, end, across, inside) in planes {
+                let program = |centre: &str| {
+                    format!("G21 {plane}\nS500 M3\nG0 X0. Y0. Z0.\nG2 {end} {centre} F0.1\nM30\n")
+                };
+                let found =
+                    |centre: &str| findings(&only(&RULE), control, &program(centre), &World::default()).len();
+                assert_eq!((found(across), found(inside)), (1, 0), "{control} {plane}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_helix_whose_words_are_of_another_plane() {
+        check_rule(
+            &RULE,
+            "generic-mill",
+            "G21 G18 G90 G0 X10. Y0. Z0.\nG2 X-10. Y0. Z-2. I-10. J0. F100.\nG17 G2 X-10. Y0. Z-4. I10. J0.\nM30\n",
+            &expect![[r#"
+                2 | G2 X-10. Y0. Z-2. I-10. J0. F100.
+                  |                         ^^^ warning[arc-wrong-plane-word] `J` does not belong to an arc in the ZX plane
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_setting_that_makes_it_a_straight_move_changes_nothing() {
+        let mut straight = World::default();
+        straight.machine.settings.insert("3403#5".to_owned(), "straight line".to_owned());
+        straight.machine.engine.settings.insert("3403#5".to_owned(), "straight line".to_owned());
+        check_rule_in(
+            &RULE,
+            "fanuc-mill",
+            "G17 G21 G90 G0 X0 Y0 Z0\nG2 X10. Y0. K5. F100.\nM30\n",
+            &straight,
+            &expect![[r#"
+                2 | G2 X10. Y0. K5. F100.
+                  |             ^^^ warning[arc-wrong-plane-word] `K` does not belong to an arc in the XY plane
             "#]],
         );
     }

@@ -39,6 +39,9 @@ declare_rule! {
     }
 }
 
+/// Lengths that differ by less are taken for equal: inches seldom add up exactly.
+const EQUAL_WITHIN: Mm = Mm(1e-6);
+
 struct BarTooShortForPart;
 
 impl PathRule for BarTooShortForPart {
@@ -50,7 +53,7 @@ impl PathRule for BarTooShortForPart {
         let Some(told) = lengths(event) else { return };
         let (part, clamping, initial) = (told.part, told.clamping, told.initial);
         // Another rule reports numbers below zero.
-        if part > Mm::ZERO && clamping >= Mm::ZERO && part + clamping > bar {
+        if part > Mm::ZERO && clamping >= Mm::ZERO && part + clamping > bar + EQUAL_WITHIN {
             let finding =
                 cx.finding(&META, length_range(cx, Length::Part), "part and its clamping are longer than a new bar")
                     .label(format!(
@@ -62,7 +65,7 @@ impl PathRule for BarTooShortForPart {
                     .note("the feeder replaces a bar that is too short: every feed would take a new bar")
                     .help("correct the part length (`J`), the clamping length (`K`) or `bar_length` of the machine file");
             report.add(resting_on_units(cx, finding));
-        } else if clamping >= Mm::ZERO && initial > Mm::ZERO && bar - initial < clamping {
+        } else if clamping >= Mm::ZERO && initial > Mm::ZERO && bar - initial < clamping - EQUAL_WITHIN {
             report.add(
                 cx.finding(
                     &META,

@@ -133,12 +133,15 @@ mod tests {
     }
 
     #[test]
-    fn on_some_path_only_is_not_certain() {
+    fn on_some_path_it_is_named_with_its_condition() {
         check_rule(
             &RULE,
             "haas-lathe",
             "IF [#500 EQ 1] GOTO 5\nG42 G0 X1. Z0.1\nN5 M5\nG105 J1.75\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G105 J1.75
+                  | ^^^^ info[mode-on-at-bar-feed] nose compensation is still on while the bar is fed (`G42`), when `#500` is not 1
+            "#]],
         );
     }
 }

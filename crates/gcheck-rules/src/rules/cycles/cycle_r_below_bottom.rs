@@ -7,7 +7,7 @@ use gcheck_engine::{At, CycleFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::{cycle_range, is_cycle};
+use crate::facts::cycles::{cycle_name, cycle_range, is_cycle, is_own_operation};
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 use crate::{Remembers, remembers};
 
@@ -94,14 +94,15 @@ impl PathRule for CycleRBelowBottom {
 
 fn finding(cx: &PathCx<'_>) -> Finding {
     let words = cx.state().cycle();
-    let name = cx.code_name(Role::Cycle).unwrap_or_default();
+    let name = cycle_name(cx);
+    let what = if is_own_operation(cx) {
+        "`R` is below the bottom of the cut"
+    } else {
+        "canned cycle with `R` below the bottom of the hole"
+    };
     let above = words.z - words.r;
     let finding = cx
-        .finding(
-            &META,
-            cycle_range(cx),
-            format!("canned cycle with `R` below the bottom of the hole (`{name}`)"),
-        )
+        .finding(&META, cycle_range(cx), format!("{what} (`{name}`)"))
         .help("check the signs of `R` and `Z`");
     if above.is_finite() {
         finding.label(format!("the bottom is {} above the retract plane", cx.shown(Mm(above))))

@@ -4,7 +4,7 @@ use gcheck_controls::Letter;
 use gcheck_engine::{CycleFault, Fault};
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::cycle_range;
+use crate::facts::cycles::{cycle_name, cycle_range, is_own_operation};
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
@@ -64,10 +64,10 @@ impl PathRule for CycleWordNotPositive {
         }
         let range =
             if word.is_some() { cx.word_range(|word| word.letter == letter) } else { cycle_range(cx) };
-        let name =
-            cx.code_name(gcheck_engine::Role::Cycle).map_or_else(String::new, |name| format!(" (`{name}`)"));
+        let name = cycle_name(cx);
+        let of = if is_own_operation(cx) { "" } else { " of a canned cycle" };
         report.add(
-            cx.finding(&META, range, format!("`{letter}` of a canned cycle is not above zero{name}"))
+            cx.finding(&META, range, format!("`{letter}`{of} is not above zero (`{name}`)"))
                 .label(what)
                 .help("check where the value comes from")
                 .at_most(limit(cx.model.semantics().confidence)),

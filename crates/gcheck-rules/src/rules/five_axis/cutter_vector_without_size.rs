@@ -53,7 +53,7 @@ impl PathRule for CutterVectorWithoutSize {
         let Some(code) = cx.control().code_at(code) else { return };
         let (name, entry) = (code.number(), code.entry());
         let finding = match cx.word('D') {
-            Some(word) if word.number() == Some(0.0) => cx
+            Some(_) if cx.known_number('D') == Some(0.0) => cx
                 .finding(
                     &META,
                     cx.letter_range('D'),
@@ -100,6 +100,19 @@ mod tests {
             "haas-mill",
             "G90 G1 G41 D2 X1. F20.\nG40 X2.\nG141 X1. Y0. Z0. I0. J0. K1.\nG40\nG141 D#500 X1. I0. J0. K1.\nG40\nM30\n",
             &expect![[""]],
+        );
+    }
+
+    #[test]
+    fn a_computed_zero_is_zero() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "#1=0\nG90 G1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n",
+            &expect![[r#"
+                2 | G90 G1 G141 D#1 X1. Y0. Z0. I0. J0. K1. F20.
+                  |             ^^^ warning[cutter-vector-without-size] 3D cutter compensation with no offset (`G141 D0`)
+            "#]],
         );
     }
 

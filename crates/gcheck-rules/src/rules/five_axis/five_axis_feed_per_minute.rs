@@ -1,6 +1,6 @@
 //! A cut under 5-axis tool length compensation with feed per minute.
 
-use gcheck_engine::{At, Event, Fact, FeedMode, Role, TravelKind};
+use gcheck_engine::{At, Axis, Event, Fact, FeedMode, Role, Travel, TravelKind};
 
 use crate::declare::declare_rule;
 use crate::facts::five_axis::is_along_tool;
@@ -60,7 +60,7 @@ impl PathRule for FiveAxisFeedPerMinute {
             return;
         }
         let (Event::Travel(travel), Some(mode)) = (event, state.feed_mode(cx.model)) else { return };
-        if travel.kind != TravelKind::Feed || mode == FeedMode::InverseTime {
+        if travel.kind != TravelKind::Feed || mode == FeedMode::InverseTime || !turns(cx, travel) {
             return;
         }
         let fact = Fact::Mode(Role::FeedMode);
@@ -91,6 +91,14 @@ impl PathRule for FiveAxisFeedPerMinute {
     }
 }
 
+/// Does the move turn the tool? Where it does not, the tip is as fast as `F` says.
+fn turns(cx: &PathCx<'_>, travel: &Travel) -> bool {
+    Axis::ALL.into_iter().filter(|axis| axis.is_rotary()).any(|axis| {
+        let is_named = cx.origin().letters.contains(axis.letter());
+        is_named && travel.from.raw(axis).to_bits() != travel.to.raw(axis).to_bits()
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::expect;
@@ -111,6 +119,16 @@ mod tests {
                 5 | G94 X4. Y0. Z0. A4. B5. F9.
                   | ^^^^^^^^^^^^^^^^^^^^^^^^^^^ warning[five-axis-feed-per-minute] feed per minute (`G94`) while the tool tilts (`G143`)
             "#]],
+        );
+    }
+
+    #[test]
+    fn a_tool_that_does_not_turn_is_as_fast_as_its_feed() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G0 X0. Y0. Z1. A0. B0.\nG143 H1 X0. Y0. Z1. A0. B0.\nG1 X1. Y0. Z0. F20.\nX2. Y0. Z0. A0. B0.\nG49\nM30\n",
+            &expect![[""]],
         );
     }
 

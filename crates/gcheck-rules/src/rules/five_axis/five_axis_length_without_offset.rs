@@ -81,6 +81,13 @@ impl FiveAxisLengthWithoutOffset {
             Some(word) if word.number() == Some(0.0) => cx
                 .finding(&META, cx.letter_range('H'), format!("{what} with no length (`{name} H0`)"))
                 .label("`H0` ends the compensation that the block begins"),
+            Some(_) if cx.known_number('H') == Some(0.0) => cx
+                .finding(
+                    &META,
+                    cx.letter_range('H'),
+                    format!("{what} with no length (`{name}` with `H` of 0)"),
+                )
+                .label("its value is 0, which ends the compensation that the block begins"),
             Some(_) => return,
             None if cx.is_malformed() => return,
             None if cx.is_called_only() || Abstract::known(cx.state().h()) != Some(0.0) => return,
@@ -116,6 +123,19 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_computed_number_of_zero() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G54 G0 X0. Y0. Z1. A0. B0.\n#1=2.\nG143 H[#1-2.] X1. Y1. Z1. A5. B5.\nG49\nG143 H[#1-1.] X1. Y1. Z1. A5. B5.\nG49\nG143 H#500 X1. Y1. Z1. A5. B5.\nG49\nM30\n",
+            &expect![[r#"
+                3 | G143 H[#1-2.] X1. Y1. Z1. A5. B5.
+                  |      ^^^^^^^^ error[five-axis-length-without-offset] 5-axis length compensation with no length (`G143` with `H` of 0)
+            "#]],
+        );
+    }
 
     #[test]
     fn a_computed_number_is_no_missing_one() {

@@ -13,7 +13,7 @@ use crate::{Remembers, remembers};
 
 declare_rule! {
     /// Under 5-axis tool length compensation (`G143`) or 3D cutter compensation (`G141`) a block asks for what they exclude: an
-    /// arc, a canned cycle, a pocket, cutter compensation in a plane.
+    /// arc, a canned cycle, a pocket, a probing move, cutter compensation in a plane.
     ///
     /// ## Why it matters
     /// Both work with straight moves (`G0`, `G1`) only. The control stops with an alarm, with the tool at the part.
@@ -32,12 +32,19 @@ declare_rule! {
     /// G40
     /// M30
     /// ```
+    /// ```nc,reported,haas-mill
+    /// G90 G143 H1 X0. Y0. Z1. A0. B0.
+    /// G31 Z-1. F10.
+    /// G49
+    /// M30
+    /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-mill
     /// G90 G143 H1 X0. Y0. Z1. A0. B0.
     /// G1 X1. Y1. Z0. A5. B5. F20.
     /// G49
     /// G2 X2. Y2. R1.
+    /// G31 Z-1. F10.
     /// M30
     /// ```
     rule "refused-in-five-axis-mode" in "five_axis" {
@@ -112,6 +119,27 @@ mod tests {
                   | ^^^^ error[refused-in-five-axis-mode] pocket (`G150`) under `G143`
                 10 | G0 G41 D1 X1.
                    |    ^^^ error[refused-in-five-axis-mode] cutter compensation (`G41`) under `G143`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn probing_and_other_moves_of_the_control() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G143 H1 X0. Y0. Z1. A0. B0.\nG31 Z-1. F10.\nG35 D1 X1. F10.\nG37 Z0. F10. H1\nG47 P0 (A) X0. Y0. J0.1 Z-.1 R.1 F5.\nG184 X1. F.05 S500\nM30\n",
+            &expect![[r#"
+                2 | G31 Z-1. F10.
+                  | ^^^ error[refused-in-five-axis-mode] probing (`G31`) under `G143`
+                3 | G35 D1 X1. F10.
+                  | ^^^ error[refused-in-five-axis-mode] probing (`G35`) under `G143`
+                4 | G37 Z0. F10. H1
+                  | ^^^ error[refused-in-five-axis-mode] probing (`G37`) under `G143`
+                5 | G47 P0 (A) X0. Y0. J0.1 Z-.1 R.1 F5.
+                  | ^^^ error[refused-in-five-axis-mode] engraving (`G47`) under `G143`
+                6 | G184 X1. F.05 S500
+                  | ^^^^ error[refused-in-five-axis-mode] tapping (`G184`) under `G143`
             "#]],
         );
     }

@@ -59,6 +59,11 @@ struct AlarmReached {
 remembers!(AlarmReached);
 
 impl PathRule for AlarmReached {
+    /// An alarm after a condition is what alarms are for.
+    fn counts_on_some_path(&self) -> bool {
+        false
+    }
+
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }

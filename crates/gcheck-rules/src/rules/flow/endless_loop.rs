@@ -57,6 +57,11 @@ declare_rule! {
 struct EndlessLoop;
 
 impl PathRule for EndlessLoop {
+    /// A condition that leads out of the loop is the way to end it.
+    fn counts_on_some_path(&self) -> bool {
+        false
+    }
+
     fn endless(&mut self, cx: &PathCx<'_>, head: At, report: &mut Report<'_>) {
         let turn = cx.origin().at;
         if waits_for_somebody(cx, head, turn) {

@@ -1,6 +1,7 @@
 //! A feed above the configured limit of the machine.
 
 use gcheck_engine::{Abstract, Domain, Event, FeedMode};
+use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
@@ -62,7 +63,11 @@ impl PathRule for FeedAboveMachineLimit {
             cx.finding(
                 &META,
                 cx.letter_range('F'),
-                format!("feed of {lowest:.0} mm/min is above the machine's {:.0} mm/min (`F`)", highest.0),
+                format!(
+                    "feed of {}/min is above the machine's {}/min (`F`)",
+                    cx.shown(Mm(lowest)),
+                    cx.shown(Mm(highest.0))
+                ),
             )
             .label("above the configured highest feed")
             .help("lower the feed, or correct the limit in the configuration"),
@@ -86,7 +91,7 @@ mod tests {
             &World::of_examples(&META),
             &expect![[r#"
                 2 | G94 G1 X1. F500.
-                  |            ^^^^^ warning[feed-above-machine-limit] feed of 12700 mm/min is above the machine's 10000 mm/min (`F`)
+                  |            ^^^^^ warning[feed-above-machine-limit] feed of 500 in/min is above the machine's 393.7008 in/min (`F`)
             "#]],
         );
     }

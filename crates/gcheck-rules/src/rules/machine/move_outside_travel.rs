@@ -2,6 +2,7 @@
 
 use gcheck_controls::Effect;
 use gcheck_engine::{Axis, Event, Position};
+use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
@@ -76,7 +77,9 @@ impl PathRule for MoveOutsideTravel {
             if std::mem::replace(told, is_outside) || !is_outside {
                 continue;
             }
-            let unit = if axis.is_rotary() { "°" } else { " mm" };
+            let shown = |value: f64| {
+                if axis.is_rotary() { format!("{value:.3}°") } else { cx.shown(Mm(value)) }
+            };
             let end = if value > *highest { "upper" } else { "lower" };
             let limit = if value > *highest { *highest } else { *lowest };
             let name = axis.name();
@@ -84,9 +87,9 @@ impl PathRule for MoveOutsideTravel {
                 .finding(
                     &META,
                     cx.letter_range(name),
-                    format!("`{name}` goes {beyond:.3}{unit} beyond the machine's travel"),
+                    format!("`{name}` goes {} beyond the machine's travel", shown(beyond)),
                 )
-                .label(format!("machine position {value:.3}{unit}, {end} limit {limit:.3}{unit}"))
+                .label(format!("machine position {}, {end} limit {}", shown(value), shown(limit)))
                 .help("check the work offset and the tool length that are configured, or move the part");
             report.add(if cx.is_on_every_path() { finding } else { finding.at_most(Severity::Warning) });
         }
@@ -136,9 +139,9 @@ mod tests {
             &World::of_examples(&META),
             &expect![[r#"
                 2 | X600.
-                  | ^^^^^ error[move-outside-travel] `X` goes 100.000 mm beyond the machine's travel
+                  | ^^^^^ error[move-outside-travel] `X` goes 100 mm beyond the machine's travel
                 5 | G1 Y-500.5 F100.
-                  |    ^^^^^^^ error[move-outside-travel] `Y` goes 0.500 mm beyond the machine's travel
+                  |    ^^^^^^^ error[move-outside-travel] `Y` goes 0.5 mm beyond the machine's travel
             "#]],
         );
     }
@@ -152,7 +155,7 @@ mod tests {
             &World::of_examples(&META),
             &expect![[r#"
                 2 | G53 G0 Z-20.
-                  |        ^^^^^ error[move-outside-travel] `Z` goes 8.000 mm beyond the machine's travel
+                  |        ^^^^^ error[move-outside-travel] `Z` goes 0.315 in beyond the machine's travel
             "#]],
         );
     }

@@ -186,7 +186,15 @@ mod tests {
     }
 
     #[test]
-    fn a_name_that_some_path_sets_is_not_judged() {
-        check_rule(&RULE, "linuxcnc", "o1 if [#100 GT 0]\n#<a>=1\no1 endif\nG0 X#<a>\nM2\n", &expect![[""]]);
+    fn a_name_that_some_path_does_not_set_is_named_with_its_condition() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "o1 if [#100 GT 0]\n#<a>=1\no1 endif\nG0 X#<a>\nM2\n",
+            &expect![[r#"
+            4 | G0 X#<a>
+              |       ^ warning[named-parameter-unset] named parameter `#<a>` is read before it is set, when `#100` is not greater than 0
+        "#]],
+        );
     }
 }

@@ -256,7 +256,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "O1\nIF [#500 EQ 1] GOTO 10\n#1=5.\nN10 G0 X#1\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | N10 G0 X#1
+                  |        ^^^ info[variable-read-before-set] variable `#1` is read before it is set, when `#500` is 1
+            "#]],
         );
     }
 }

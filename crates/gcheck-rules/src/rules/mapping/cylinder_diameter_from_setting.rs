@@ -1,7 +1,10 @@
 //! A cylinder whose diameter the program does not give.
 
+use std::ops::Range;
+
 use gcheck_controls::Effect;
 use gcheck_engine::{Cylinder, Event};
+use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -71,8 +74,12 @@ fn judge(cx: &PathCx<'_>, cylinder: &Cylinder, gone_back: bool, report: &mut Rep
     let mut finding = cx
         .finding(
             &META,
-            cx.effect_range(|effect| effect == Effect::CylinderMapping),
-            format!("the cylinder's diameter is not in the program (`{name}`)"),
+            if gone_back { size_range(cx) } else { code_range(cx) },
+            if gone_back {
+                format!("a size of zero leaves the cylinder's diameter to a setting (`{name}`)")
+            } else {
+                format!("the cylinder's diameter is not in the program (`{name}`)")
+            },
         )
         .note(if gone_back {
             format!("the last size of {axis} is zero, so {of_setting} counts")
@@ -84,11 +91,22 @@ fn judge(cx: &PathCx<'_>, cylinder: &Cylinder, gone_back: bool, report: &mut Rep
         })
         .help(format!("give the diameter with `Q` or the radius with `R`, or configure {of_setting}"));
     finding = if gone_back {
-        finding.label(format!("{axis} uses {of_setting} again"))
+        finding.label(format!("{axis} uses {of_setting}"))
     } else {
         finding.label(format!("no earlier block gives {axis} a size"))
     };
     report.add(finding);
+}
+
+/// Bytes of the code.
+fn code_range(cx: &PathCx<'_>) -> Range<u32> {
+    cx.effect_range(|effect| effect == Effect::CylinderMapping)
+}
+
+/// Bytes of the word that gives a size, else of the code.
+fn size_range(cx: &PathCx<'_>) -> Range<u32> {
+    let is_size = |word: &Word| matches!(word.letter.ascii(), b'Q' | b'R');
+    cx.find_word(cx.origin().at, is_size).unwrap_or_else(|| code_range(cx))
 }
 
 #[cfg(test)]
@@ -106,11 +124,11 @@ mod tests {
             "G107 A0. Q3.\nG107 Y0. A0. Q0.\nG107\nG107 Y0. B0.\nG107\nG107 Y0. A0. Q#1\nM30\n",
             &expect![[r#"
                 2 | G107 Y0. A0. Q0.
-                  | ^^^^ info[cylinder-diameter-from-setting] the cylinder's diameter is not in the program (`G107`)
+                  |              ^^^ info[cylinder-diameter-from-setting] a size of zero leaves the cylinder's diameter to a setting (`G107`)
                 4 | G107 Y0. B0.
                   | ^^^^ info[cylinder-diameter-from-setting] the cylinder's diameter is not in the program (`G107`)
                 6 | G107 Y0. A0. Q#1
-                  | ^^^^ info[cylinder-diameter-from-setting] the cylinder's diameter is not in the program (`G107`)
+                  |              ^^^ info[cylinder-diameter-from-setting] a size of zero leaves the cylinder's diameter to a setting (`G107`)
             "#]],
         );
     }
@@ -160,8 +178,8 @@ mod tests {
               help: give the diameter with `Q` or the radius with `R`, or configure setting 34 (4th axis diameter)
         "#]].assert_eq(&say("G107 Y0. A0.\nM30\n"));
         expect![[r#"
-            the cylinder's diameter is not in the program (`G107`)
-              here: A uses setting 34 (4th axis diameter) again
+            a size of zero leaves the cylinder's diameter to a setting (`G107`)
+              here: A uses setting 34 (4th axis diameter)
               note: the last size of A is zero, so setting 34 (4th axis diameter) counts
               help: give the diameter with `Q` or the radius with `R`, or configure setting 34 (4th axis diameter)
         "#]].assert_eq(&say("G107 Y0. A0. Q0.\nM30\n"));

@@ -43,12 +43,15 @@ const OF_CYLINDER: LetterSet = LetterSet::of("XYZQR");
 const ROTARY: LetterSet = LetterSet::of("ABC");
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    if cx.control().semantics().cylinder.is_none() || cx.block().letters.intersects(ROTARY) {
+    if cx.control().semantics().cylinder.is_none() {
         return;
     }
     let Some((_, code)) = cx.codes().find(|(_, code)| code.effect() == Effect::CylinderMapping) else {
         return;
     };
+    if cx.block().letters.intersects(code.reads().and(ROTARY)) {
+        return;
+    }
     // A word with a variable may count as missing.
     let is_given = |word: &&Word| OF_CYLINDER.contains(word.letter) && word.number().is_some();
     if let Some(word) = cx.words().iter().find(is_given)
@@ -90,7 +93,7 @@ mod tests {
         check_rule(
             &RULE,
             "haas-mill",
-            "G107 X0.\nG107 Z#1 Q[#2*2]\nG107 Q0.\n/G107 Y0.\nG107 R-1.\nG107 Y#1 A#2\n",
+            "G107 X0.\nG107 Z#1 Q[#2*2]\nG107 Q0.\n/G107 Y0.\nG107 R-1.\nG107 Y#1 A#2\nG107 Y0. C0. Q2.\n",
             &expect![[r#"
                 1 | G107 X0.
                   |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
@@ -100,6 +103,8 @@ mod tests {
                   |       ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
                 5 | G107 R-1.
                   |      ^^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                7 | G107 Y0. C0. Q2.
+                  |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
             "#]],
         );
     }
@@ -127,7 +132,7 @@ mod tests {
         let found = findings(&only(&RULE), "haas-mill", "G107 Y0. Q2.5\n", &World::default());
         expect![[r#"
             the cylinder has no rotary axis (`G107`)
-              here: an axis to wrap needs `A`, `B` or `C` in the block
+              here: an axis to wrap needs `A` or `B` in the block
               note: `G107` (cylindrical mapping) stops with an alarm when a linear axis or a size comes without a rotary axis  [Haas 96-8000 June 1999 p.203 (printed); gcodes.net, G107; Haas online manual, inverse time and feed per minute modes; HM17 p.307]
               help: name the axis that turns the part: `A0.`
         "#]].assert_eq(&found.iter().map(words).collect::<String>());

@@ -2,6 +2,7 @@
 
 use gcheck_controls::Letter;
 use gcheck_engine::{Abstract, At, Domain, Event, Fact, FeedMode, Role};
+use gcheck_geometry::Mm;
 
 use crate::declare::declare_rule;
 use crate::facts::feed::goes_by_feed;
@@ -94,18 +95,12 @@ impl PathRule for FeedImplausible {
         }
         let range = cx.find_word(given, word).unwrap_or_else(|| cx.range());
         let finding = cx
-            .finding(&META, range, format!("feed of {} mm {reads} (`F`)", told(feed)))
+            .finding(&META, range, format!("feed of {} {reads} (`F`)", cx.shown(Mm(feed))))
             .label(format!("looks meant for {other}"))
             .help("check the feed mode and the number");
         let name = cx.code_name(Role::FeedMode).unwrap_or_default();
         report.add(cx.resting_on(finding, Fact::Mode(Role::FeedMode), &format!("`{name}`")));
     }
-}
-
-/// A length as people write it.
-fn told(length: f64) -> String {
-    let text = if length < 1.0 { format!("{length:.3}") } else { format!("{length:.0}") };
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]
@@ -123,7 +118,7 @@ mod tests {
             "G20 G90 G95 S900 M3\nG1 X1. F30.\nX2.\nG1 X3. F0.01\nM30\n",
             &expect![[r#"
                 2 | G1 X1. F30.
-                  |        ^^^^ warning[feed-implausible] feed of 762 mm per turn of the spindle (`F`)
+                  |        ^^^^ warning[feed-implausible] feed of 30 in per turn of the spindle (`F`)
             "#]],
         );
     }

@@ -47,7 +47,7 @@ static MODE: Mode = Mode {
     on: Effect::PolarOn,
     off: Effect::PolarOff,
     of_tool: "the polar coordinates",
-    at_end: "the polar coordinates",
+    at_end: "programming in polar coordinates",
     switched: "polar coordinates",
 };
 
@@ -66,7 +66,7 @@ mod tests {
             "G17 G16\nG1 X50. Y30. F100.\nM30\n",
             &expect![[r#"
             3 | M30
-              | ^^^ warning[polar-coordinates-left-on] the polar coordinates is still on at the end of the program (`G16`)
+              | ^^^ warning[polar-coordinates-left-on] programming in polar coordinates is still on at the end of the program (`G16`)
         "#]],
         );
     }

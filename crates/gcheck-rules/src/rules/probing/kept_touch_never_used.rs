@@ -54,6 +54,11 @@ struct KeptTouchNeverUsed {
 remembers!(KeptTouchNeverUsed: kept);
 
 impl PathRule for KeptTouchNeverUsed {
+    /// Another way may measure from it.
+    fn counts_on_some_path(&self) -> bool {
+        false
+    }
+
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
     }

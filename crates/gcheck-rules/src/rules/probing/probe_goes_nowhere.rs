@@ -49,7 +49,7 @@ impl PathRule for ProbeGoesNowhere {
             return;
         }
         let Touch::Made(ways) = cx.state().touched() else { return };
-        if needs_axis(cx) || driven(ways).next().is_some() || !has_plain_axes(cx) {
+        if needs_axis(cx) || driven(ways).next().is_some() || !has_known_axes(cx) {
             return;
         }
         let name = probing_code(cx).map(|code| cx.name_of(code)).unwrap_or_default();
@@ -67,13 +67,13 @@ fn needs_axis(cx: &PathCx<'_>) -> bool {
     !cx.names_axes() && code.is_none_or(|code| !code.entry().one_of.is_empty())
 }
 
-/// Are all axis words of the block numbers? A variable without a value makes the control ignore its word.
-fn has_plain_axes(cx: &PathCx<'_>) -> bool {
+/// Do all axis words of the block have a value that is known? A variable without a value makes the control ignore its word.
+fn has_known_axes(cx: &PathCx<'_>) -> bool {
     let control = cx.control();
     let Some(place) = cx.place() else { return false };
     let words = place.table.words(place.block());
     let mut axes = words.iter().filter(|word| control.letter(word.letter).is_some_and(|entry| entry.axis));
-    axes.all(|word| word.number().is_some())
+    axes.all(|word| word.number().is_some() || cx.known_number(word.letter.ascii().into()).is_some())
 }
 
 #[cfg(test)]
@@ -93,6 +93,19 @@ mod tests {
             1 | G91 G31 Y0. F10.
               | ^^^^^^^^^^^^^^^^ warning[probe-goes-nowhere] probing move that goes nowhere (`G31`)
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_computed_target_is_one() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X0. Y5.\n#1=5.\nG31 Y#1 F10. M79\n#1=4.\nG31 Y#1 F10. M79\nM30\n",
+            &expect![[r#"
+                3 | G31 Y#1 F10. M79
+                  | ^^^^^^^^^^^^^^^^ warning[probe-goes-nowhere] probing move that goes nowhere (`G31`)
+            "#]],
         );
     }
 

@@ -122,12 +122,15 @@ mod tests {
     }
 
     #[test]
-    fn a_spindle_that_may_stand_is_no_mistake() {
+    fn a_spindle_that_may_turn_is_named_with_its_condition() {
         check_rule(
             &RULE,
             "haas-mill",
             "S200 M3\nIF [#100 EQ 1] GOTO10\nM5\nN10 G91 G36 X1. F5.\nG90\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | N10 G91 G36 X1. F5.
+                  |         ^^^ info[spindle-turns-while-probing] the spindle turns while its probe touches, when `#100` is 1
+            "#]],
         );
     }
 }

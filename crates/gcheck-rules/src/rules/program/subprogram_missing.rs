@@ -74,7 +74,8 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         else {
             continue;
         };
-        if word.elsewhere {
+        let is_label = word.or_label && cx.survey.labels.iter().any(|label| label.number == number);
+        if word.elsewhere || is_label {
             continue;
         }
         let packed = if word.packed_repeats && number > 9999 { Some(number % 10_000) } else { None };
@@ -115,6 +116,21 @@ mod tests {
             &expect![[r#"
                 2 | M98 P5000 L2
                   |     ^^^^^ warning[subprogram-missing] called program `O5000` is missing
+            "#]],
+        );
+    }
+
+    #[test]
+    fn an_outline_may_be_a_block_of_the_program() {
+        let pocket = "G150 P9 X0. Y0. Z-0.5 Q0.25 R0.1 I0.2 K0.01 G41 D1 F10.\nG40 X0. Y0.\nM30\n";
+        check_rule(&RULE, "haas-mill", &format!("O1\n{pocket}N9 G1 Y1.\nX1.\nM99\n"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("O1\n{pocket}N8 G1 Y1.\nX1.\nM99\n"),
+            &expect![[r#"
+                2 | G150 P9 X0. Y0. Z-0.5 Q0.25 R0.1 I0.2 K0.01 G41 D1 F10.
+                  |      ^^ warning[subprogram-missing] called program `O9` is missing
             "#]],
         );
     }

@@ -78,8 +78,13 @@ fn is_described(cx: &FileCx<'_>, block: &Range<u32>) -> bool {
     let above = cx.line_around(own.start.saturating_sub(1)..own.start.saturating_sub(1));
     let (base, text) = cx.text.around(own.end);
     let behind = text.as_bytes().get((own.end - base) as usize..).unwrap_or_default();
-    let next =
-        own.end + behind.iter().take(2).take_while(|byte| matches!(byte, b'\n' | b'\r')).count() as u32;
+    // One line end, so that an empty line is the line below.
+    let next = own.end
+        + match behind {
+            [b'\r', b'\n', ..] => 2,
+            [b'\r' | b'\n', ..] => 1,
+            _ => 0,
+        };
     let below = cx.line_around(next..next);
     let above = if above.end == own.end { own.clone() } else { above };
     let is_comment =

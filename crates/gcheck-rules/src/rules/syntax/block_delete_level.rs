@@ -137,6 +137,7 @@ mod tests {
             block delete with a level
               here: the digit names a switch
               note: this control has one block-delete switch and no levels
+              note: it holds with block delete off: the block has a `/`
               help: write `/` alone
               fix (unsafe): write `/` alone
         "#]]

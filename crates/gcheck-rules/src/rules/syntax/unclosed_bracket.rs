@@ -36,6 +36,22 @@ fn check(cx: &BlockCx<'_>, error: &SyntaxError, report: &mut Report<'_>) {
 }
 
 fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
+    // From a `<` on everything is taken for a name.
+    let rest = cx.slice(error.range.start..cx.block().range.end);
+    if let Some((before, after)) = rest.split_once('<')
+        && after.contains(']')
+        && !before.ends_with('#')
+    {
+        let operator = if after.starts_with('=') { "LE" } else { "LT" };
+        return Finding::new(
+            &META,
+            cx.in_file(error.range.clone()),
+            "expression with `<`, which is not an operator",
+        )
+        .label("its `]` is not read: it is after the `<`")
+        .note("a control reads comparisons as words")
+        .help(format!("write `{operator}` in place of the sign"));
+    }
     Finding::new(&META, cx.in_file(error.range.clone()), "bracket `[` is not closed")
         .label("there is no `]` for this bracket")
         .note("an expression ends with its block")
@@ -59,6 +75,21 @@ mod tests {
             1 | #100=[#1+[#2*3.
               |          ^ error[unclosed-bracket] bracket `[` is not closed
         "#]],
+        );
+    }
+
+    #[test]
+    fn a_sign_for_a_comparison_is_named() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "IF [#10 < #4] GOTO 5\nIF [#10 <= 4] GOTO 5\nN5 M30\n",
+            &expect![[r#"
+                1 | IF [#10 < #4] GOTO 5
+                  |    ^ error[unclosed-bracket] expression with `<`, which is not an operator
+                2 | IF [#10 <= 4] GOTO 5
+                  |    ^ error[unclosed-bracket] expression with `<`, which is not an operator
+            "#]],
         );
     }
 

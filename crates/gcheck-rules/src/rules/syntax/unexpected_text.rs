@@ -64,10 +64,30 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
             .help("name the program by its `O` number, unless the control keeps programs by name")
             .at_most(Severity::Info);
     }
+    if let Some(operator) = comparison(text) {
+        return finding
+            .note("a control reads comparisons as words")
+            .help(format!("write `{operator}` in place of the sign"));
+    }
     if prose && !text.contains(['(', ')']) {
         return finding.help("put remarks in parentheses");
     }
     finding.help("remove it")
+}
+
+/// The operator that a sign at the start of a text is meant for.
+fn comparison(text: &str) -> Option<&'static str> {
+    const SIGNS: [(&str, &str); 8] = [
+        ("==", "EQ"),
+        ("!=", "NE"),
+        ("<>", "NE"),
+        (">=", "GE"),
+        ("<=", "LE"),
+        (">", "GT"),
+        ("<", "LT"),
+        ("=", "EQ"),
+    ];
+    SIGNS.iter().find(|(sign, _)| text.starts_with(sign)).map(|(_, operator)| *operator)
 }
 
 #[cfg(test)]
@@ -75,7 +95,7 @@ mod tests {
     use expect_test::expect;
 
     use super::RULE;
-    use crate::testing::check_rule;
+    use crate::testing::{World, check_rule, findings, only, words};
 
     #[test]
     fn a_remark_without_parentheses_is_one_finding() {
@@ -90,6 +110,18 @@ mod tests {
                   | ^^^^^^ error[unexpected-text] text `OFFSET` is not code
             "#]],
         );
+    }
+
+    #[test]
+    fn a_sign_for_a_comparison_is_named() {
+        let found = findings(&only(&RULE), "fanuc-mill", "IF [#1 >= #4] GOTO 5\nN5 M30\n", &World::default());
+        expect![[r#"
+            text `>= #4` is not code
+              here: neither word nor comment
+              note: a control reads comparisons as words
+              help: write `GE` in place of the sign
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 
     #[test]

@@ -5,10 +5,10 @@ use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
 use crate::facts::computed_words::range_of;
-use crate::{BlockCx, Finding, Report, Run, WordFacts, limit};
+use crate::{BlockCx, Finding, Report, Run, Severity, WordFacts, limit};
 
 declare_rule! {
-    /// A value is outside the range that its word has in this block.
+    /// A value is outside the range that its word has in this block, or is a fraction where the word counts something.
     ///
     /// ## Why it matters
     /// The control stops with an alarm when it reaches the block: an offset that does not exist, a peck of zero, a mode
@@ -36,11 +36,14 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let is_bound = |w: &WordEntry| w.min.is_some() || w.max.is_some() || w.above.is_some();
+    let is_bound =
+        |w: &WordEntry| w.min.is_some() || w.max.is_some() || w.above.is_some() || is_count(w.kind);
     let has_bounds = |code: Code<'_>| code.entry().words.iter().any(is_bound);
     if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE) && !cx.codes().any(|(_, code)| has_bounds(code)) {
         return;
     }
+    // Where a block has a point on a whole number, another rule reports every such word.
+    let told = cx.block().flags.contains(BlockFlags::POINT_ON_INTEGER);
     for word in cx.words() {
         let Some(value) = word.number() else { continue };
         // Other rules judge program and sequence numbers.
@@ -54,8 +57,27 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
             report.add(finding(cx, word, &facts, high));
+        } else if is_count(facts.kind) && !told && value.fract() != 0.0 && cx.words_are_plain() {
+            report.add(fraction(cx, word, &facts));
         }
     }
+}
+
+/// Does the word count something, or name it by its number?
+fn is_count(kind: WordKind) -> bool {
+    matches!(kind, WordKind::Integer | WordKind::Program | WordKind::Label)
+}
+
+fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    let text = cx.text(word);
+    let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
+    let finding = Finding::new(&META, cx.range(word), format!("value is not a whole number{of}: `{text}`"))
+        .label(facts.is)
+        .note(format!("`{}`{of} takes whole numbers  [{}]", word.letter, facts.source))
+        .help("correct the value")
+        .at_most(limit(facts.confidence));
+    // A control may round a count; the number of a program it cannot.
+    if facts.kind == WordKind::Program { finding } else { finding.at_most(Severity::Warning) }
 }
 
 fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> Finding {
@@ -98,6 +120,28 @@ mod tests {
             &expect![[r#"
                 1 | G83 X1. Z-5. R1. Q0. F100.
                   |                  ^^^ error[number-out-of-range] value too small for `G83`: `Q0.`
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_count_is_whole_also_where_a_point_is_accepted() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G43 H7.5\nG43 H7.0\nG10 L2 P#1 X1.\n",
+            &expect![[r#"
+                1 | G43 H7.5
+                  |     ^^^^ warning[number-out-of-range] value is not a whole number for `G43`: `H7.5`
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-lathe",
+            "G70 P100 Q200.5\n",
+            &expect![[r#"
+                1 | G70 P100 Q200.5
+                  |          ^^^^^^ warning[number-out-of-range] value is not a whole number for `G70`: `Q200.5`
             "#]],
         );
     }

@@ -1,21 +1,23 @@
-//! A word that the control ignores, because no active mode reads it.
+//! A word that the control ignores or refuses, because no active mode reads it.
 
-use gcheck_controls::{Code, CodeIx, Effect, Handling, Letter, LetterSet, Motion};
+use gcheck_controls::{
+    Code, CodeIx, Control, Effect, Handling, LastingFrom, LastingWords, Letter, LetterSet, Motion,
+};
 use gcheck_engine::Role;
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::facts::word_sets::read_by_modes;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 
 declare_rule! {
     /// Neither a code of the block nor the motion in effect reads this word.
     ///
     /// ## Why it matters
-    /// The control silently ignores it. Most often the word is left from another block: a `Q` after the end of a peck
+    /// Some controls stop with an alarm. Others silently ignore the word. Most often the word is left from another block: a `Q` after the end of a peck
     /// cycle, a `P` without its dwell. Its intended effect does not happen.
     ///
-    /// `word-not-read` reports a word that no mode of the control reads, and one that the control refuses.
+    /// `word-not-read` reports a word that no mode of the control reads.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -36,7 +38,7 @@ declare_rule! {
     /// ```
     rule "word-passed-over" in "words" {
         summary: "word that nothing in effect reads",
-        severity: Info,
+        severity: Error,
         tier: Path,
         since: "0.1.0",
         run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(WordPassedOver) },
@@ -51,12 +53,13 @@ impl PathRule for WordPassedOver {
         let survey = program.survey;
         // A macro that is called for every block accepts any word.
         let is_plain = |code: Option<Code<'_>>| code.is_some_and(|code| !code.is_user() && !takes_all(code));
-        control.block_rules().unread_word != Handling::Refused
-            && !survey.has_computed_codes
-            && survey.codes.iter().all(|(number, _)| is_plain(control.code(*number)))
+        !survey.has_computed_codes && survey.codes.iter().all(|(number, _)| is_plain(control.code(*number)))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        for letter in cx.origin().letters.and(OFFSETS).iter().filter(|letter| is_idle(cx, *letter)) {
+            tell_idle(cx, letter, report);
+        }
         let flags = cx.origin().flags;
         if !flags.contains(BlockFlags::UNREAD_WORD)
             || flags.intersects(BlockFlags::ERROR | BlockFlags::STATEMENT | BlockFlags::UNKNOWN_CODE)
@@ -65,6 +68,12 @@ impl PathRule for WordPassedOver {
         }
         let Some(unread) = unread(cx).filter(|unread| !unread.is_empty()) else { return };
         let control = cx.control();
+        let is_refused = control.block_rules().unread_word == Handling::Refused;
+        let (does, severity) = if is_refused {
+            ("refuses a block with a word that no code reads", Severity::Error)
+        } else {
+            ("ignores a word that no code reads", Severity::Info)
+        };
         for letter in unread.iter() {
             let Some(entry) = control.letter(letter) else { continue };
             let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { continue };
@@ -72,12 +81,43 @@ impl PathRule for WordPassedOver {
             report.add(
                 cx.finding(&META, range, format!("nothing reads `{letter}` in this block"))
                     .label(entry.is.as_str())
-                    .note(format!("this control ignores a word that no code reads  [{}]", rules.source))
+                    .note(format!("this control {does}  [{}]", rules.source))
                     .help(format!("remove `{letter}`, or add the code that it belongs to"))
+                    .at_most(severity)
                     .at_most(limit(rules.confidence)),
             );
         }
     }
+}
+
+/// Numbers of offsets.
+const OFFSETS: LetterSet = LetterSet::of("DH");
+
+/// Does the word stay for codes that the program does not have?
+fn is_idle(cx: &PathCx<'_>, letter: Letter) -> bool {
+    let control = cx.control();
+    let stays = |row: &LastingWords| {
+        LetterSet::of(&row.letters).contains(letter) && row.from == LastingFrom::AnyBlock
+    };
+    let mut codes = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    control.lasting().iter().any(stays)
+        && control.letter(letter).is_some_and(|entry| entry.free && !entry.axis)
+        && cx.survey.calls.is_empty()
+        && !cx.is_malformed()
+        && !codes.any(|code| code.reads().contains(letter) || code.entry().any_words)
+}
+
+fn tell_idle(cx: &PathCx<'_>, letter: Letter, report: &mut Report<'_>) {
+    let control = cx.control();
+    let Some(entry) = control.letter(letter) else { return };
+    let Some(range) = cx.find_word(cx.origin().at, |word| word.letter == letter) else { return };
+    report.add(
+        cx.finding(&META, range, format!("no code of the program uses `{letter}`"))
+            .label(entry.is.as_str())
+            .note(format!("the control keeps the number for a later code  [{}]", entry.source))
+            .help(format!("remove `{letter}`, or add the code that it belongs to"))
+            .at_most(Severity::Info),
+    );
 }
 
 /// Addresses of the block that nothing reads; `None` where that is not known.
@@ -87,29 +127,46 @@ fn unread(cx: &PathCx<'_>) -> Option<LetterSet> {
     let mut replaced = false;
     for ix in cx.codes().iter() {
         let code = control.code_at(*ix)?;
-        // The machine builder decides about words of M codes.
-        if code.number().letter() == b'M' || code.entry().any_words {
+        // Where a machine builder makes M codes, he decides about their words.
+        let is_builders = code.number().letter() == b'M' && control.code_list().builder_m_codes;
+        if is_builders || code.entry().any_words {
             return None;
         }
         replaced |= code.entry().takes_axes || code.motion() != Motion::None;
         read = read.or(code.reads());
     }
-    if !replaced {
+    let is_refused = control.block_rules().unread_word == Handling::Refused;
+    // Where unread words are refused, words belong to the motion in effect only in a block that moves.
+    if !replaced && (!is_refused || may_move(cx)) {
         read = read.or(of_motion(cx)?);
     }
     // A compensation may read the words of its code again in later blocks: its vector.
-    let lasting =
-        |code: &Code<'_>| matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length));
-    for code in cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number)).filter(lasting) {
+    let lasting = |code: &Code<'_>| {
+        matches!(Role::of(code.effect()), Some(Role::Compensation | Role::Length))
+            && !matches!(code.effect(), Effect::CompensationOff | Effect::LengthOff)
+    };
+    let codes_of_file = cx.survey.codes.iter().filter_map(|(number, _)| control.code(*number));
+    for code in codes_of_file.filter(|code| !is_refused && lasting(code)) {
         read = read.or(code.reads());
     }
-    let is_bound = |letter: &Letter| {
-        control.letter(*letter).is_some_and(|entry| !entry.free && !entry.axis)
-            && !matches!(letter.ascii(), b'N' | b'O')
-    };
+    // `word-not-read` reports a word that no mode of the control reads.
     let codes = cx.codes();
     let by_modes = read_by_modes(control, || codes.iter().filter_map(|ix| control.code_at(*ix)));
-    Some(cx.origin().letters.and(by_modes).without(read).iter().filter(is_bound).collect())
+    let unread = cx.origin().letters.and(by_modes).without(read);
+    Some(unread.iter().filter(|letter| is_bound(control, *letter)).collect())
+}
+
+/// Does the address need a code that reads it?
+fn is_bound(control: &Control, letter: Letter) -> bool {
+    let is_bound = control.letter(letter).is_some_and(|entry| !entry.free && !entry.axis);
+    is_bound && !matches!(letter.ascii(), b'N' | b'O')
+}
+
+/// Does the block name an axis, or a centre while arcs are the mode?
+fn may_move(cx: &PathCx<'_>) -> bool {
+    const MOVING: LetterSet = LetterSet::of("IJK");
+    let polar = LetterSet::from_iter([Letter::AT, Letter::CARET]);
+    cx.names_axes() || cx.origin().letters.intersects(MOVING.or(polar))
 }
 
 /// Addresses that the motion or the cycle in effect reads; `None` if it may be any.
@@ -173,6 +230,55 @@ mod tests {
                   |        ^^^ info[word-passed-over] nothing reads `Q` in this block
             "#]],
         );
+    }
+
+    #[test]
+    fn a_control_that_refuses_unread_words_refuses_them_beside_m_codes() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G90 G2 X1. R5. F100.\nM8 R5.\nX2. R5.\nM2\n",
+            &expect![[r#"
+                2 | M8 R5.
+                  |    ^^^ error[word-passed-over] nothing reads `R` in this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_word_in_a_block_without_a_code_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G90 G0 X0. Y0.\nJ0.\nX1. Q2.\nG83 Z-1. R.1 Q.2 F10.\nX2. Q.3\nM30\n",
+            &expect![[r#"
+                2 | J0.
+                  | ^^^ info[word-passed-over] nothing reads `J` in this block
+                3 | X1. Q2.
+                  |     ^^^ info[word-passed-over] nothing reads `Q` in this block
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_number_of_an_offset_that_no_code_of_the_program_uses_is_marked() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G107 A0. Y0. D50\nG0 X1.\nM30\n",
+            &expect![[r#"
+            1 | G107 A0. Y0. D50
+              |              ^^^ info[word-passed-over] no code of the program uses `D`
+        "#]],
+        );
+        check_rule(&RULE, "haas-mill", "D1\nG41 X1. F5.\nG40 X0.\nM30\n", &expect![[""]]);
+        check_rule(&RULE, "fanuc-mill", "D1\nM98 P100\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn words_of_m_codes_are_judged_where_no_builder_adds_codes() {
+        check_rule(&RULE, "haas-mill", "G0 X1.\nM8 P2\nM3 S500\nM30\n", &expect![""]);
+        check_rule(&RULE, "fanuc-mill", "M8 P2\nM30\n", &expect![[""]]);
     }
 
     #[test]

@@ -11,6 +11,7 @@ use gcheck_toolpath::plot::Finding;
 
 use crate::args::{Global, PlotOptions};
 use crate::config::{Configs, RuleWishes, unknown_rule};
+use crate::control_choice::narrow_for_dialect;
 use crate::execution::Prepared;
 use crate::programs::Reachable;
 use crate::{Problem, in_force};
@@ -56,8 +57,9 @@ impl Found {
 pub(super) fn of(global: &Global, options: &PlotOptions, prepared: &Prepared) -> Result<Found, Problem> {
     let path = &prepared.path;
     let settings = Configs::new(&global.config, global.isolated)?.of_file(path)?.settings(path);
-    let selection =
+    let mut selection =
         settings.selection(&RuleWishes::default()).map_err(|unknown| Problem::new(unknown_rule(&unknown)))?;
+    narrow_for_dialect(&mut selection, prepared.choice.source, prepared.source.text());
     let dialect = Dialect::new(&prepared.control);
     let programs = Reachable::new(Arc::default(), path, &prepared.search);
     let machine = in_force::machine(&settings, &prepared.control, &options.execution.set)?;

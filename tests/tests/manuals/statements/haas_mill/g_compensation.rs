@@ -549,10 +549,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             }],
         ),
-        gap(
+        held(
             "p. 313, p. 327",
             "Straight moves without A and B keep their feed per minute.",
-            "`five-axis-feed-per-minute` speaks only where A or B turn in the block: the manual's own programs feed to the start of a cycle under G94",
+            "rule `five-axis-feed-per-minute`",
             &[Silent {
                 rule: "five-axis-feed-per-minute",
                 program: tilting!("G143 H1 X0. Y0. Z2. A10. B10.\nG1 X.1 Y.1 Z1. F360.\n"),

@@ -339,11 +339,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 moves("O1\nG20 G54 G0 G90 X0. Y0.\nG2 X2. I1. F5.\nG0 Y#4104\nM30\n", &["rapid", "arc X2.", "rapid Y1."]),
             ],
         ),
-        gap(
-            "p. 213",
-            "#4107 is the last D, #4111 the last H, whatever block they stood in.",
-            "D and H in a block of their own count; now only those beside G41, G42, G43 and G44 do, and others read as 0, which is wrong",
-            &[moves(
+        held("p. 213", "#4107 is the last D, #4111 the last H, whatever block they stood in.", "`last-word` of the variables", &[moves(
                 "O1\nG20 G54 G0 G90 X0. Y0.\nD9\nY#4107\nH7\nY#4111\nM30\n",
                 &["rapid", "rapid Y9.", "rapid Y7."],
             )],

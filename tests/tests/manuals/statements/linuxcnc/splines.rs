@@ -70,10 +70,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g5",
         "No axis but X and Y may be in a G5 block",
-        "`check` reports the other axis word (error), as `run` refuses it",
+        "`word-forbidden`",
         &[refused(
             "error[word-forbidden]",
             "G17 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1 Z1\nM2\n",

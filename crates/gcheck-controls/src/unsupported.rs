@@ -1,0 +1,158 @@
+//! Dialects that look like G-code and that no control of the data reads: printers, conversational languages, other builders'
+//! own.
+//!
+//! Knows: how the hints of `data/unsupported.toml` match the first part of a file. Must not know: controls that are supported,
+//! what follows from a match.
+
+use std::sync::LazyLock;
+
+use serde::Deserialize;
+
+use crate::whole_word::contains_word;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    dialect: Vec<UnsupportedDialect>,
+}
+
+/// A dialect that no control here reads.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UnsupportedDialect {
+    /// What reads it: "a 3-D printer".
+    pub name: String,
+    /// The dialect, in words.
+    pub reads: String,
+    needs: u32,
+    /// The source of the hints.
+    pub source: String,
+    hints: Vec<Hint>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Hint {
+    points: u32,
+    line: Option<String>,
+    text: Option<String>,
+    word: Option<char>,
+}
+
+static DIALECTS: LazyLock<Vec<UnsupportedDialect>> = LazyLock::new(|| {
+    let file = serde_json::from_str::<File>(include_str!(concat!(env!("OUT_DIR"), "/unsupported.json")));
+    #[expect(clippy::expect_used, reason = "embedded data; a test reads it")]
+    file.expect("data/unsupported.toml has the shape of `File`").dialect
+});
+
+/// The first part of a file that is looked at.
+const HEAD_BYTES: usize = 16 << 10;
+
+/// Lines that must have a hint's word.
+const ENOUGH_LINES: usize = 3;
+
+/// The dialect that the first part of a file shows, if it is one that no control here reads.
+pub fn unsupported_dialect(head: &str) -> Option<&'static UnsupportedDialect> {
+    let head = head.get(..head.floor_char_boundary(HEAD_BYTES)).unwrap_or(head);
+    let lines: Vec<&str> = head.split(['\n', '\r']).map(without_number).collect();
+    let points = |dialect: &UnsupportedDialect| -> u32 {
+        dialect.hints.iter().filter(|hint| hint.is_in(head, &lines)).map(|hint| hint.points).sum()
+    };
+    let scored = DIALECTS.iter().map(|dialect| (points(dialect), dialect));
+    let enough = scored.filter(|(points, dialect)| *points >= dialect.needs);
+    enough.max_by_key(|(points, _)| *points).map(|(_, dialect)| dialect)
+}
+
+impl Hint {
+    fn is_in(&self, head: &str, lines: &[&str]) -> bool {
+        let by_line = self.line.as_ref().is_some_and(|begin| lines.iter().any(|line| begins(line, begin)));
+        let by_text = self.text.as_ref().is_some_and(|text| contains_word(head, text));
+        let by_word = self.word.is_some_and(|word| {
+            lines.iter().filter(|line| is_move(line) && has_word(line, word)).count() >= ENOUGH_LINES
+        });
+        by_line || by_text || by_word
+    }
+}
+
+/// A line without blanks, `/` and block number at its start.
+fn without_number(line: &str) -> &str {
+    let line = line.trim_start().trim_start_matches('/');
+    let rest = line.strip_prefix(['N', 'n']).unwrap_or(line);
+    let after = rest.trim_start_matches(|c: char| c.is_ascii_digit());
+    // A number without `N` is a block number only with a blank after it.
+    let is_number = after.len() < rest.len() && (rest.len() < line.len() || after.starts_with(' '));
+    if is_number { after.trim_start() } else { line }
+}
+
+/// Does the line begin as the pattern says? A pattern that ends in a letter or digit ends a word there.
+fn begins(line: &str, pattern: &str) -> bool {
+    let mut rest = line;
+    for part in pattern.chars() {
+        let matched = match part {
+            '#' => rest.trim_start_matches(|c: char| c.is_ascii_digit()),
+            '~' => rest.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_'),
+            _ => rest.strip_prefix(|c: char| c.eq_ignore_ascii_case(&part)).unwrap_or(rest),
+        };
+        if matched.len() == rest.len() {
+            return false;
+        }
+        rest = matched;
+    }
+    let ends_word = pattern.ends_with(|c: char| c.is_ascii_alphabetic()) && pattern.len() > 2;
+    !(ends_word && rest.starts_with(|c: char| c.is_alphabetic() || c == '_'))
+}
+
+fn is_move(line: &str) -> bool {
+    let rest = line.strip_prefix(['G', 'g']).map(|rest| rest.trim_start_matches('0'));
+    rest.is_some_and(|rest| !rest.trim_start_matches('1').starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// Is the address on the line, outside comments, with a number after it?
+fn has_word(line: &str, word: char) -> bool {
+    let code = line.split([';', '(']).next().unwrap_or_default();
+    let next = code.chars().skip(1);
+    code.chars().zip(next).any(|(c, next)| {
+        c.eq_ignore_ascii_case(&word) && (next.is_ascii_digit() || matches!(next, '+' | '-' | '.'))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{begins, unsupported_dialect, without_number};
+
+    fn check(head: &str, expected: Option<&str>) {
+        assert_eq!(unsupported_dialect(head).map(|dialect| dialect.name.as_str()), expected, "{head}");
+    }
+
+    #[test]
+    fn each_dialect_by_a_program_of_its_kind() {
+        check("G92 E0\nG1 X1 E1.1\nG1 X2 E1.2 F900\nG1 Y2 E1.3\n", Some("a 3-D printer"));
+        check("; generated by PrusaSlicer 2.6\nM104 S200\nG28\n", Some("a 3-D printer"));
+        check("N10 G54\nN20 R1=5 R2=7\nN30 TRANS X=R1\nN40 G0 X=R2\n", Some("a SINUMERIK control"));
+        check("0 BEGIN PGM PLATE MM\n1 BLK FORM 0.1 Z X+0 Y+0 Z-20\n", Some("a Heidenhain control"));
+        check("G15 H1\nVC1=12\nG0 X=VC1\n", Some("an OSP control"));
+        check("%FLANGE,MX--,\nN10 (P1=5)\n", Some("a Fagor control"));
+        check("%PM\nN9001\n", Some("a MAHO control"));
+        check("//WEDM\nE001=10 17\n", Some("a wire erosion machine"));
+        check("M48\nMETRIC,TZ\nT01C0.8\n%\nX10Y10\n", Some("a drilling machine for circuit boards"));
+    }
+
+    #[test]
+    fn programs_of_supported_controls_are_none() {
+        check("%\nO1 (A)\nG20 G90 G54\nT1 M6\nG43 H1 Z1.\nM48\nM30\n%\n", None);
+        check("T0101\nG50 S2000\nG96 S200 M3\nG71 U1. R.5\nM30\n", None);
+        check("o<sub> sub\n#<_x> = 1\nM104 P1\nM109 P2\no<sub> endsub\n", None);
+        check("(R1 = 5)\n(IF THE PART IS LOOSE, TIGHTEN IT)\n(CALL 2 PEOPLE)\nG0 X1.\n", None);
+        check("(TRANSFER LINE)\nROTATE\n", None);
+        check("", None);
+    }
+
+    #[test]
+    fn lines_begin_after_their_number() {
+        assert_eq!(without_number("  /N120 TRANS X1"), "TRANS X1");
+        assert_eq!(without_number("12 L X+1"), "L X+1");
+        assert_eq!(without_number("12X"), "12X");
+        assert!(begins("R12=5", "R#=") && !begins("R=5", "R#=") && !begins("TRANSFER", "TRANS"));
+        assert!(begins("cycle81(1)", "CYCLE#(") && begins("PROC part_1", "PROC ~"));
+    }
+}

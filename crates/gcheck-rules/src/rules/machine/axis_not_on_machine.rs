@@ -1,0 +1,127 @@
+//! A move of an axis that the machine does not have.
+
+use std::collections::BTreeSet;
+
+use gcheck_controls::{Effect, Letter};
+use gcheck_engine::{Abstract, Domain, Fault};
+
+use crate::declare::declare_rule;
+use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{Remembers, remembers};
+
+declare_rule! {
+    /// A block moves an axis that the machine file does not list. Reported once for each axis.
+    ///
+    /// The rule needs `[machine] axes` in the configuration. Without it a machine may have any axis of its control.
+    ///
+    /// ## Why it matters
+    /// The control stops with an alarm. The program may be for another machine, or for one whose rotary axis has another
+    /// letter.
+    ///
+    /// ## Reported
+    /// With `axes = ["X", "Y", "Z", "A"]` in the machine file:
+    /// ```nc,reported,haas-mill
+    /// G21 G90
+    /// G0 X1. B10.
+    /// M30
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,haas-mill
+    /// G21 G90
+    /// G0 X1. A10.
+    /// M30
+    /// ```
+    rule "axis-not-on-machine" in "machine" {
+        summary: "move of an axis that the machine does not have",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(AxisNotOnMachine { told: BTreeSet::new() }) },
+    }
+}
+
+#[derive(Clone, PartialEq)]
+struct AxisNotOnMachine {
+    /// Axes that were reported.
+    told: BTreeSet<Letter>,
+}
+
+remembers!(AxisNotOnMachine: told);
+
+impl PathRule for AxisNotOnMachine {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let Fault::NoSuchAxis(letter) = *fault else { return };
+        let Some(axes) = cx.environment.machine.axes else { return };
+        if may_be_nothing(cx, letter) {
+            return;
+        }
+        // The axis of a cylinder has a rule of its own.
+        if cx.has_effect(|effect| effect == Effect::CylinderMapping) || !self.told.insert(letter) {
+            return;
+        }
+        let name = letter.to_string();
+        let names: Vec<String> =
+            "XYZABCUVW".chars().filter(|axis| axes.contains(Letter::of(*axis))).map(String::from).collect();
+        report.add(
+            cx.finding(
+                &META,
+                cx.word_range(|word| word.letter == letter),
+                format!("the machine has no axis `{name}`"),
+            )
+            .label("not among the axes of the machine file")
+            .note(format!("the machine file lists {}", names.join(" ")))
+            .help("name an axis that the machine has, or correct `axes` in the machine file"),
+        );
+    }
+}
+
+/// Has the word a value that is not known? It may be that of a variable without one, and the control then takes no word.
+fn may_be_nothing(cx: &PathCx<'_>, letter: Letter) -> bool {
+    let is_written = cx.has_word(|word| word.letter == letter && word.number().is_some());
+    let computed = cx.computed_words();
+    let mut values = computed.iter().filter(|(word, _)| word.letter == letter);
+    !is_written && !values.any(|(_, value)| Abstract::known(value).is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::{META, RULE};
+    use crate::testing::{World, check_rule, check_rule_in};
+
+    #[test]
+    fn once_for_each_axis_whatever_the_control() {
+        for control in ["haas-mill", "fanuc-mill", "linuxcnc", "generic-mill"] {
+            check_rule_in(
+                &RULE,
+                control,
+                "G21 G90\nG0 X1. B10.\nB20.\n#2=5.\nG1 C#2 F100.\nM30\n",
+                &World::of_examples(&META),
+                &expect![[r#"
+                    2 | G0 X1. B10.
+                      |        ^^^^ error[axis-not-on-machine] the machine has no axis `B`
+                    5 | G1 C#2 F100.
+                      |    ^^^ error[axis-not-on-machine] the machine has no axis `C`
+                "#]],
+            );
+        }
+    }
+
+    #[test]
+    fn a_word_whose_variable_may_have_no_value() {
+        for value in ["#1", "#500"] {
+            let program = format!("G21 G90\nG0 X1. B{value}\nM30\n");
+            check_rule_in(&RULE, "haas-mill", &program, &World::of_examples(&META), &expect![[""]]);
+        }
+    }
+
+    #[test]
+    fn a_machine_that_nobody_described_may_have_any() {
+        check_rule(&RULE, "haas-mill", "G21 G90\nG0 X1. B10.\nM30\n", &expect![[""]]);
+    }
+}
