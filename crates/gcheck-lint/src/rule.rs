@@ -70,7 +70,9 @@ impl Run {
             Self::BlockAndValues { trigger, check } => {
                 Some((Watch::COMPUTED, Box::new(WithValues { trigger, check })))
             }
-            Self::Token { .. } | Self::Block { .. } | Self::Program { .. } | Self::Suppressions { .. } => None,
+            Self::Token { .. } | Self::Block { .. } | Self::Program { .. } | Self::Suppressions { .. } => {
+                None
+            }
         }
     }
 }

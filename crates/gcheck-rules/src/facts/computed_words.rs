@@ -114,6 +114,11 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     // A control may round a fraction; the number of a program it cannot.
     let rounds = *why == Why::Fraction && facts.kind != WordKind::Program;
     let finding = if rounds { finding.at_most(Severity::Warning) } else { finding };
+    let finding = if rounds && cx.model.semantics().computed_counts_round {
+        finding.note(format!("this control rounds it to `{letter}{}`", value.round()))
+    } else {
+        finding
+    };
     if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
 }
 

@@ -327,10 +327,10 @@ M99
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n").with(ONE_BAR),
                 ),
                 noticed(
-                        "warning",
-                        on(LATHE, "O1\nG21\nM5\n#100=7\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
-                        on(LATHE, "O1\nG21\nM5\n#100=2\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
-                    ),
+                    "warning",
+                    on(LATHE, "O1\nG21\nM5\n#100=7\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
+                    on(LATHE, "O1\nG21\nM5\n#100=2\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
+                ),
                 rule(
                     "error[computed-value-out-of-range]",
                     on(LATHE, "O1\nG21\nM5\n#100=1234.5\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
@@ -371,10 +371,10 @@ M99
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
                 noticed(
-                        "warning",
-                        on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P-2\nM30\nO2\nG0 X80.\nM99\n"),
-                        on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
-                    ),
+                    "warning",
+                    on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P-2\nM30\nO2\nG0 X80.\nM99\n"),
+                    on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
+                ),
             ]),
         },
         Sentence {

@@ -565,8 +565,8 @@ Proof::Stats { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X
 ]),
 extra: No("a switch"),
 range: By(&[
-Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=160"]), says: "from 0 to 150" },
-Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=85"]), says: "from 0 to 150" },
+Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=160"]), says: "0 to 150 percent in steps of 10" },
+Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=85"]), says: "0 to 150 percent in steps of 10" },
 Proof::Accepts { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=0"]) },
 ]),
 

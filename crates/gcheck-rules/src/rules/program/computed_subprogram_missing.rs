@@ -78,9 +78,7 @@ fn finding(cx: &PathCx<'_>, word: &Word, code: &str, number: u32) -> Finding {
     .label(format!("`{code}` calls `O{number}` here"))
     .note("gcheck searched this file and the folders that it was given")
     .assuming(format!("`O{number}` may be in the memory of the control"))
-    .help(format!(
-        "correct the expression, add the program `O{number}`, or name its folder under `[search]`"
-    ))
+    .help(format!("correct the expression, add the program `O{number}`, or name its folder under `[search]`"))
 }
 
 #[cfg(test)]
@@ -107,10 +105,15 @@ mod tests {
     fn an_outline_may_be_a_block_of_the_program() {
         let pocket = "O1\n#1=9\nG150 P#1 X0. Y0. Z-0.5 Q0.25 R0.1 I0.2 K0.01 G41 D1 F10.\nG40 X0. Y0.\nM30\n";
         check_rule(&RULE, "haas-mill", &format!("{pocket}N9 G1 Y1.\nX1.\nM99\n"), &expect![[""]]);
-        check_rule(&RULE, "haas-mill", &format!("{pocket}N8 G1 Y1.\nX1.\nM99\n"), &expect![[r#"
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("{pocket}N8 G1 Y1.\nX1.\nM99\n"),
+            &expect![[r#"
             3 | G150 P#1 X0. Y0. Z-0.5 Q0.25 R0.1 I0.2 K0.01 G41 D1 F10.
               |      ^^^ warning[computed-subprogram-missing] called program `O9` is missing (computed)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
