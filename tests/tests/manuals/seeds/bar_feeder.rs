@@ -326,8 +326,8 @@ M99
                         .with(ONE_BAR),
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n").with(ONE_BAR),
                 ),
-                noticed(
-                    "warning",
+                rule(
+                    "warning[computed-subprogram-missing]",
                     on(LATHE, "O1\nG21\nM5\n#100=7\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
                     on(LATHE, "O1\nG21\nM5\n#100=2\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
@@ -370,8 +370,8 @@ M99
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2.5\nM30\nO2\nG0 X80.\nM99\n"),
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
-                noticed(
-                    "warning",
+                rule(
+                    "error[number-out-of-range]",
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P-2\nM30\nO2\nG0 X80.\nM99\n"),
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
                 ),

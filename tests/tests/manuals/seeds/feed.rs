@@ -147,7 +147,7 @@ missing: By(&[
 rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. J10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. I10. F200.\nM30\n")),
 ]),
 extra: By(&[
-noticed("info", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. R11. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n")),
+rule("warning[arc-centre-and-radius]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. R11. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n")),
 rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. K10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. F200.\nM30\n")),
 ]),
 range: By(&[

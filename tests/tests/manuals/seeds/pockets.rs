@@ -282,7 +282,7 @@ computed: By(&[
 same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9.5\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[computed-subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -304,7 +304,7 @@ rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG
 ]),
 range: By(&[
 noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9.5 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
