@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::proof::{Program, Proof, legal, noticed, on, rule, run, same};
+use crate::proof::{Program, Proof, legal, on, rule, run, same};
 use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
