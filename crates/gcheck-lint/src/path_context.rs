@@ -322,6 +322,11 @@ impl<'a> PathCx<'a> {
         codes.any(|code| is(code.effect()))
     }
 
+    /// May the file use such a code? As [`Self::file_uses`], but a computed code may be any.
+    pub fn file_may_use(&self, is: impl Fn(Effect) -> bool) -> bool {
+        self.survey.has_computed_codes || self.file_uses(is)
+    }
+
     /// The file holds what others call, and no main program: what its caller set is not known.
     pub fn is_called_only(&self) -> bool {
         let survey = self.survey;
