@@ -464,7 +464,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     match D::is_vacant(&value) {
                         Truth::True => {}
                         Truth::False | Truth::Unknown => {
-                            let value = self.rounded_count(word.letter, value, words)?;
+                            let value = self.rounded_count(word.letter, value, words);
                             let pointed = self.model.semantics().computed_words_are_pointed;
                             self.words.put(word.letter, value, pointed);
                         }
@@ -480,17 +480,17 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     }
 
     /// A computed value as the control reads it: a count is rounded on controls that do so.
-    fn rounded_count(&self, letter: Letter, value: D::Value, words: &[Word]) -> Step<D::Value> {
+    fn rounded_count(&self, letter: Letter, value: D::Value, words: &[Word]) -> D::Value {
         let semantics = self.model.semantics();
         if !semantics.computed_counts_round || D::is_vacant(&value) != Truth::False {
-            return Ok(value);
+            return value;
         }
         let control = self.model.control();
         let mut read_as = None;
         for code in words.iter().filter_map(|word| control.code_at(word.code)) {
             // An argument of a macro is any number.
             if code.entry().any_words {
-                return Ok(value);
+                return value;
             }
             let mut entries = code.entry().words.iter();
             let entry = entries.find(|entry| Letter::parse(&entry.letter) == Some(letter));
@@ -498,9 +498,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         }
         let kind = read_as.or_else(|| control.letter(letter).map(|entry| entry.kind));
         if kind != Some(WordKind::Integer) {
-            return Ok(value);
+            return value;
         }
-        Ok(D::call(Function::Round, std::slice::from_ref(&value), semantics).unwrap_or(value))
+        D::call(Function::Round, std::slice::from_ref(&value), semantics).unwrap_or(value)
     }
 
     /// Does an analysis of all paths leave this check to rules of lower tiers? A run past alarms makes it.
