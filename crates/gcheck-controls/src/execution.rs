@@ -323,6 +323,9 @@ pub struct Semantics {
     pub atan_alone: bool,
     /// A value that no decimal point follows, computed from an expression, counts as with a point.
     pub computed_words_are_pointed: bool,
+    /// A computed count (an offset, a tool, repeats) is rounded to a whole number; else a fraction is refused.
+    #[serde(default)]
+    pub computed_counts_round: bool,
     /// Assignments of a block act after all its values are read.
     pub assignments_after_block: bool,
     /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.

@@ -305,6 +305,12 @@ impl<'c> Model<'c> {
         self.control
     }
 
+    /// The code that a computed `G` or `M` word names, rounded to tenths as controls read it; `None` when there is none.
+    pub fn code_of_value(&self, letter: Letter, value: f64) -> Option<CodeIx> {
+        let number = CodeNumber::from_value(letter.ascii(), (value * 10.0).round() / 10.0)?;
+        Some(self.control.code_ix(number)).filter(|code| code.is_some())
+    }
+
     /// Where controls read one thing two ways.
     pub fn semantics(&self) -> &'c Semantics {
         self.control.semantics()

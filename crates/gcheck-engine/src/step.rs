@@ -464,6 +464,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     match D::is_vacant(&value) {
                         Truth::True => {}
                         Truth::False | Truth::Unknown => {
+                            let value = self.rounded_count(word.letter, value, words);
                             let pointed = self.model.semantics().computed_words_are_pointed;
                             self.words.put(word.letter, value, pointed);
                         }
@@ -476,6 +477,30 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         Ok(())
+    }
+
+    /// A computed value as the control reads it: a count is rounded on controls that do so.
+    fn rounded_count(&self, letter: Letter, value: D::Value, words: &[Word]) -> D::Value {
+        let semantics = self.model.semantics();
+        if !semantics.computed_counts_round || D::is_vacant(&value) != Truth::False {
+            return value;
+        }
+        let control = self.model.control();
+        let mut read_as = None;
+        for code in words.iter().filter_map(|word| control.code_at(word.code)) {
+            // An argument of a macro is any number.
+            if code.entry().any_words {
+                return value;
+            }
+            let mut entries = code.entry().words.iter();
+            let entry = entries.find(|entry| Letter::parse(&entry.letter) == Some(letter));
+            read_as = read_as.or(entry.map(|entry| entry.kind));
+        }
+        let kind = read_as.or_else(|| control.letter(letter).map(|entry| entry.kind));
+        if kind != Some(WordKind::Integer) {
+            return value;
+        }
+        D::call(Function::Round, std::slice::from_ref(&value), semantics).unwrap_or(value)
     }
 
     /// Does an analysis of all paths leave this check to rules of lower tiers? A run past alarms makes it.
@@ -495,9 +520,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// `G#700`: the code that a value names.
     fn computed_code(&mut self, letter: Letter, value: &D::Value) -> Step {
         let Some(number) = D::known(value) else { return Err(Fault::Undecidable) };
-        let text = format!("{}{}", char::from(letter.ascii()), (number * 10.0).round() / 10.0);
-        let code = gcheck_controls::CodeNumber::parse(&text).map(|n| self.model.control().code_ix(n));
-        match code.filter(|ix| ix.is_some()) {
+        match self.model.code_of_value(letter, number) {
             Some(ix) => self.words.put_code(ix),
             None => return Err(Fault::UnknownCode),
         }

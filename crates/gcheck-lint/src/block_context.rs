@@ -22,6 +22,8 @@ pub struct BlockCx<'a> {
     pub(crate) table: &'a BlockTable,
     pub(crate) ix: BlockIx,
     pub(crate) block: &'a Block,
+    /// Words of the block.
+    pub(crate) words: &'a [Word],
     /// Text of the chunk.
     pub(crate) text: &'a str,
     /// Offset of the chunk in the file.
@@ -54,6 +56,18 @@ pub struct WordFacts<'a> {
 }
 
 impl<'a> BlockCx<'a> {
+    /// A block as it is written; `text` is that of its chunk, `base` the chunk's offset in the file.
+    pub(crate) fn new(
+        environment: Environment<'a>,
+        table: &'a BlockTable,
+        ix: BlockIx,
+        text: &'a str,
+        base: u32,
+    ) -> Self {
+        let block = table.block(ix);
+        Self { environment, table, ix, block, words: table.words(block), text, base }
+    }
+
     /// The control.
     pub fn control(&self) -> &'a Control {
         self.environment.control()
@@ -70,10 +84,9 @@ impl<'a> BlockCx<'a> {
     }
 
     /// The block's words in text order, statements not included; the first 256 of them, which is more
-    /// than a block can use.
+    /// than a block can use. A computed word is a number where the rule [asks for it](crate::Run::BlockAndValues).
     pub fn words(&self) -> &'a [Word] {
-        let words = self.table.words(self.block);
-        words.get(..MAX_WORDS).unwrap_or(words)
+        self.words.get(..MAX_WORDS).unwrap_or(self.words)
     }
 
     /// The first word with an address.

@@ -134,6 +134,11 @@ impl Plan {
                     plan.trigger |= trigger;
                     plan.block.push((rule, severity, trigger));
                 }
+                Run::BlockAndValues { trigger, .. } => {
+                    plan.trigger |= trigger;
+                    plan.block.push((rule, severity, trigger));
+                    plan.path.push((rule, severity));
+                }
                 Run::Program { .. } => plan.program.push((rule, severity)),
                 Run::Path { .. } => plan.path.push((rule, severity)),
                 Run::Suppressions { .. } => plan.suppressions.push((rule, severity)),
@@ -449,9 +454,9 @@ pub(crate) fn check_blocks(
         if base + block.range.start >= end {
             break;
         }
-        let cx = BlockCx { environment, table, ix, block, text, base };
+        let cx = BlockCx::new(environment, table, ix, text, base);
         for (rule, severity, trigger) in &plan.block {
-            if let Run::Block { check, .. } = rule.run
+            if let Run::Block { check, .. } | Run::BlockAndValues { check, .. } = rule.run
                 && block.flags.intersects(*trigger)
             {
                 let mut add = |finding| collector.add(*severity, name_condition(finding, block.flags, false));

@@ -72,8 +72,8 @@ impl<'a> FileCx<'a> {
         let base = place.start;
         let text = self.slice(place);
         let table = lower(text, self.environment.dialect);
-        for (ix, block) in table.blocks() {
-            look(&BlockCx { environment: self.environment, table: &table, ix, block, text, base });
+        for (ix, _) in table.blocks() {
+            look(&BlockCx::new(self.environment, &table, ix, text, base));
         }
     }
 
@@ -84,8 +84,8 @@ impl<'a> FileCx<'a> {
                 let base = start + chunk.start as u32;
                 let text = run.get(chunk).unwrap_or_default();
                 let table = lower(text, self.environment.dialect);
-                for (ix, block) in table.blocks() {
-                    look(&BlockCx { environment: self.environment, table: &table, ix, block, text, base });
+                for (ix, _) in table.blocks() {
+                    look(&BlockCx::new(self.environment, &table, ix, text, base));
                 }
             }
         }

@@ -14,6 +14,7 @@ mod check;
 mod contract;
 mod directives;
 mod environment;
+mod evaluated;
 mod file_context;
 mod fix;
 mod incremental;
@@ -30,6 +31,7 @@ mod suppression;
 mod syntax_errors;
 mod text;
 mod uses;
+mod values;
 mod watchers;
 
 pub use assumptions::{describe, describe_all, work_offset_name};

@@ -4,7 +4,7 @@
 //! any rule, how paths are found.
 
 use std::borrow::Cow;
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -18,6 +18,7 @@ use gcheck_geometry::Mm;
 use gcheck_program::{BlockFlags, BlockTable, ExprIx, OKeyword, Place, Survey, Word};
 
 use crate::block_context::facts_of;
+use crate::evaluated::{BlockOfValues, Evaluated, with_codes};
 use crate::shared_memory::SharedMemories;
 use crate::{Environment, SharedMemory, WordFacts};
 
@@ -39,10 +40,11 @@ pub struct PathCx<'a> {
     pub(crate) had_enough: &'a Cell<bool>,
     pub(crate) shared: &'a SharedMemories,
     /// Evaluated when the first rule asks.
-    pub(crate) computed: &'a OnceCell<Vec<(Word, AbstractValue)>>,
+    pub(crate) evaluated: &'a Evaluated,
 }
 
 /// A block as rules read it, kept because loops come by again.
+#[derive(Clone)]
 pub(crate) struct ReadBlock {
     at: At,
     place: Place,
@@ -50,8 +52,12 @@ pub(crate) struct ReadBlock {
     effects: Vec<Effect>,
     /// Of its words, then of its statements.
     expressions: Vec<ExprIx>,
+    /// Its words, where a computed code among them is known.
+    words: Option<Vec<Word>>,
     /// Does more than choose a motion: [`Watch::BLOCKS`](crate::Watch::BLOCKS).
     pub(crate) is_eventful: bool,
+    /// Has a word like `G#1`.
+    pub(crate) has_computed_code: bool,
 }
 
 impl ReadBlock {
@@ -63,7 +69,39 @@ impl ReadBlock {
         environment: Environment<'_>,
     ) -> Option<Self> {
         let place = program.file(at.file)?.loaded.place(at.block, environment.dialect)?;
-        let words = place.table.words(place.block()).iter();
+        let expressions = place.expressions().collect();
+        let has_computed_code = place.table.words(place.block()).iter().any(is_computed_code);
+        let mut read = Self {
+            at,
+            place,
+            codes: Vec::new(),
+            effects: Vec::new(),
+            expressions,
+            words: None,
+            is_eventful: true,
+            has_computed_code,
+        };
+        read.read_codes(model);
+        Some(read)
+    }
+
+    /// The same block with the codes that its computed words name in a state.
+    pub(crate) fn with_codes(&self, values: &[(Word, AbstractValue)], model: &Model<'_>) -> Self {
+        let words = with_codes(self.place.table.words(self.place.block()), values, model);
+        let mut read = Self { words: Some(words), ..self.clone() };
+        read.read_codes(model);
+        read
+    }
+
+    fn words(&self) -> &[Word] {
+        match &self.words {
+            Some(words) => words,
+            None => self.place.table.words(self.place.block()),
+        }
+    }
+
+    fn read_codes(&mut self, model: &Model<'_>) {
+        let words = self.words().iter();
         let codes: Vec<CodeIx> = words.map(|word| word.code).filter(|code| code.is_some()).collect();
         let effects: Vec<Effect> = codes.iter().map(|code| model.effect(*code)).collect();
         let is_motion = |effect: &Effect| {
@@ -72,13 +110,17 @@ impl ReadBlock {
                 Effect::Rapid | Effect::Linear | Effect::ArcClockwise | Effect::ArcCounterClockwise
             )
         };
-        let letters = place.block().letters;
-        let is_eventful = letters.intersects(LetterSet::of("THD"))
+        let letters = self.place.block().letters;
+        self.is_eventful = letters.intersects(LetterSet::of("THD"))
             || !effects.iter().all(is_motion)
             || effects.is_empty() && letters.intersects(LetterSet::of("FS"));
-        let expressions = place.expressions().collect();
-        Some(Self { at, place, codes, effects, expressions, is_eventful })
+        (self.codes, self.effects) = (codes, effects);
     }
+}
+
+/// Is the word a code that an expression names: `G#1`?
+fn is_computed_code(word: &Word) -> bool {
+    matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner() && word.is_computed()
 }
 
 impl<'a> PathCx<'a> {
@@ -159,7 +201,9 @@ impl<'a> PathCx<'a> {
     /// Bytes of the first word of a block of the main file that `is` accepts.
     pub fn find_word(&self, at: At, is: impl Fn(&Word) -> bool) -> Option<Range<u32>> {
         let place = self.place_of(at).filter(|_| at.file == 0)?;
-        let word = place.table.words(place.block()).iter().find(|word| is(word))?;
+        let known = self.read_block().filter(|_| at == self.flow.origin.at);
+        let words = known.map_or_else(|| place.table.words(place.block()), ReadBlock::words);
+        let word = words.iter().find(|word| is(word))?;
         Some(place.base + word.range().start..place.base + word.range().end)
     }
 
@@ -278,6 +322,11 @@ impl<'a> PathCx<'a> {
         codes.any(|code| is(code.effect()))
     }
 
+    /// May the file use such a code? As [`Self::file_uses`], but a computed code may be any.
+    pub fn file_may_use(&self, is: impl Fn(Effect) -> bool) -> bool {
+        self.survey.has_computed_codes || self.file_uses(is)
+    }
+
     /// The file holds what others call, and no main program: what its caller set is not known.
     pub fn is_called_only(&self) -> bool {
         let survey = self.survey;
@@ -323,10 +372,20 @@ impl<'a> PathCx<'a> {
     /// The computed words of the block before it is executed, each with the values that it may have on the paths that come
     /// here; those that have no value are left out.
     pub fn computed_words(&self) -> &'a [(Word, AbstractValue)] {
-        self.computed.get_or_init(|| {
+        self.evaluated.words(|| {
             let Some(place) = self.place() else { return Vec::new() };
             let mut look = Look::new(self.program, self.model, &self.environment.machine.engine);
             look.words(&place, self.origin().at, self.state())
+        })
+    }
+
+    /// The block with a number in each computed word that has the same value on every path that comes here; `None` when
+    /// there is no such word.
+    pub(crate) fn block_of_values(&self) -> Option<&'a BlockOfValues> {
+        let values = self.computed_words();
+        self.evaluated.block(|| {
+            let place = self.place()?;
+            BlockOfValues::new(&place, values, self.model, self.environment.dialect)
         })
     }
 
@@ -352,7 +411,11 @@ impl<'a> PathCx<'a> {
 
     /// A finding at bytes of this block, with the calls that led here.
     pub fn finding(&self, rule: &'static RuleMeta, range: Range<u32>, message: impl Into<String>) -> Finding {
-        let mut finding = Finding::new(rule, range, message);
+        self.with_calls(Finding::new(rule, range, message))
+    }
+
+    /// Adds the calls that led here.
+    pub(crate) fn with_calls(&self, mut finding: Finding) -> Finding {
         for frame in self.state().frames().iter().skip(1).rev() {
             let how = match frame.kind {
                 FrameKind::Main => continue,

@@ -36,6 +36,8 @@ bitflags::bitflags! {
         const ALL_BLOCKS = 1 << 10;
         /// [`PathRule::moved`]: arcs alone.
         const ARCS = 1 << 11;
+        /// [`PathRule::block`]: blocks with a computed word, before they are executed.
+        const COMPUTED = 1 << 12;
     }
 }
 

@@ -7,6 +7,7 @@ use gcheck_diagnostics::{RuleMeta, RuleSet};
 use gcheck_program::BlockFlags;
 use gcheck_syntax::{SyntaxError, SyntaxErrorKind};
 
+use crate::values::WithValues;
 use crate::{BlockCx, FileCx, PathRule, Report, Suppressions, Watch};
 
 /// A rule: what it is and how it runs.
@@ -34,6 +35,14 @@ pub enum Run {
         /// Looks at the block.
         check: fn(&BlockCx<'_>, &mut Report<'_>),
     },
+    /// As [`Run::Block`]; and again while all paths are executed, with a number in each computed word that has the same
+    /// value on every path that comes to the block. For rules that judge values and codes, not how they are written.
+    BlockAndValues {
+        /// Blocks without any of these are skipped.
+        trigger: BlockFlags,
+        /// Looks at the block.
+        check: fn(&BlockCx<'_>, &mut Report<'_>),
+    },
     /// Once for the file.
     Program {
         /// Looks at the file.
@@ -53,11 +62,27 @@ pub enum Run {
     },
 }
 
+impl Run {
+    /// What the rule watches while all paths are executed, if it does, and how.
+    pub(crate) fn watcher(&self) -> Option<(Watch, Box<dyn PathRule>)> {
+        match *self {
+            Self::Path { watch, make } => Some((watch, make())),
+            Self::BlockAndValues { trigger, check } => {
+                Some((Watch::COMPUTED, Box::new(WithValues { trigger, check })))
+            }
+            Self::Token { .. } | Self::Block { .. } | Self::Program { .. } | Self::Suppressions { .. } => {
+                None
+            }
+        }
+    }
+}
+
 impl std::fmt::Debug for Run {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Token { .. } => "Token",
             Self::Block { .. } => "Block",
+            Self::BlockAndValues { .. } => "BlockAndValues",
             Self::Program { .. } => "Program",
             Self::Path { .. } => "Path",
             Self::Suppressions { .. } => "Suppressions",

@@ -3,7 +3,7 @@
 //! Knows: how what the engine shows becomes calls of rules. Must not know: any rule, how paths are found, how memories are
 //! kept.
 
-use std::cell::{Cell, OnceCell};
+use std::cell::Cell;
 use std::collections::HashSet;
 use std::rc::Rc;
 
@@ -16,14 +16,16 @@ use gcheck_program::{BlockFlags, Survey};
 use rustc_hash::FxHashMap;
 
 use crate::block_delete;
+use crate::evaluated::Evaluated;
 use crate::path_context::ReadBlock;
 use crate::shared_memory::SharedMemories;
-use crate::{Environment, FinishCx, PathCx, PathRule, Remembers, Report, RuleEntry, Run, Uses, Watch};
+use crate::{Environment, FinishCx, PathCx, PathRule, Remembers, Report, RuleEntry, Uses, Watch};
 
 /// A rule that watches.
 struct Active {
     entry: &'static RuleEntry,
     severity: Option<Severity>,
+    watch: Watch,
     rule: Box<dyn PathRule>,
 }
 
@@ -62,7 +64,7 @@ pub(crate) struct Watchers<'a, 'c> {
 }
 
 /// By bit of [`Watch`]: indices of the rules that watch it.
-type Lists = [Vec<usize>; 12];
+type Lists = [Vec<usize>; 13];
 
 /// How far the rules have come, beside what each remembers.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,7 +77,7 @@ pub(crate) struct Progress {
 fn lists(rules: &[Active]) -> Lists {
     let mut lists = Lists::default();
     for (index, active) in rules.iter().enumerate() {
-        let Run::Path { watch, .. } = active.entry.run else { continue };
+        let watch = active.watch;
         for (bit, list) in lists.iter_mut().enumerate() {
             if watch.bits() & (1 << bit) != 0 {
                 list.push(index);
@@ -101,13 +103,12 @@ impl<'a, 'c> Watchers<'a, 'c> {
         let mut active = Vec::new();
         let mut shared = SharedMemories::default();
         for (entry, severity) in rules {
-            let Run::Path { make, .. } = entry.run else { continue };
-            let rule = make();
+            let Some((watch, rule)) = entry.run.watcher() else { continue };
             if rule.concerns(&uses) {
                 if let Some(make) = rule.shares() {
                     shared.add(make);
                 }
-                active.push(Active { entry, severity: *severity, rule });
+                active.push(Active { entry, severity: *severity, watch, rule });
             }
         }
         let lists = lists(&active);
@@ -132,8 +133,8 @@ impl<'a, 'c> Watchers<'a, 'c> {
     pub(crate) fn restart(&mut self, scope: Scope) {
         self.scope = scope;
         for active in &mut self.rules {
-            if let Run::Path { make, .. } = active.entry.run {
-                active.rule = make();
+            if let Some((_, rule)) = active.entry.run.watcher() {
+                active.rule = rule;
             }
         }
         self.shared.restart();
@@ -233,6 +234,28 @@ impl<'a, 'c> Watchers<'a, 'c> {
         Some(read)
     }
 
+    /// Reads which codes the computed words of the block under way name: `G#1`.
+    fn read_computed_codes(&mut self, flow: &FlowCx<'_>, evaluated: &Evaluated) {
+        let Some(read) = self.current.take() else { return };
+        if !read.has_computed_code {
+            self.current = Some(read);
+            return;
+        }
+        let cx = PathCx {
+            environment: self.environment,
+            program: self.program,
+            model: self.model,
+            survey: self.survey,
+            flow,
+            read: Some(&read),
+            had_enough: &Cell::new(false),
+            shared: &SharedMemories::default(),
+            evaluated,
+        };
+        let known = read.with_codes(cx.computed_words(), self.model);
+        self.current = Some(Rc::new(known));
+    }
+
     fn watches(&self, watch: Watch) -> bool {
         let bit = watch.bits().trailing_zeros() as usize;
         self.lists.get(bit).is_some_and(|list| !list.is_empty())
@@ -242,6 +265,16 @@ impl<'a, 'c> Watchers<'a, 'c> {
         &mut self,
         watch: Watch,
         flow: &FlowCx<'_>,
+        call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
+    ) {
+        self.show_evaluated(watch, flow, &Evaluated::default(), call);
+    }
+
+    fn show_evaluated(
+        &mut self,
+        watch: Watch,
+        flow: &FlowCx<'_>,
+        evaluated: &Evaluated,
         mut call: impl FnMut(&mut dyn PathRule, &PathCx<'_>, &mut Report<'_>),
     ) {
         // Blocks of other files are judged when those files are checked.
@@ -262,7 +295,7 @@ impl<'a, 'c> Watchers<'a, 'c> {
             read: read.as_deref(),
             had_enough: &had_enough,
             shared: &shared,
-            computed: &OnceCell::new(),
+            evaluated,
         };
         self.each(watch, flow.origin.flags, &had_enough, |rule, report| call(rule, &cx, report));
         self.current = read;
@@ -280,10 +313,10 @@ impl<'a, 'c> Watchers<'a, 'c> {
             model: self.model,
             survey: self.survey,
             flow,
-            read: None,
+            read: self.current.as_deref(),
             had_enough: &Cell::new(false),
             shared: &SharedMemories::default(),
-            computed: &OnceCell::new(),
+            evaluated: &Evaluated::default(),
         };
         for shared in self.shared.iter_mut() {
             shared.moved(&cx, event);
@@ -303,11 +336,19 @@ impl FlowObserver for Watchers<'_, '_> {
     fn before(&mut self, cx: &FlowCx<'_>) {
         self.current = None;
         if cx.origin.at.file == 0 && is_read(cx.origin) {
+            let evaluated = Evaluated::default();
             self.current = self.read_block(cx.origin.at);
-            if self.current.as_ref().is_some_and(|read| read.is_eventful) {
-                self.show(Watch::BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+            self.read_computed_codes(cx, &evaluated);
+            let is_eventful = self.current.as_ref().is_some_and(|read| read.is_eventful);
+            let mut show =
+                |watch| self.show_evaluated(watch, cx, &evaluated, |rule, cx, report| rule.block(cx, report));
+            if is_eventful {
+                show(Watch::BLOCKS);
             }
-            self.show(Watch::ALL_BLOCKS, cx, |rule, cx, report| rule.block(cx, report));
+            show(Watch::ALL_BLOCKS);
+            if cx.origin.flags.contains(BlockFlags::EXPRESSION) {
+                show(Watch::COMPUTED);
+            }
         }
     }
 

@@ -63,6 +63,24 @@ bitflags::bitflags! {
     }
 }
 
+impl BlockFlags {
+    /// Flags that the words of a block decide.
+    pub(crate) const OF_WORDS: Self = Self::CODE
+        .union(Self::UNKNOWN_CODE)
+        .union(Self::EXPRESSION)
+        .union(Self::REPEATED)
+        .union(Self::UNPOINTED)
+        .union(Self::POINT_ON_INTEGER)
+        .union(Self::NEGATIVE)
+        .union(Self::OUT_OF_RANGE)
+        .union(Self::LONG_NUMBER)
+        .union(Self::UNKNOWN_ADDRESS)
+        .union(Self::LABEL)
+        .union(Self::PROGRAM_NUMBER)
+        .union(Self::UNREAD_WORD)
+        .union(Self::AXIS_TWICE);
+}
+
 /// Index of a block in its chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BlockIx(pub(crate) u32);
@@ -107,6 +125,21 @@ impl Word {
     /// Bytes of the chunk.
     pub fn range(&self) -> Range<u32> {
         self.start..self.end
+    }
+
+    /// The same word with a value that was computed, and the code that it names. Nothing of the number is written.
+    #[must_use]
+    pub fn with_value(self, value: f64, code: CodeIx) -> Self {
+        Self { value: Value::Number(value), shape: NumberShape::default(), code, ..self }
+    }
+
+    /// Is the value computed, whether it is known or not?
+    pub fn is_computed(&self) -> bool {
+        match self.value {
+            Value::Expr(_) => true,
+            Value::Number(_) => self.shape.digits() == 0,
+            Value::Missing => false,
+        }
     }
 
     /// The value, if it is written as a number.

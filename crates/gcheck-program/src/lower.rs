@@ -175,6 +175,86 @@ impl<'c> Dialect<'c> {
     fn letter(&self, letter: Letter) -> &LetterFacts {
         self.letters.get(letter.index()).unwrap_or(&LetterFacts::UNKNOWN)
     }
+
+    /// The block with other values in its words: its addresses and flags are those of the new words.
+    pub fn with_words(&self, block: &Block, words: &[Word]) -> Block {
+        let (letters, facts) = self.survey_words(words);
+        Block { flags: block.flags.difference(BlockFlags::OF_WORDS) | facts, letters, ..block.clone() }
+    }
+
+    /// One pass over the words of a finished block.
+    fn survey_words(&self, words: &[Word]) -> (LetterSet, BlockFlags) {
+        let mut letters = LetterSet::EMPTY;
+        let mut flags = BlockFlags::empty();
+        let mut read = LetterSet::EMPTY;
+        let mut reads_anything = false;
+        let mut bound = LetterSet::EMPTY;
+        for word in words {
+            let facts = self.letter(word.letter);
+            let is_new = letters.insert(word.letter);
+            if !is_new && !facts.repeatable {
+                flags |= BlockFlags::REPEATED;
+            }
+            if !facts.known {
+                flags |= BlockFlags::UNKNOWN_ADDRESS;
+            }
+            match word.letter.ascii() {
+                b'G' | b'M' => {
+                    flags |= BlockFlags::CODE;
+                    if let Some(code) = self.control.code_at(word.code) {
+                        read = read.or(code.reads());
+                        reads_anything |= code.entry().any_words;
+                    } else if !matches!(word.value, Value::Expr(_)) {
+                        flags |= BlockFlags::UNKNOWN_CODE;
+                    } else {
+                        // `G#1`: which code it is only the engine can say.
+                        reads_anything = true;
+                    }
+                    if matches!(word.value, Value::Expr(_)) {
+                        flags |= BlockFlags::EXPRESSION;
+                    }
+                    continue;
+                }
+                b'N' => flags |= BlockFlags::LABEL,
+                b'O' => flags |= BlockFlags::PROGRAM_NUMBER,
+                _ => {}
+            }
+            if !facts.free {
+                bound.insert(word.letter);
+            }
+            match word.value {
+                Value::Number(value) => {
+                    let shape = word.shape;
+                    if shape.digits() > self.max_digits {
+                        flags |= BlockFlags::LONG_NUMBER;
+                    }
+                    if !shape.point && value != 0.0 && !facts.count {
+                        flags |= BlockFlags::UNPOINTED;
+                    }
+                    if shape.point && facts.integer {
+                        flags |= BlockFlags::POINT_ON_INTEGER;
+                    }
+                    if shape.minus && !facts.negative {
+                        flags |= BlockFlags::NEGATIVE;
+                    }
+                    if !(facts.min..=facts.max).contains(&value) {
+                        flags |= BlockFlags::OUT_OF_RANGE;
+                    }
+                }
+                Value::Expr(_) => flags |= BlockFlags::EXPRESSION,
+                Value::Missing => {}
+            }
+        }
+        let unread = bound.without(read);
+        let has_code = flags.contains(BlockFlags::CODE);
+        if !reads_anything && if has_code { !unread.is_empty() } else { self.has_stray(letters) } {
+            flags |= BlockFlags::UNREAD_WORD;
+        }
+        let both =
+            |(increment, axis): &(Letter, Letter)| letters.contains(*increment) && letters.contains(*axis);
+        flags.set(BlockFlags::AXIS_TWICE, self.increments.iter().any(both));
+        (letters, flags)
+    }
 }
 
 /// A word of a code whose earlier value stays in effect.
@@ -534,7 +614,9 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             let text = self.text.get(range.start as usize..range.end as usize).unwrap_or_default();
             flags.set(BlockFlags::LONG_LINE, text.chars().count() > self.dialect.line_length as usize);
         }
-        let (letters, facts) = self.survey_words(&words);
+        let words_of_block =
+            self.table.words.get(words.start as usize..words.end as usize).unwrap_or_default();
+        let (letters, facts) = self.dialect.survey_words(words_of_block);
         flags |= facts;
         self.table.flags |= flags;
         self.table.blocks.push(Block { range, flags, letters, delete: self.block_delete, words });
@@ -567,81 +649,6 @@ impl<'t, 'd> LowerSink<'t, 'd> {
             self.push_block(quiet.range, flags, words);
         }
         Some(next)
-    }
-
-    /// One pass over the words of a finished block.
-    fn survey_words(&self, words: &Range<u32>) -> (LetterSet, BlockFlags) {
-        let mut letters = LetterSet::EMPTY;
-        let mut flags = BlockFlags::empty();
-        let words = self.table.words.get(words.start as usize..words.end as usize).unwrap_or_default();
-        let mut read = LetterSet::EMPTY;
-        let mut reads_anything = false;
-        let mut bound = LetterSet::EMPTY;
-        for word in words {
-            let facts = self.dialect.letter(word.letter);
-            let is_new = letters.insert(word.letter);
-            if !is_new && !facts.repeatable {
-                flags |= BlockFlags::REPEATED;
-            }
-            if !facts.known {
-                flags |= BlockFlags::UNKNOWN_ADDRESS;
-            }
-            match word.letter.ascii() {
-                b'G' | b'M' => {
-                    flags |= BlockFlags::CODE;
-                    if let Some(code) = self.dialect.control.code_at(word.code) {
-                        read = read.or(code.reads());
-                        reads_anything |= code.entry().any_words;
-                    } else if !matches!(word.value, Value::Expr(_)) {
-                        flags |= BlockFlags::UNKNOWN_CODE;
-                    } else {
-                        // `G#1`: which code it is only the engine can say.
-                        reads_anything = true;
-                    }
-                    if matches!(word.value, Value::Expr(_)) {
-                        flags |= BlockFlags::EXPRESSION;
-                    }
-                    continue;
-                }
-                b'N' => flags |= BlockFlags::LABEL,
-                b'O' => flags |= BlockFlags::PROGRAM_NUMBER,
-                _ => {}
-            }
-            if !facts.free {
-                bound.insert(word.letter);
-            }
-            match word.value {
-                Value::Number(value) => {
-                    let shape = word.shape;
-                    if shape.digits() > self.dialect.max_digits {
-                        flags |= BlockFlags::LONG_NUMBER;
-                    }
-                    if !shape.point && value != 0.0 && !facts.count {
-                        flags |= BlockFlags::UNPOINTED;
-                    }
-                    if shape.point && facts.integer {
-                        flags |= BlockFlags::POINT_ON_INTEGER;
-                    }
-                    if shape.minus && !facts.negative {
-                        flags |= BlockFlags::NEGATIVE;
-                    }
-                    if !(facts.min..=facts.max).contains(&value) {
-                        flags |= BlockFlags::OUT_OF_RANGE;
-                    }
-                }
-                Value::Expr(_) => flags |= BlockFlags::EXPRESSION,
-                Value::Missing => {}
-            }
-        }
-        let unread = bound.without(read);
-        let has_code = flags.contains(BlockFlags::CODE);
-        if !reads_anything && if has_code { !unread.is_empty() } else { self.dialect.has_stray(letters) } {
-            flags |= BlockFlags::UNREAD_WORD;
-        }
-        let both =
-            |(increment, axis): &(Letter, Letter)| letters.contains(*increment) && letters.contains(*axis);
-        flags.set(BlockFlags::AXIS_TWICE, self.dialect.increments.iter().any(both));
-        (letters, flags)
     }
 
     /// The tree gives its errors at the end: put each to the block whose text holds it.

@@ -230,6 +230,15 @@ pub struct Survey {
 }
 
 impl Survey {
+    /// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give
+    /// it its variables and modes.
+    pub fn is_called_from_elsewhere(&self) -> bool {
+        let second = self.programs.get(1).map_or(u32::MAX, |second| second.range.start);
+        let first = self.ends.iter().find(|end| end.range.start < second && !end.conditional);
+        let any = first.or_else(|| self.ends.iter().find(|end| end.range.start < second));
+        any.is_some_and(|end| end.ends == Ends::Subprogram)
+    }
+
     /// Adds the next chunk; `base` is its offset in the file, `end` the end of the region that the control reads.
     pub fn add(&mut self, table: &BlockTable, base: u32, end: u32, dialect: &Dialect<'_>) {
         if table.flags().is_empty() && table.blocks.last().is_some_and(|last| base + last.range.start < end) {

@@ -23,6 +23,7 @@ pub(crate) mod offset_schemes;
 pub(crate) mod parting;
 pub(crate) mod pockets;
 pub(crate) mod probing;
+pub(crate) mod program_calls;
 pub(crate) mod program_numbers;
 pub(crate) mod sections;
 pub(crate) mod shared_list;

@@ -2,6 +2,7 @@
 //!
 //! Knows: the table of rules. Must not know: a rule by itself; that is tested in the rule's file.
 
+mod computed;
 mod edited_is_fresh;
 mod every_rule;
 mod faults;

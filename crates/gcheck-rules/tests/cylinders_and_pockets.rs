@@ -133,7 +133,7 @@ fn words_of_a_pocket() {
         &expect![[r#"
             P9 missing: error[required-word-missing]
             P9 twice: warning[word-given-twice]
-            P9 -1.: error[decimal-point-on-integer]
+            P9 -1.: error[decimal-point-on-integer] error[number-out-of-range]
             P9 0.: error[decimal-point-on-integer] warning[subprogram-missing]
             P9 99999.: error[decimal-point-on-integer]
             P9 ABC: error[unexpected-text]

@@ -133,6 +133,7 @@ pub(crate) const fn noticed(least: &'static str, violates: Program, conforms: Pr
 }
 
 /// What gcheck does not do yet.
+#[expect(dead_code, reason = "no proof is open; the next one that is found is stated with this")]
 pub(crate) const fn open(says: &'static str, demand: &'static Proof) -> Proof {
     Proof::Open { says, demand }
 }

@@ -105,11 +105,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// `G141`: the size of `D` along the vector of each block.
     pub(super) fn cutter_along_vectors(&mut self, state: &mut State<D>) -> Step {
+        // Where the axes are at the programmed point, or beside it by a shift that is known, the point stays as it is.
+        let goes_on = state.tool_shift.along.is_none()
+            && state.compensation.on.is_no()
+            && state.compensation.left.is_no();
         self.flush_compensation(state)?;
         state.compensation.on = Perhaps::No;
         let (radius, _) = self.cutter_radius(state)?;
         state.tool_shift.cutter = Some(radius);
-        self.stand_beside(state);
+        if !goes_on {
+            self.stand_beside(state);
+        }
         Ok(())
     }
 

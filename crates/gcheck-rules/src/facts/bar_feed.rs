@@ -72,7 +72,7 @@ impl Length {
 /// The variables of the control's bar feeder, for rules about programs that use one. In all others the rule stops watching.
 pub(crate) fn bar_feeder<'a>(cx: &PathCx<'a>) -> Option<&'a BarFeederRules> {
     let rules = cx.model.semantics().bar_feeder.as_ref();
-    if rules.is_none() || !cx.file_uses(|effect| effect == Effect::BarFeed) {
+    if rules.is_none() || !cx.file_may_use(|effect| effect == Effect::BarFeed) {
         cx.enough();
         return None;
     }

@@ -6,6 +6,7 @@ use std::ops::Range;
 
 use crate::Finding;
 use crate::PathCx;
+use crate::facts::offset_schemes::whole;
 use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{Abstract, At, Domain, Ending, Fact};
 
@@ -42,14 +43,8 @@ fn changes_tool(cx: &PathCx<'_>) -> bool {
     if !rules.change_by_t {
         return cx.has_effect(|effect| effect == Effect::ToolChange);
     }
-    if !cx.origin().letters.contains(Letter::of('T')) {
-        return false;
-    }
-    let Some(place) = cx.place() else { return false };
-    let words = place.table.words(place.block());
-    let Some(word) = words.iter().find(|word| word.letter == Letter::of('T')) else { return false };
-    // A computed tool may be the same one.
-    let Some(number) = word.integer() else { return false };
+    // A computed tool that is not known may be the same one.
+    let Some(number) = cx.known_number('T').and_then(whole) else { return false };
     let tool = if rules.offset_in_t && number >= 100 { number / 100 } else { number };
     // `T0` cancels offsets; calling the current tool again only changes its offsets.
     tool != 0 && Abstract::known(cx.state().tool()) != Some(f64::from(tool))

@@ -6,7 +6,6 @@ use gcheck_controls::{Code, Confidence, WordKind};
 use gcheck_engine::AbstractValue;
 use gcheck_program::{BlockFlags, Word};
 
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{Finding, PathCx, RuleMeta, Severity, WordFacts, limit};
 
 /// So far from a whole number a count may be: what arithmetic leaves over.
@@ -41,7 +40,7 @@ pub(crate) fn refused<'a>(cx: &PathCx<'a>) -> Vec<Refused<'a>> {
         return Vec::new();
     }
     // The caller may give other values.
-    if cx.depth() == 1 && is_called_from_elsewhere(cx.survey) {
+    if cx.depth() == 1 && cx.survey.is_called_from_elsewhere() {
         return Vec::new();
     }
     let mut found = Vec::new();
@@ -115,6 +114,11 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     // A control may round a fraction; the number of a program it cannot.
     let rounds = *why == Why::Fraction && facts.kind != WordKind::Program;
     let finding = if rounds { finding.at_most(Severity::Warning) } else { finding };
+    let finding = if rounds && cx.model.semantics().computed_counts_round {
+        finding.note(format!("this control rounds it to `{letter}{}`", value.round()))
+    } else {
+        finding
+    };
     if cx.environment.control_is_guessed { finding.at_most(Severity::Warning) } else { finding }
 }
 

@@ -68,7 +68,7 @@ pub(crate) struct Clash {
 
 /// Does the program use such a mode at all?
 pub(crate) fn uses_five_axis_modes(cx: &PathCx<'_>) -> bool {
-    cx.file_uses(|effect| is_along_tool(effect) || is_along_vectors(effect))
+    cx.file_may_use(|effect| is_along_tool(effect) || is_along_vectors(effect))
 }
 
 /// The block that switched a mode on.

@@ -4,7 +4,7 @@
 
 use crate::PathCx;
 use crate::{Finding, RuleMeta};
-use gcheck_controls::{CodeIx, Effect, Letter};
+use gcheck_controls::{CodeIx, Effect};
 use gcheck_engine::{Fact, Role};
 
 use crate::facts::boundary::{Boundary, boundary_range};
@@ -49,7 +49,7 @@ pub(crate) fn in_effect(cx: &PathCx<'_>, role: Role, is_on: impl Fn(Effect) -> b
     if let Some(code) = cx.code_of_role(role) {
         return is_on(cx.model.effect(code)).then_some(ActiveMode::Certain(code));
     }
-    let cancels_length = || cx.has_word(|word| word.letter == Letter::of('H') && word.number() == Some(0.0));
+    let cancels_length = || cx.known_number('H') == Some(0.0);
     if role == Role::Length && cancels_length() {
         return None;
     }

@@ -4,16 +4,14 @@
 
 use std::ops::Range;
 
-use gcheck_controls::Letter;
 use gcheck_program::Outline;
 
 use crate::PathCx;
+use crate::facts::offset_schemes::whole;
 
 /// The blocks of the main file that hold the outline, to the end of its program.
 pub(crate) fn outline_of(cx: &PathCx<'_>) -> Option<Range<u32>> {
-    let place = cx.place()?;
-    let words = place.table.words(place.block());
-    let number = words.iter().find(|word| word.letter == Letter::of('P'))?.integer()?;
+    let number = whole(cx.known_number('P')?)?;
     let file = cx.program.file(0)?;
     let outline: &Outline = file.loaded.outline();
     let first = match outline.label(number, cx.origin().at.block, true) {

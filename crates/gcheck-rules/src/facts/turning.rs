@@ -6,7 +6,8 @@
 use std::ops::Range;
 
 use crate::PathCx;
-use gcheck_controls::{Effect, Letter, LetterSet};
+use crate::facts::offset_schemes::whole;
+use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Axis, Role};
 use gcheck_program::{BlockFlags, Place};
 
@@ -44,9 +45,7 @@ pub(crate) fn is_roughing(effect: Effect) -> bool {
 
 /// The first and the last block of the profile that `P` and `Q` of this block name.
 pub(crate) fn profile_blocks(cx: &PathCx<'_>) -> Option<(At, At)> {
-    let place = cx.place()?;
-    let words = place.table.words(place.block());
-    let named = |letter: char| words.iter().find(|word| word.letter == Letter::of(letter))?.integer();
+    let named = |letter: char| cx.known_number(letter).and_then(whole);
     let here = cx.origin().at;
     let file = cx.program.file(here.file).filter(|_| here.file == 0)?;
     let label = |letter: char, from: u32| file.loaded.outline().label(named(letter)?, from, true);

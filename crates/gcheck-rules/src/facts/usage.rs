@@ -9,15 +9,6 @@ use gcheck_controls::{Effect, Ends, SystemValue};
 use gcheck_engine::{At, Model, Program, ProgramFile};
 use gcheck_program::{BlockFlags, EndMark, OKeyword, Op, Place, StatementKind, Survey};
 
-/// The first program of the file returns (`M99`) before it ends the job, if it does: other programs call it, and give it
-/// its variables and modes.
-pub(crate) fn is_called_from_elsewhere(survey: &Survey) -> bool {
-    let second = survey.programs.get(1).map_or(u32::MAX, |second| second.range.start);
-    let first = survey.ends.iter().find(|end| end.range.start < second && !end.conditional);
-    let any = first.or_else(|| survey.ends.iter().find(|end| end.range.start < second));
-    any.is_some_and(|end| end.ends == Ends::Subprogram)
-}
-
 /// The blocks of the main file that have any of these flags.
 pub(crate) fn blocks_with(
     program: &Program<'_>,

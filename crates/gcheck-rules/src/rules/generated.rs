@@ -234,6 +234,7 @@ pub(crate) mod probing {
 
 pub(crate) mod program {
     pub(crate) mod ambiguous_jump_target;
+    pub(crate) mod computed_subprogram_missing;
     pub(crate) mod duplicate_sequence_number;
     pub(crate) mod jump_target_missing;
     pub(crate) mod o_word_subroutine_missing;
@@ -556,6 +557,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &probing::touch_code_without_probing::RULE,
     &probing::touches_do_not_meet::RULE,
     &program::ambiguous_jump_target::RULE,
+    &program::computed_subprogram_missing::RULE,
     &program::duplicate_sequence_number::RULE,
     &program::jump_target_missing::RULE,
     &program::o_word_subroutine_missing::RULE,

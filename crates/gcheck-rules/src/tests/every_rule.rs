@@ -202,7 +202,7 @@ fn the_tier_is_that_of_the_way_it_runs() {
     for_each_rule(|rule, say| {
         let tier = match rule.run {
             Run::Token { .. } => Tier::Token,
-            Run::Block { .. } => Tier::Block,
+            Run::Block { .. } | Run::BlockAndValues { .. } => Tier::Block,
             Run::Program { .. } | Run::Suppressions { .. } => Tier::Program,
             Run::Path { .. } => Tier::Path,
         };

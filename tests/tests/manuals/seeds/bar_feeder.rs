@@ -2,7 +2,7 @@
 //!
 //! Knows: sentences in our words, programs, expectations. Must not know: how they are checked.
 
-use crate::proof::{Program, Proof, legal, noticed, on, open, rule, run, same};
+use crate::proof::{Program, Proof, legal, noticed, on, rule, run, same};
 use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
@@ -326,13 +326,10 @@ M99
                         .with(ONE_BAR),
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n").with(ONE_BAR),
                 ),
-                open(
-                    "a computed `P` without its program is not reported",
-                    &noticed(
-                        "warning",
-                        on(LATHE, "O1\nG21\nM5\n#100=7\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
-                        on(LATHE, "O1\nG21\nM5\n#100=2\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
-                    ),
+                rule(
+                    "warning[computed-subprogram-missing]",
+                    on(LATHE, "O1\nG21\nM5\n#100=7\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
+                    on(LATHE, "O1\nG21\nM5\n#100=2\nG105 I30. J25. K60. P#100\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
                 rule(
                     "error[computed-value-out-of-range]",
@@ -373,13 +370,10 @@ M99
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2.5\nM30\nO2\nG0 X80.\nM99\n"),
                     on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
-                open(
-                    "`P-2` is not reported",
-                    &noticed(
-                        "warning",
-                        on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P-2\nM30\nO2\nG0 X80.\nM99\n"),
-                        on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
-                    ),
+                rule(
+                    "error[number-out-of-range]",
+                    on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P-2\nM30\nO2\nG0 X80.\nM99\n"),
+                    on(LATHE, "O1\nG21\nM5\nG105 I30. J25. K60. P2\nM30\nO2\nG0 X80.\nM99\n"),
                 ),
             ]),
         },

@@ -3,7 +3,7 @@
 //! Knows: sentences in our words, programs, expectations. Must not know: how they are checked.
 
 use crate::proof::Proof::{Assumes, Explains, Legal, Rule, Run, Stats};
-use crate::proof::{Program, Proof, legal, noticed, on, open, rule, run, same};
+use crate::proof::{Program, Proof, legal, noticed, on, rule, run, same};
 use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
@@ -214,7 +214,7 @@ range: No("value ignored"),
 ]),
 computed: By(&[
 same(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=7.\nG107 Y#1 A0. Q100.\nG1 Y31.4159 F100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.4159 F100.\nG107\nM30\n")),
-open("a computed value is not reported", &rule("warning[cylinder-word-value-ignored]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=7.\nG107 Y#1 A0. Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1 A0. Q100.\nG107\nM30\n"))),
+rule("warning[cylinder-word-value-ignored]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=7.\nG107 Y#1 A0. Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1 A0. Q100.\nG107\nM30\n")),
 ]),
 lasting: By(&[
 run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nY5.\nG107 Y0. A0. Q100.\nX10.\nG107\nM30\n"), &["0.0000 5.0000", "10.0000 5.0000"]),
@@ -232,7 +232,7 @@ run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y99999. A0. Q100.\nG1 Y31.
 legal(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.4159 F100.\nG107\nM30\n")),
 ]),
 computed: By(&[
-open("a block with a computed word is not judged", &rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1 A#1 Q100.\nG107\nM30\n"))),
+rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y#1 A#1 Q100.\nG107\nM30\n")),
 ]),
 lasting: By(&[
 rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nA90.\nG107 Y0. Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nA90.\nG107 Y0. A0. Q100.\nG107\nM30\n")),
@@ -279,7 +279,7 @@ range: No("value ignored"),
 legal(wrapped("O1\nG20 G54 G90\nG107 Y0. A0. Q2.\nG107\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"])),
 ]),
 computed: By(&[
-open("a block with a computed word is not judged", &rule("error[cylinder-axis-not-on-machine]", wrapped("O1\nG20 G54 G90\n#1=0\nG107 Y0. B#1 Q2.\nG107\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"]), wrapped("O1\nG20 G54 G90\n#1=0\nG107 Y0. A#1 Q2.\nG107\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"]))),
+rule("error[cylinder-axis-not-on-machine]", wrapped("O1\nG20 G54 G90\n#1=0\nG107 Y0. B#1 Q2.\nG107\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"]), wrapped("O1\nG20 G54 G90\n#1=0\nG107 Y0. A#1 Q2.\nG107\nM30\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"])),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -307,7 +307,7 @@ Rule {
 run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A90. Q100.\nG1 X10. F100.\nG107\nM30\n"), &["10.0000 0.0000 0.0000 0.0000"]),
 ]),
 computed: By(&[
-open("a computed value is not reported", &rule("warning[cylinder-word-value-ignored]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=45.\nG107 Y0. A[#1*2.] Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y0. A[#1*2.] Q100.\nG107\nM30\n"))),
+rule("warning[cylinder-word-value-ignored]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=45.\nG107 Y0. A[#1*2.] Q100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=0\nG107 Y0. A[#1*2.] Q100.\nG107\nM30\n")),
 ]),
 lasting: By(&[
 run(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nA90.\nG107 Y0. A0. Q100.\nG1 X10. F100.\nG107\nM30\n"), &["10.0000 0.0000 0.0000 90.0000"]),
@@ -326,7 +326,7 @@ legal(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.41
 ]),
 computed: By(&[
 same(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=50.\nG107 Y0. A0. Q[#1*2.]\nG1 Y31.4159 F100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. Q100.\nG1 Y31.4159 F100.\nG107\nM30\n")),
-open("a block with a computed word is not judged", &rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 Q#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 A0. Q#1\nG107\nM30\n"))),
+rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 Q#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 A0. Q#1\nG107\nM30\n")),
 rule("error[computed-value-out-of-range]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=-4.\nG107 Y0. A0. Q#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=4.\nG107 Y0. A0. Q#1\nG107\nM30\n")),
 rule("warning[maybe-computed-value-out-of-range]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=4.\nIF [#500 EQ 1] GOTO 10\n#1=-4.\nN10 G107 Y0. A0. Q#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=4.\nIF [#500 EQ 1] GOTO 10\n#1=5.\nN10 G107 Y0. A0. Q#1\nG107\nM30\n")),
 ]),
@@ -362,7 +362,7 @@ rule("error[number-out-of-range]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n
 ]),
 computed: By(&[
 same(wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=25.\nG107 Y0. A0. R[#1*2.]\nG1 Y31.4159 F100.\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\nG107 Y0. A0. R50.\nG1 Y31.4159 F100.\nG107\nM30\n")),
-open("a block with a computed word is not judged", &rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 R#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 A0. R#1\nG107\nM30\n"))),
+rule("error[cylinder-without-rotary-axis]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 R#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=2.\nG107 A0. R#1\nG107\nM30\n")),
 rule("error[computed-value-out-of-range]", wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=-4.\nG107 Y0. A0. R#1\nG107\nM30\n"), wrapped("O1\nG21 G90 G54 G0 X0. Y0. Z0. A0.\n#1=4.\nG107 Y0. A0. R#1\nG107\nM30\n")),
 ]),
 lasting: By(&[

@@ -4,7 +4,7 @@
 
 use std::fmt::Write as _;
 
-use crate::proof::{Program, Proof, legal, noticed, on, open, rule, run, same};
+use crate::proof::{Program, Proof, legal, on, rule, run, same};
 use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
@@ -147,7 +147,7 @@ missing: By(&[
 rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. J10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG18\nG2 X20. Z0. Y-5. I10. F200.\nM30\n")),
 ]),
 extra: By(&[
-open("a centre and another radius are not reported", &noticed("info", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. R11. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n"))),
+rule("warning[arc-centre-and-radius]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. J0. R11. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. R11. F200.\nM30\n")),
 rule("warning[arc-wrong-plane-word]", mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. K10. F200.\nM30\n"), mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG2 X20. Y0. Z-5. I10. F200.\nM30\n")),
 ]),
 range: By(&[
@@ -565,8 +565,8 @@ Proof::Stats { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X
 ]),
 extra: No("a switch"),
 range: By(&[
-open("160 % and 85 % are taken", &Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=160"]), says: "from 0 to 150" }),
-open("160 % and 85 % are taken", &Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=85"]), says: "from 0 to 150" }),
+Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=160"]), says: "0 to 150 percent in steps of 10" },
+Proof::Refuses { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=85"]), says: "0 to 150 percent in steps of 10" },
 Proof::Accepts { program: mill("G21 G17 G90 G94 G54\nS900 M3\nG0 X0. Y0. Z0.\nG1 X100. F300.\nM30\n").with(&["machine.feed_override=0"]) },
 ]),
 

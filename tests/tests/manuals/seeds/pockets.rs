@@ -3,7 +3,7 @@
 //! Knows: sentences in our words, programs, expectations. Must not know: how they are checked.
 
 use crate::proof::Proof::{Assumes, Explains, Legal, Rule, Run, Stats};
-use crate::proof::{Program, Proof, legal, noticed, on, open, rule, run, same};
+use crate::proof::{Program, Proof, legal, noticed, on, rule, run, same};
 use crate::seeds::sentence::Tests::{By, No};
 use crate::seeds::sentence::{Sentence, System, prove};
 
@@ -226,7 +226,7 @@ range: By(&[
 legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
 ]),
 computed: By(&[
-open("a computed step is not judged", &rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.6\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]))),
+rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.6\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
 ]),
 lasting: By(&[
 rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.6 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
@@ -282,7 +282,7 @@ computed: By(&[
 same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9.5\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-open("an outline that is not there is not reported", &noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"))),
+rule("warning[computed-subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -304,7 +304,7 @@ rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG
 ]),
 range: By(&[
 noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9.5 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-open("`P-9` is not reported", &noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"))),
+rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },

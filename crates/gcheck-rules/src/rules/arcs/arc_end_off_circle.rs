@@ -1,6 +1,6 @@
 //! An arc whose end does not lie on its circle.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Effect;
 use gcheck_engine::{ArcFault, Event, Fault, Position, Units};
 use gcheck_geometry::Mm;
 use gcheck_program::Word;
@@ -67,7 +67,7 @@ impl PathRule for ArcEndOffCircle {
 
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
         let is_arc = |effect| matches!(effect, Effect::ArcClockwise | Effect::ArcCounterClockwise);
-        if !*self.has_arcs.get_or_insert_with(|| cx.file_uses(is_arc)) {
+        if !*self.has_arcs.get_or_insert_with(|| cx.file_may_use(is_arc)) {
             cx.enough();
             return;
         }
@@ -108,12 +108,11 @@ impl PathRule for ArcEndOffCircle {
 
 /// Would the arc be valid if its centre were measured from the origin?
 fn fits_from_origin(cx: &PathCx<'_>, from: &Position) -> bool {
-    let (Some(block), Some(plane)) = (cx.place(), cx.state().plane(cx.model)) else { return false };
+    let Some(plane) = cx.state().plane(cx.model) else { return false };
     let unit = cx.state().units(cx.model).map_or(f64::NAN, Units::in_mm);
-    let words = block.table.words(block.block());
-    let value = |letter: char| {
-        let word = words.iter().find(|word| word.letter == Letter::of(letter));
-        word.map_or(Some(0.0), |word| word.number().map(|number| number * unit))
+    let value = |letter: char| match cx.word(letter) {
+        Some(_) => cx.known_number(letter).map(|number| number * unit),
+        None => Some(0.0),
     };
     let centre = (value('I'), value('J'), value('K'));
     let (Some(along_x), Some(along_y), Some(along_z)) = centre else { return false };

@@ -3,7 +3,6 @@
 use gcheck_controls::{Effect, Letter, LetterSet};
 use gcheck_engine::{ArcFault, Event, Fact, Fault, Role};
 use gcheck_geometry::Plane;
-use gcheck_program::{Value, Word};
 
 use crate::declare::declare_rule;
 use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
@@ -117,12 +116,9 @@ fn centre_word_across(plane: Plane) -> char {
     }
 }
 
-/// Is the word written as a number other than zero?
+/// Has the word a number other than zero?
 fn is_nonzero(cx: &PathCx<'_>, letter: char) -> bool {
-    let Some(place) = cx.place() else { return false };
-    let is_it = |word: &&Word| word.letter == gcheck_controls::Letter::of(letter);
-    let word = place.table.words(place.block()).iter().find(is_it);
-    word.is_some_and(|word| matches!(word.value, Value::Number(value) if value.abs() > 0.0))
+    cx.known_number(letter).is_some_and(|value| value.abs() > 0.0)
 }
 
 /// Has the block words for X and Y and neither Z nor `K`, in a plane of which Z is one axis?

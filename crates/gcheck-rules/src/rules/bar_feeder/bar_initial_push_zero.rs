@@ -1,8 +1,6 @@
 //! A new bar that is pushed by the reference position.
 
-use gcheck_controls::Letter;
 use gcheck_engine::Event;
-use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::{Given, Length, bar_feeder, given, length_range, lengths};
@@ -90,10 +88,9 @@ impl PathRule for BarInitialPushZero {
     }
 }
 
-/// The block writes `I0`.
+/// The block gives `I0`.
 fn writes_zero(cx: &PathCx<'_>) -> bool {
-    let is_zero = |word: &Word| word.letter == Letter::of('I') && word.number() == Some(0.0);
-    cx.find_word(cx.origin().at, is_zero).is_some()
+    cx.known_number('I') == Some(0.0)
 }
 
 fn source(cx: &PathCx<'_>) -> String {

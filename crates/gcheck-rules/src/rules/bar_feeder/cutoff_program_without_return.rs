@@ -1,11 +1,11 @@
 //! A cutoff program in another file that does not return to the bar feed.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Effect;
 use gcheck_engine::At;
-use gcheck_program::Word;
 
 use crate::declare::declare_rule;
 use crate::facts::bar_feed::bar_feeder;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -54,9 +54,7 @@ impl PathRule for CutoffProgramWithoutReturn {
         if bar_feeder(cx).is_none() || !cx.has_effect(|effect| effect == Effect::BarFeed) {
             return;
         }
-        let Some(place) = cx.place() else { return };
-        let is_program = |word: &&gcheck_program::Word| word.letter == Letter::of('P');
-        let number = place.table.words(place.block()).iter().find(is_program).and_then(Word::integer);
+        let number = cx.known_number('P').and_then(whole);
         let Some(entry) = number.and_then(|number| cx.program.find_number(number, 0)) else { return };
         if entry.file == 0 {
             return;

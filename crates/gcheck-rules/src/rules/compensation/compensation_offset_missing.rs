@@ -70,8 +70,10 @@ impl PathRule for CompensationOffsetMissing {
         let is_by_number =
             matches!(cx.model.effect(code), Effect::CompensationLeft | Effect::CompensationRight);
         let Some(at) = cx.trace().set_by(Fact::Mode(Role::Compensation)) else { return };
-        // Only a zero that is written: a missing `D` has its own rule, and `T0100` of a turret cancels all offsets.
-        let is_zero = |word: &gcheck_program::Word| word.letter.ascii() == b'D' && word.number() == Some(0.0);
+        // Only a zero of a word: a missing `D` has its own rule, and `T0100` of a turret cancels all offsets.
+        let is_zero = |word: &gcheck_program::Word| {
+            word.letter.ascii() == b'D' && (word.is_computed() || word.number() == Some(0.0))
+        };
         let Some(range) = cx.find_word(at, is_zero).filter(|_| is_by_number) else { return };
         let name = cx.name_of(code);
         report.add(

@@ -5,6 +5,7 @@ use gcheck_engine::{Fact, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::is_cycle;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
 declare_rule! {
@@ -58,11 +59,10 @@ impl PathRule for CycleRepeatedInPlace {
         };
         let reads = cx.control().code_at(cycle).is_some_and(|code| code.reads().contains(Letter::of(letter)));
         // A cycle that gives the letter another meaning has no repeats.
-        let Some(place) = cx.place().filter(|_| is_absolute && reads) else { return };
-        let word = place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter));
-        let Some(times) = word.and_then(gcheck_program::Word::integer).filter(|times| *times > 1) else {
+        if !is_absolute || !reads {
             return;
-        };
+        }
+        let Some(times) = cx.known_number(letter).and_then(whole).filter(|times| *times > 1) else { return };
         // Words that are always increments move each repeat on.
         let own = cx.model.semantics().increments.keys().filter_map(|key| Letter::parse(key));
         if own.into_iter().any(|letter| cx.origin().letters.contains(letter)) {

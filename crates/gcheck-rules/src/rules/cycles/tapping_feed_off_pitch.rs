@@ -80,11 +80,7 @@ impl PathRule for TappingFeedOffPitch {
         let Some(changed) = cx.trace().set_by(Fact::Tool) else { return };
         let state = cx.state();
         let given = |letter: char, before: Option<f64>| {
-            let place = cx.place()?;
-            match place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(letter)) {
-                Some(word) => word.number(),
-                None => before,
-            }
+            if cx.origin().letters.contains(Letter::of(letter)) { cx.known_number(letter) } else { before }
         };
         let feed = given('F', Abstract::known(state.feed_word()));
         let speed = given('S', Abstract::known(state.speed()));

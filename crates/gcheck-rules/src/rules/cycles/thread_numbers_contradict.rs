@@ -217,10 +217,20 @@ fn words(cx: &PathCx<'_>) -> Option<Words> {
     Some(Words { height: cx.word(height)?, first: cx.word(first), lead: cx.word(lead) })
 }
 
-/// Millimetres; `None` for a computed word. Without a point, lengths of a cycle count least increments on the controls that
+/// The number of a word of the block; `None` for a computed one that is not known.
+fn number(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
+    cx.known_number(word.letter.ascii().into())
+}
+
+/// Does the number count as one with a decimal point?
+fn is_pointed(cx: &PathCx<'_>, word: &Word) -> bool {
+    word.shape.point || word.is_computed() && cx.model.semantics().computed_words_are_pointed
+}
+
+/// Millimetres; `None` for a computed word that is not known. Without a point, lengths of a cycle count least increments on the controls that
 /// write leads with a point.
 fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
-    let number = word.number()?;
+    let number = number(cx, word)?;
     let units = cx.state().units(cx.model)?;
     let as_written = cx.control().numbers().unpointed == gcheck_controls::Unpointed::AsWritten;
     let least = match units {
@@ -228,7 +238,7 @@ fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
         gcheck_engine::Units::Mm => 0.001,
     };
     let is_feed = word.letter == gcheck_controls::Letter::of('F');
-    let step = if word.shape.point || as_written || is_feed { 1.0 } else { least };
+    let step = if is_pointed(cx, word) || as_written || is_feed { 1.0 } else { least };
     // The form that names the peak counts its depths like X.
     let counts_twice = word.letter == gcheck_controls::Letter::of('K')
         && cx.word('J').is_some()
@@ -237,9 +247,9 @@ fn length(cx: &PathCx<'_>, word: &Word) -> Option<f64> {
 }
 
 fn first_cut(cx: &PathCx<'_>, height: &Word, first: &Word, report: &mut Report<'_>) {
-    let (Some(whole), Some(depth)) = (height.number(), first.number()) else { return };
+    let (Some(whole), Some(depth)) = (number(cx, height), number(cx, first)) else { return };
     // A number without a point counts otherwise than one with it.
-    if height.shape.point != first.shape.point || whole <= 0.0 || depth < whole {
+    if is_pointed(cx, height) != is_pointed(cx, first) || whole <= 0.0 || depth < whole {
         return;
     }
     if length(cx, height).is_none_or(|height| height < SHALLOW) {

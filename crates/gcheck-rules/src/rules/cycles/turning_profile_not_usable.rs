@@ -1,9 +1,9 @@
 //! A turning cycle whose profile cannot be used.
 
-use gcheck_controls::Letter;
 use gcheck_engine::{At, Fault};
 
 use crate::declare::declare_rule;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
@@ -51,10 +51,8 @@ impl PathRule for TurningProfileNotUsable {
         }
         let Some(file) = cx.program.file(0) else { return };
         let here = cx.origin().at.block;
-        let Some(place) = cx.place() else { return };
         let label = |letter: char, from: u32| {
-            let word = place.table.words(place.block()).iter().find(|w| w.letter == Letter::of(letter))?;
-            file.loaded.outline().label(word.integer()?, from, true)
+            file.loaded.outline().label(cx.known_number(letter).and_then(whole)?, from, true)
         };
         let Some(first) = label('P', here) else { return };
         let Some(last) = label('Q', first) else { return };

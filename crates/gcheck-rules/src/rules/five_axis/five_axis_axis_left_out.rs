@@ -45,7 +45,7 @@ struct FiveAxisAxisLeftOut;
 impl PathRule for FiveAxisAxisLeftOut {
     fn moved(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         if !cx.state().effect(Role::Length, cx.model).is_some_and(is_along_tool) {
-            if !cx.file_uses(is_along_tool) {
+            if !cx.file_may_use(is_along_tool) {
                 cx.enough();
             }
             return;

@@ -3,7 +3,7 @@
 use gcheck_engine::{Ending, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::{is_called_from_elsewhere, reads_start_state};
+use crate::facts::usage::reads_start_state;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -77,7 +77,7 @@ impl PathRule for AlarmReached {
             return;
         }
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
-        if is_called_from_elsewhere(cx.survey) && !in_macro {
+        if cx.survey.is_called_from_elsewhere() && !in_macro {
             return;
         }
         let message = "the program always ends with its own alarm (`#3000`)";

@@ -3,7 +3,6 @@
 use gcheck_engine::Fault;
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -62,7 +61,7 @@ impl PathRule for JumpToMissingBlock {
                     .is_some_and(|code| code.entry().words.iter().any(|word| word.elsewhere))
         });
         // `M99 P…` of a program that is called from another file names a block there.
-        let is_elsewhere = is_called_from_elsewhere(cx.survey) && cx.state().frames().len() <= 1;
+        let is_elsewhere = cx.survey.is_called_from_elsewhere() && cx.state().frames().len() <= 1;
         if literal || is_elsewhere {
             return;
         }

@@ -7,7 +7,7 @@ use gcheck_engine::{Assumption, At, Fault, FlowResult, Reach};
 use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::{has_conditions, is_called_from_elsewhere, leads_away, reads_start_state};
+use crate::facts::usage::{has_conditions, leads_away, reads_start_state};
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -104,7 +104,7 @@ impl PathRule for UnreachableBlock {
         }
         // A condition may depend on arguments and modes that a caller or the operator gives.
         let decided_elsewhere = has_conditions(cx.program, cx.environment)
-            && (is_called_from_elsewhere(cx.survey)
+            && (cx.survey.is_called_from_elsewhere()
                 || reads_start_state(cx.program, cx.model, cx.environment));
         if decided_elsewhere {
             return;

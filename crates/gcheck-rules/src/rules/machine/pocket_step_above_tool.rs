@@ -1,10 +1,11 @@
 //! A pocket whose strokes are further apart than its tool is wide.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Effect;
 use gcheck_engine::{Abstract, Domain as _, Units};
 use gcheck_program::Word;
 
 use crate::declare::declare_rule;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -44,13 +45,11 @@ impl PathRule for PocketStepAboveTool {
         if !cx.has_effect(|effect| effect == Effect::GeneralPocket) {
             return;
         }
-        let Some(place) = cx.place() else { return };
-        let words = place.table.words(place.block());
-        let word = |letter: char| words.iter().find(|word| word.letter == Letter::of(letter));
-        let number = match word('D') {
-            Some(word) => word.integer(),
-            None => Abstract::known(cx.state().d()).and_then(crate::facts::offset_schemes::whole),
+        let number = match cx.word('D') {
+            Some(_) => cx.known_number('D'),
+            None => Abstract::known(cx.state().d()),
         };
+        let number = number.and_then(whole);
         let Some(unit) = cx.state().units(cx.model).map(Units::in_mm) else { return };
         let tool = number.filter(|number| *number > 0).and_then(|number| cx.state().tables().tool(number));
         let Some(diameter) = tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) else {
@@ -58,7 +57,9 @@ impl PathRule for PocketStepAboveTool {
         };
         for letter in ['I', 'J'] {
             // Without a point, a setting decides the number's unit.
-            let Some(step) = word(letter).filter(|word| word.shape.point).and_then(Word::number) else {
+            let pointed = cx.model.semantics().computed_words_are_pointed;
+            let is_length = |word: &Word| word.shape.point || word.is_computed() && pointed;
+            let Some(step) = cx.word(letter).filter(is_length).and_then(|_| cx.known_number(letter)) else {
                 continue;
             };
             if step * unit <= diameter * 1.000_001 {

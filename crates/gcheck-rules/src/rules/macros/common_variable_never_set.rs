@@ -7,7 +7,6 @@ use gcheck_controls::{Unset, Variable, VariableEntry, VariableKind};
 use gcheck_program::{BinaryOp, BlockFlags, Op, Place, StatementKind, Target, Value};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -59,7 +58,7 @@ impl PathRule for CommonVariableNeverSet {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.environment.control().semantics().unset == Unset::Vacant
-            && !is_called_from_elsewhere(program.survey)
+            && !program.survey.is_called_from_elsewhere()
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {

@@ -6,7 +6,6 @@ use gcheck_engine::{Fault, FrameKind, ValueFault};
 use gcheck_program::{BinaryOp, Function, Op};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -84,7 +83,7 @@ impl PathRule for ExpressionWithoutValue {
             ValueFault::Malformed | ValueFault::NoSuchFunction => return,
         };
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind != FrameKind::Main);
-        if is_called_from_elsewhere(cx.survey) && !in_macro {
+        if cx.survey.is_called_from_elsewhere() && !in_macro {
             return;
         }
         let mut finding = cx.finding(&META, place(cx, *fault), message).label(label).help(help);

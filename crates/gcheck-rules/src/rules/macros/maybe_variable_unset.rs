@@ -7,7 +7,7 @@ use gcheck_engine::{Abstract, AbstractValue, Domain, FrameKind, Truth};
 use gcheck_program::{BlockFlags, Op};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::{blocks_with, is_called_from_elsewhere};
+use crate::facts::usage::blocks_with;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -71,7 +71,7 @@ impl PathRule for MaybeVariableUnset {
             .frames()
             .iter()
             .any(|frame| frame.kind != FrameKind::Main && frame.kind != FrameKind::Local)
-            || is_called_from_elsewhere(cx.survey)
+            || cx.survey.is_called_from_elsewhere()
         {
             return;
         }

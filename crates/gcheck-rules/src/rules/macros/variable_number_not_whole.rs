@@ -3,7 +3,6 @@
 use gcheck_engine::{Fault, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -47,7 +46,7 @@ impl PathRule for VariableNumberNotWhole {
             return;
         }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && is_called_from_elsewhere(cx.survey) {
+        if is_main && cx.survey.is_called_from_elsewhere() {
             return;
         }
         let finding = cx

@@ -8,7 +8,6 @@ use gcheck_engine::FrameKind;
 use gcheck_program::{BinaryOp, ExprIx, Op, Place, StatementKind, Value};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
@@ -95,7 +94,7 @@ impl PathRule for VariableReadBeforeSet {
             return;
         }
         let in_macro = cx.state().frames().iter().any(|frame| frame.kind == FrameKind::Macro);
-        if !in_macro && is_called_from_elsewhere(cx.survey) {
+        if !in_macro && cx.survey.is_called_from_elsewhere() {
             return;
         }
         let Some(place) = cx.place() else { return };

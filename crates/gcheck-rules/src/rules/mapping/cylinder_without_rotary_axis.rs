@@ -34,7 +34,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
     }
 }
 
@@ -97,6 +97,8 @@ mod tests {
             &expect![[r#"
                 1 | G107 X0.
                   |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
+                2 | G107 Z#1 Q[#2*2]
+                  |          ^^^^^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
                 3 | G107 Q0.
                   |      ^^^ error[cylinder-without-rotary-axis] the cylinder has no rotary axis (`G107`)
                 4 | /G107 Y0.

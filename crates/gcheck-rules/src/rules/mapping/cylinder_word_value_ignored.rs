@@ -27,7 +27,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
     }
 }
 
@@ -88,6 +88,8 @@ mod tests {
                   |      ^^^^ warning[cylinder-word-value-ignored] the value of `Y1.5` does not count (`G107`)
                 1 | G107 Y1.5 A-90. Q2.5
                   |           ^^^^^ warning[cylinder-word-value-ignored] the value of `A-90.` does not count (`G107`)
+                3 | G107 A[90.] Q3.
+                  |      ^^^^^^ warning[cylinder-word-value-ignored] the value of `A[90.]` does not count (`G107`)
             "#]],
         );
     }

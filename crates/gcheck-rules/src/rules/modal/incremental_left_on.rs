@@ -237,7 +237,8 @@ fn moves_nothing(cx: &PathCx<'_>) -> bool {
     let Some(place) = cx.place() else { return false };
     let words = place.table.words(place.block());
     let mut coordinates = words.iter().filter(|word| matches!(word.letter.ascii(), b'X' | b'Y' | b'Z'));
-    coordinates.all(|word| word.number().is_some_and(|number| number.abs() < 1e-9))
+    coordinates
+        .all(|word| cx.known_number(word.letter.ascii().into()).is_some_and(|number| number.abs() < 1e-9))
 }
 
 fn tell(cx: &PathCx<'_>, range: Range<u32>, what: &str) -> Finding {

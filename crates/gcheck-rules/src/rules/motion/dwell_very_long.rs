@@ -109,7 +109,7 @@ fn is_above_range(
         .filter_map(|entry| Some((Letter::parse(&entry.letter)?, entry.max?)))
         .collect();
     words.iter().filter(|word| is_time(word)).any(|word| {
-        let value = word.number().unwrap_or(0.0);
+        let value = cx.known_number(word.letter.ascii().into()).unwrap_or(0.0);
         entries.iter().any(|(letter, max)| *letter == word.letter && value > *max)
     })
 }

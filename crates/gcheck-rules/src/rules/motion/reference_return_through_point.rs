@@ -125,12 +125,9 @@ fn down(cx: &PathCx<'_>, travel: &Travel) -> Option<Finding> {
     Some(cx.finding(&META, cx.letter_range('Z'), message).label(label).note(PASSES))
 }
 
-/// Is the height written as zero or less?
+/// Is the height given as zero or less?
 fn zero_or_less(cx: &PathCx<'_>) -> bool {
-    let Some(place) = cx.place() else { return false };
-    let words = place.table.words(place.block());
-    let z = words.iter().find(|word| word.letter == Axis::Z.letter());
-    z.and_then(gcheck_program::Word::number).is_some_and(|z| z <= 0.0)
+    cx.known_number('Z').is_some_and(|z| z <= 0.0)
 }
 
 /// X and Y go to the point while Z stays below the zero of the part.

@@ -149,7 +149,7 @@ fn goes_on(cx: &PathCx<'_>, touched: &Touched, travel: &Travel, axis: Axis, way:
         Way::Down => -1.0,
         Way::Still | Way::Unknown => return false,
     };
-    let Some(number) = cx.word(axis.name()).and_then(|word| word.number()) else { return false };
+    let Some(number) = cx.known_number(axis.name()) else { return false };
     match cx.state().is_incremental(cx.model) {
         Some(true) => number * onward > 0.0,
         Some(false) if !touched.is_elsewhere => {

@@ -49,10 +49,7 @@ impl PathRule for LengthWrittenForAnotherTool {
         {
             return;
         }
-        let Some(place) = cx.place() else { return };
-        let mut words = place.table.words(place.block()).iter();
-        let written =
-            words.find(|word| word.letter == Letter::of('H')).and_then(gcheck_program::Word::integer);
+        let written = cx.known_number('H').and_then(whole);
         let state = cx.state();
         let known = |value| Abstract::known(value).and_then(whole);
         let (Some(tool), Some(offset), Some(written)) = (known(state.tool()), known(state.h()), written)

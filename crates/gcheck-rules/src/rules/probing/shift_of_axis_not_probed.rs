@@ -44,16 +44,14 @@ impl PathRule for ShiftOfAxisNotProbed {
             return;
         }
         let letters = cx.origin().letters;
-        let Some(place) = cx.place() else { return };
         // Another rule reports a block that probes nothing.
         let is_malformed = cx.origin().flags.contains(BlockFlags::ERROR);
         if is_malformed || !cx.names_axes() {
             return;
         }
         for (shift, axis) in [('I', 'X'), ('J', 'Y'), ('K', 'Z')] {
-            let word = place.table.words(place.block()).iter().find(|word| word.letter == Letter::of(shift));
-            let is_zero = word.and_then(gcheck_program::Word::number).is_some_and(|by| by.abs() <= 0.0);
-            if word.is_none() || is_zero || letters.contains(Letter::of(axis)) {
+            let is_zero = cx.known_number(shift).is_some_and(|by| by.abs() <= 0.0);
+            if !letters.contains(Letter::of(shift)) || is_zero || letters.contains(Letter::of(axis)) {
                 continue;
             }
             report.add(

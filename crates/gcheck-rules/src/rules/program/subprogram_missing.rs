@@ -6,6 +6,7 @@ use gcheck_controls::{Code, WordKind};
 use gcheck_program::{Call, CallKind};
 
 use crate::declare::declare_rule;
+use crate::facts::program_calls::Programs;
 use crate::facts::sections::target_word;
 use crate::{FileCx, Finding, Report, Run};
 
@@ -24,8 +25,8 @@ declare_rule! {
     /// M99
     /// ```
     /// ## Not reported
-    /// Repeats before the number, computed numbers, and programs from 8000 up, which machine builders and makers of
-    /// probes put into the control.
+    /// Repeats before the number, computed numbers (see `computed-subprogram-missing`), and programs from 8000 up, which
+    /// machine builders and makers of probes put into the control.
     /// ```nc,quiet,fanuc-mill
     /// O0001
     /// M98 P30100
@@ -50,20 +51,11 @@ declare_rule! {
     }
 }
 
-/// Numbers that begin with 8 or 9 belong to builders and makers of probes by custom: 8000 to 9999, and longer ones alike.
-fn is_reserved(number: u32) -> bool {
-    let mut head = number;
-    while head >= 10_000 {
-        head /= 10;
-    }
-    head >= 8000
-}
-
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     if cx.survey.calls.is_empty() {
         return;
     }
-    let here: BTreeSet<u32> = cx.survey.programs.iter().filter_map(|p| p.number).collect();
+    let programs = Programs::new(cx.environment, cx.survey);
     let mut told: BTreeSet<u32> = BTreeSet::new();
     for call in &cx.survey.calls {
         let CallKind::Program(number) = call.target else { continue };
@@ -74,20 +66,9 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
         else {
             continue;
         };
-        let is_label = word.or_label && cx.survey.labels.iter().any(|label| label.number == number);
-        if word.elsewhere || is_label {
-            continue;
-        }
-        let packed = if word.packed_repeats && number > 9999 { Some(number % 10_000) } else { None };
-        let known = |n: u32| {
-            is_reserved(n)
-                || here.contains(&n)
-                || cx.environment.programs.has_number(n)
-                || cx.environment.programs.has_name(&n.to_string())
-        };
-        if !known(number) && !packed.is_some_and(known) {
+        if let Some(missing) = programs.missing(number, word) {
             told.insert(number);
-            report.add(finding(call, code, packed.unwrap_or(number)));
+            report.add(finding(call, code, missing));
         }
     }
 }

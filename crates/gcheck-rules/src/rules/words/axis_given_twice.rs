@@ -31,7 +31,7 @@ declare_rule! {
         severity: Warning,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::AXIS_TWICE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::AXIS_TWICE, check },
     }
 }
 

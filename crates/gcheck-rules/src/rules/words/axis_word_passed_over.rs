@@ -34,7 +34,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
     }
 }
 

@@ -6,7 +6,6 @@ use gcheck_program::Value;
 
 use crate::declare::declare_rule;
 use crate::facts::computed_words::{self, refused};
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
 declare_rule! {
@@ -67,7 +66,7 @@ impl PathRule for ComputedValueOutOfRange {
             return;
         }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && is_called_from_elsewhere(cx.survey) {
+        if is_main && cx.survey.is_called_from_elsewhere() {
             return;
         }
         // Other rules judge a written number without executing the block.

@@ -30,7 +30,7 @@ declare_rule! {
         tier: Block,
         fixable: Safely,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::POINT_ON_INTEGER, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::POINT_ON_INTEGER, check },
     }
 }
 

@@ -4,7 +4,6 @@ use gcheck_controls::{Code, Letter, LetterSet, Need, WordKind};
 use gcheck_engine::{Fault, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::facts::word_sets::letters_of;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
 
@@ -46,7 +45,7 @@ impl PathRule for NeededWordMissing {
             return;
         }
         let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && is_called_from_elsewhere(cx.survey) {
+        if is_main && cx.survey.is_called_from_elsewhere() {
             return;
         }
         let codes = cx.codes();

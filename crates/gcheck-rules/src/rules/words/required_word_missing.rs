@@ -34,7 +34,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
     }
 }
 
@@ -135,6 +135,8 @@ mod tests {
             "G10 L2 X0 Y0\nG10 L2 P0 X0 Y0\nG10 L20 P#1 X0\nG10 L0\nG10 L[1+1] X0\n",
             &expect![[r#"
                 1 | G10 L2 X0 Y0
+                  | ^^^ error[required-word-missing] `G10` without `P`
+                5 | G10 L[1+1] X0
                   | ^^^ error[required-word-missing] `G10` without `P`
             "#]],
         );

@@ -29,7 +29,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::NEGATIVE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::NEGATIVE, check },
     }
 }
 
@@ -39,6 +39,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     }
     for word in cx.words() {
         if let Some(facts) = cx.facts(word)
+            // Another rule judges computed values.
+            && !word.is_computed()
             && word.number().is_some_and(|value| value < 0.0)
             && !facts.negative
             && facts.min.is_none_or(|min| min >= 0.0)

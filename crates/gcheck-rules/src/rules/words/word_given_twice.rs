@@ -32,7 +32,7 @@ declare_rule! {
         tier: Block,
         fixable: Safely,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::REPEATED, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::REPEATED, check },
     }
 }
 

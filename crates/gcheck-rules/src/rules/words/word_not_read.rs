@@ -32,7 +32,7 @@ declare_rule! {
         tier: Block,
         fixable: OnRequest,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::UNREAD_WORD, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::UNREAD_WORD, check },
     }
 }
 

@@ -87,10 +87,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 221",
             "A whole number is rounded too: D[1.67] is D2.",
-            "computed D, H, T, P and the like are rounded to the next whole number; now a run stops: outside what the code takes",
+            "`computed-counts-round`; rule computed-value-out-of-range warns of the fraction",
             &[Proof::Moves {
                 program: mill("O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG1 G41 D[1.67] X1. F5.\nY1.\nG40 X-1.\nM30\n")
                     .with(&["machine.units=\"inch\"", "tools.2.diameter=0.5"]),

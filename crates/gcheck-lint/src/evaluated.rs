@@ -1,0 +1,85 @@
+//! What the computed words of a block come to in a state.
+//!
+//! Knows: which values are certain, which code a computed `G` or `M` word names. Must not know: any rule, how the state came
+//! about.
+
+use std::cell::OnceCell;
+
+use gcheck_controls::CodeIx;
+use gcheck_engine::{Abstract, AbstractValue, Domain, Model};
+use gcheck_program::{Block, Dialect, Place, Word};
+
+/// What was evaluated of a block, each part when the first rule asked for it.
+#[derive(Default)]
+pub(crate) struct Evaluated {
+    words: OnceCell<Vec<(Word, AbstractValue)>>,
+    block: OnceCell<Option<BlockOfValues>>,
+}
+
+impl Evaluated {
+    /// The computed words with what they may be.
+    pub(crate) fn words(
+        &self,
+        evaluate: impl FnOnce() -> Vec<(Word, AbstractValue)>,
+    ) -> &[(Word, AbstractValue)] {
+        self.words.get_or_init(evaluate)
+    }
+
+    /// The block with the values that are certain.
+    pub(crate) fn block(&self, make: impl FnOnce() -> Option<BlockOfValues>) -> Option<&BlockOfValues> {
+        self.block.get_or_init(make).as_ref()
+    }
+}
+
+/// A block with a number in each computed word whose value is certain.
+pub(crate) struct BlockOfValues {
+    /// Its addresses and flags as if the numbers were written.
+    pub(crate) block: Block,
+    /// All its words; those that have no certain value are as written.
+    pub(crate) words: Vec<Word>,
+}
+
+impl BlockOfValues {
+    /// `None` when no value is certain.
+    pub(crate) fn new(
+        place: &Place,
+        values: &[(Word, AbstractValue)],
+        model: &Model<'_>,
+        dialect: &Dialect<'_>,
+    ) -> Option<Self> {
+        let mut words = place.table.words(place.block()).to_vec();
+        let mut any = false;
+        for word in &mut words {
+            if let Some(value) = certain(word, values, model) {
+                *word = value;
+                any = true;
+            }
+        }
+        any.then(|| Self { block: dialect.with_words(place.block(), &words), words })
+    }
+
+    /// The words that hold a computed number.
+    pub(crate) fn computed(&self) -> impl Iterator<Item = &Word> {
+        self.words.iter().filter(|word| word.is_computed() && word.number().is_some())
+    }
+}
+
+/// The words of a block, of which the computed codes are known where their values are.
+pub(crate) fn with_codes(words: &[Word], values: &[(Word, AbstractValue)], model: &Model<'_>) -> Vec<Word> {
+    let mut words = words.to_vec();
+    for word in &mut words {
+        if let Some(value) = certain(word, values, model).filter(|value| value.code.is_some()) {
+            word.code = value.code;
+        }
+    }
+    words
+}
+
+/// The word with its value, if that is the same on every path, and a code of the control where it names one.
+fn certain(word: &Word, values: &[(Word, AbstractValue)], model: &Model<'_>) -> Option<Word> {
+    let (_, value) = values.iter().find(|(computed, _)| computed.range() == word.range())?;
+    let value = Abstract::known(value)?;
+    let is_code = matches!(word.letter.ascii(), b'G' | b'M') && !word.letter.is_corner();
+    let code = if is_code { model.code_of_value(word.letter, value)? } else { CodeIx::NONE };
+    Some(word.with_value(value, code))
+}

@@ -1,0 +1,81 @@
+//! Rules of one block, asked again with the values of its computed words.
+//!
+//! Knows: how a state makes a block of numbers of a block of expressions, and what a finding says of it. Must not know: any
+//! rule, which values are certain.
+
+use std::ops::Range;
+
+use gcheck_diagnostics::Finding;
+use gcheck_program::BlockFlags;
+
+use crate::evaluated::BlockOfValues;
+use crate::{BlockCx, PathCx, PathRule, Remembers, Report};
+
+/// Words of a block whose values a finding names.
+const MOST_NAMED: usize = 6;
+
+/// A rule of one block that also judges the values of computed words.
+pub(crate) struct WithValues {
+    pub(crate) trigger: BlockFlags,
+    pub(crate) check: fn(&BlockCx<'_>, &mut Report<'_>),
+}
+
+impl PathRule for WithValues {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::Nothing
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        // The caller may give other values.
+        if cx.depth() == 1 && cx.survey.is_called_from_elsewhere() {
+            return;
+        }
+        let Some(known) = cx.block_of_values().filter(|known| known.block.flags.intersects(self.trigger))
+        else {
+            return;
+        };
+        let (Some(place), Some(file)) = (cx.place(), cx.program.file(cx.origin().at.file)) else { return };
+        let text = file.loaded.chunk_text(place.chunk);
+        let written = BlockCx::new(cx.environment, &place.table, place.ix, text, place.base);
+        let computed = BlockCx {
+            block: &known.block,
+            words: &known.words,
+            ..BlockCx::new(cx.environment, &place.table, place.ix, text, place.base)
+        };
+        let found = self.findings(&computed);
+        if found.is_empty() {
+            return;
+        }
+        // What the block shows as it is written was reported without executing it.
+        let shown: Vec<Range<u32>> = if written.block().flags.intersects(self.trigger) {
+            self.findings(&written).into_iter().map(|finding| finding.range).collect()
+        } else {
+            Vec::new()
+        };
+        for finding in found.into_iter().filter(|finding| !shown.contains(&finding.range)) {
+            report.add(cx.with_calls(name_values(finding, &computed, known)));
+        }
+    }
+}
+
+impl WithValues {
+    fn findings(&self, cx: &BlockCx<'_>) -> Vec<Finding> {
+        let mut found = Vec::new();
+        (self.check)(cx, &mut Report::new(&mut |finding| found.push(finding)));
+        found
+    }
+}
+
+/// Adds what the computed words are. A correction of the text would hold for these values only.
+fn name_values(mut finding: Finding, cx: &BlockCx<'_>, known: &BlockOfValues) -> Finding {
+    finding.fixes.clear();
+    for word in known.computed().take(MOST_NAMED) {
+        let Some(value) = word.number() else { continue };
+        let is = match cx.control().code_at(word.code) {
+            Some(code) => format!("`{}`", code.number()),
+            None => value.to_string(),
+        };
+        finding = finding.note(format!("`{}` is {is} here", cx.text(word)));
+    }
+    finding
+}

@@ -1,0 +1,52 @@
+//! Calls of programs by number: which numbers a call means, and which of them are not here.
+//!
+//! Knows: packed repeats, labels in place of programs, numbers that builders reserve. Must not know: any rule, how the number
+//! is written.
+
+use std::collections::BTreeSet;
+
+use gcheck_controls::WordEntry;
+use gcheck_program::Survey;
+
+use crate::Environment;
+
+/// The programs and labels of a file, as calls ask for them.
+pub(crate) struct Programs<'a> {
+    environment: Environment<'a>,
+    survey: &'a Survey,
+    here: BTreeSet<u32>,
+}
+
+impl<'a> Programs<'a> {
+    pub(crate) fn new(environment: Environment<'a>, survey: &'a Survey) -> Self {
+        Self { environment, survey, here: survey.programs.iter().filter_map(|p| p.number).collect() }
+    }
+
+    /// The number of the program that a call means and that is neither in the file nor beside it; `word` is the one that
+    /// names it.
+    pub(crate) fn missing(&self, number: u32, word: &WordEntry) -> Option<u32> {
+        let is_label = || word.or_label && self.survey.labels.iter().any(|label| label.number == number);
+        if word.elsewhere || self.is_known(number) || is_label() {
+            return None;
+        }
+        let packed = if word.packed_repeats && number > 9999 { Some(number % 10_000) } else { None };
+        (!packed.is_some_and(|packed| self.is_known(packed))).then_some(packed.unwrap_or(number))
+    }
+
+    fn is_known(&self, number: u32) -> bool {
+        let programs = self.environment.programs;
+        is_reserved(number)
+            || self.here.contains(&number)
+            || programs.has_number(number)
+            || programs.has_name(&number.to_string())
+    }
+}
+
+/// Numbers that begin with 8 or 9 belong to builders and makers of probes by custom: 8000 to 9999, and longer ones alike.
+fn is_reserved(number: u32) -> bool {
+    let mut head = number;
+    while head >= 10_000 {
+        head /= 10;
+    }
+    head >= 8000
+}
