@@ -1,0 +1,110 @@
+//! A curve by control points that does not begin, or has too few points.
+
+use gcheck_controls::Effect;
+use gcheck_engine::Fault;
+
+use crate::declare::declare_rule;
+use crate::facts::usage::may_be_called;
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
+
+declare_rule! {
+    /// The code that cuts a curve through the control points before it (`G5.3`) finds no curve that began (`G5.2`), or fewer
+    /// points than the order of the curve needs.
+    ///
+    /// ## Why it matters
+    /// The control stops with an error, and nothing is cut.
+    ///
+    /// ## Reported
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 F100
+    /// G0 X0 Y0
+    /// G5.3
+    /// M2
+    /// ```
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 F100
+    /// G0 X0 Y0
+    /// G5.2 P1 X1 Y1
+    /// G5.3
+    /// M2
+    /// ```
+    /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// G21 G90 F100
+    /// G0 X0 Y0
+    /// G5.2 P1 L3
+    /// X0 Y1 P1
+    /// X2 Y2 P1
+    /// G5.3
+    /// M2
+    /// ```
+    rule "curve-not-complete" in "motion" {
+        summary: "curve that does not begin, or has too few points",
+        severity: Error,
+        tier: Path,
+        since: "0.1.0",
+        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(CurveNotComplete) },
+    }
+}
+
+struct CurveNotComplete;
+
+impl PathRule for CurveNotComplete {
+    fn concerns(&self, program: &Uses<'_>) -> bool {
+        program.may(|effect| effect == Effect::NurbsClose)
+    }
+
+    fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        let closes = |effect: Effect| effect == Effect::NurbsClose;
+        if !cx.has_effect(closes) {
+            return;
+        }
+        let opener = cx.name_of_effect(Effect::NurbsOpen).unwrap_or_default();
+        let closer = cx.name_of_effect(Effect::NurbsClose).unwrap_or_default();
+        let (message, label, help) = match fault {
+            Fault::NoMotionMode => (
+                format!("end of a curve that did not begin (`{closer}`)"),
+                format!("`{opener}` does not come before it"),
+                format!("begin the curve with `{opener}`, then give its control points"),
+            ),
+            Fault::TooFewPoints => (
+                format!("curve with too few control points (`{closer}`)"),
+                "fewer points than the order of the curve, its start included".to_owned(),
+                format!("give more control points, or a lower order (`L`) in the block of `{opener}`"),
+            ),
+            _ => return,
+        };
+        let Some(code) = cx.control().codes().find(|code| closes(code.effect())) else { return };
+        let entry = code.entry();
+        let finding = cx
+            .finding(&META, cx.effect_range(closes), message)
+            .label(label)
+            .note(format!(
+                "`{closer}` ({}) cuts the curve of the points since `{opener}`  [{}]",
+                entry.title, entry.source
+            ))
+            .help(help)
+            .at_most(limit(entry.confidence));
+        // A caller may have begun the curve.
+        let is_own = *fault == Fault::TooFewPoints || !may_be_called(cx.survey);
+        report.add(if is_own { finding } else { finding.at_most(Severity::Warning) });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::expect;
+
+    use super::RULE;
+    use crate::testing::check_rule;
+
+    #[test]
+    fn points_are_counted_with_the_start() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 F100\nG0 X0 Y0\nG5.2 P1 L4\nX0 Y1 P1\nX2 Y2 P1\nG5.3\nG5.2 P1\nX0 Y1 P1\nX2 Y2 P1\nG5.3\nG5.3\nM2\n",
+            &expect![[""]],
+        );
+    }
+}
