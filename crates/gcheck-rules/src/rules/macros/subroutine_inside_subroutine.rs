@@ -87,7 +87,10 @@ mod tests {
             &RULE,
             "linuxcnc",
             "o<a> sub\no1 if [#1 GT 0]\no<b> sub\nG0 X1\no<b> endsub\no1 endif\no<a> endsub\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | o<b> sub
+                  | ^^^^^^^^ error[subroutine-inside-subroutine] subroutine inside another subroutine (`o<b> sub`)
+            "#]],
         );
     }
 

@@ -76,9 +76,19 @@ mod tests {
             &RULE,
             "linuxcnc",
             "o1 sub G0\nG0 X#1\no1 endsub\no1 call [1] F100 (FAST)\nN5 o1 call [2]\no1 call [3] #5=1\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | o1 sub G0
+                  |        ^^ error[words-beside-o-word] `G0` in the block of an O-word
+                4 | o1 call [1] F100 (FAST)
+                  |             ^^^^ error[words-beside-o-word] `F100` in the block of an O-word
+                6 | o1 call [3] #5=1
+                  |             ^^^^ error[words-beside-o-word] `#5=1` in the block of an O-word
+            "#]],
         );
-        check_rule(&RULE, "linuxcnc", "G0 X1\no100 X2\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "G0 X1\no100 X2\nM2\n", &expect![[r#"
+            2 | o100 X2
+              |      ^^ error[words-beside-o-word] `X2` in the block of an O-word
+        "#]]);
     }
 
     #[test]
@@ -89,6 +99,12 @@ mod tests {
     #[test]
     fn what_is_said() {
         let found = findings(&only(&RULE), "linuxcnc", "o1 call [1] F100\nM2\n", &World::default());
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            `F100` in the block of an O-word
+              here: the control refuses the block
+              there: the O-word
+              note: an O-word is alone in its block, after a block number at most
+              help: put the other words in a block of their own
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -95,7 +95,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G0 X1 M98 P100\nN5 M98 P100 G0 X2\nM98 P100 L2\nM2\nO100\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | G0 X1 M98 P100
+                  |       ^^^ warning[code-must-come-first] `M98` is not the first word of its block
+                2 | N5 M98 P100 G0 X2
+                  |             ^^ warning[code-must-come-first] `G0` after `M98` does not count
+            "#]],
         );
     }
 

@@ -75,19 +75,31 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G19 F100\nG0 X0 Y0\nG5.1 X4 I2 J-6\nG17\nG5.1 X4 I2 J-6\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G5.1 X4 I2 J-6
+                  | ^^^^ error[refused-in-plane] the control does not make this move in the plane of `G19` (`G5.1`)
+            "#]],
         );
     }
 
     #[test]
     fn planes_of_secondary_axes() {
-        check_rule(&RULE, "linuxcnc", "G21 G90 G17.1 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "G21 G90 G17.1 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n", &expect![[r#"
+            3 | G2 X10 Y0 I5
+              | ^^ error[refused-in-plane] the control does not make this move in the plane of `G17.1` (`G2`)
+        "#]]);
     }
 
     #[test]
     fn what_is_said() {
         let program = "G21 G90 G18 F100\nG0 X0 Y0\nG5 X1 Y1 I0 J1 P1 Q1\nM2\n";
         let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            the control does not make this move in the plane of `G18` (`G5`)
+              here: cubic spline
+              there: `G18` set here
+              note: `G5` (cubic spline) does not work in this plane  [LCNC-G; RS274-2.9]
+              help: select the plane of the move before it, on a mill `G17`
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

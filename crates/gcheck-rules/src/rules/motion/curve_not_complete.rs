@@ -104,7 +104,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 F100\nG0 X0 Y0\nG5.2 P1 L4\nX0 Y1 P1\nX2 Y2 P1\nG5.3\nG5.2 P1\nX0 Y1 P1\nX2 Y2 P1\nG5.3\nG5.3\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | G5.3
+                  | ^^^^ error[curve-not-complete] curve with too few control points (`G5.3`)
+                11 | G5.3
+                   | ^^^^ error[curve-not-complete] end of a curve that did not begin (`G5.3`)
+            "#]],
         );
     }
 }

@@ -277,7 +277,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G0 X0 Y0 Z5\nG86 X1 Z-1 R1 P1 F100\nX2\nG80\nS900 M3\nG86 X1 Z-1 R1 P1\nG80\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | G86 X1 Z-1 R1 P1 F100
+                  | ^^^ warning[spindle-stopped-while-cutting] cycle while the spindle is stopped (`G86`)
+                3 | X2
+                  | ^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
+            "#]],
         );
         check_rule(
             &RULE,

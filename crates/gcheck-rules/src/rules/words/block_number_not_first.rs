@@ -71,7 +71,14 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G0 N10 X1\n/ N20 X2\n  N30 X3\n(START) N40 X4\nX5 N50\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | G0 N10 X1
+                  |    ^^^ error[block-number-not-first] block number after other words: `N10`
+                4 | (START) N40 X4
+                  |         ^^^ error[block-number-not-first] block number after other words: `N40`
+                5 | X5 N50
+                  |    ^^^ error[block-number-not-first] block number after other words: `N50`
+            "#]],
         );
     }
 }

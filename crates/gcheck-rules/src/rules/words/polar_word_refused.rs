@@ -97,7 +97,14 @@ mod tests {
             &RULE,
             "linuxcnc",
             "G21 G90 G0 X1 Y1\n@5 Y#1\n^30\nG1 X2 ^3 F100\nG19\nG1 @3\nG17\nG1 @3\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                2 | @5 Y#1
+                  | ^^ error[polar-word-refused] radius or angle beside `Y`
+                4 | G1 X2 ^3 F100
+                  |       ^^ error[polar-word-refused] radius or angle beside `X`
+                6 | G1 @3
+                  |    ^^ error[polar-word-refused] radius or angle outside of the XY plane
+            "#]],
         );
     }
 

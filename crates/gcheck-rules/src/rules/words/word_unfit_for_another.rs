@@ -214,7 +214,18 @@ mod tests {
             "linuxcnc",
             "G10 L2 P10 X1\nG10 L1 P0 Z1\nG10 L20 P1 X1 R30\nG10 L2 P1 X1 I3\nG10 L1 P1 Z1 Q12\nG10 L2 P0 X1 R30\n\
              G10 L1 P1 R3 I3 J3 Q9\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | G10 L2 P10 X1
+                  |        ^^^ error[word-unfit-for-another] value too large beside `L2` of `G10`: `P10`
+                2 | G10 L1 P0 Z1
+                  |        ^^ error[word-unfit-for-another] value too small beside `L1` of `G10`: `P0`
+                3 | G10 L20 P1 X1 R30
+                  |               ^^^ error[word-unfit-for-another] `R30` does not go with `L20` of `G10`
+                4 | G10 L2 P1 X1 I3
+                  |              ^^ error[word-unfit-for-another] `I3` does not go with `L2` of `G10`
+                5 | G10 L1 P1 Z1 Q12
+                  |              ^^^ error[word-unfit-for-another] value too large beside `L1` of `G10`: `Q12`
+            "#]],
         );
     }
 
@@ -224,7 +235,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "M66 P1 L3 Q0\nM66 E1 L3 Q1\nM66 E1 L0\nM66 P1 L0 Q0\nM66 P1 Q0\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                1 | M66 P1 L3 Q0
+                  |           ^^ error[word-unfit-for-another] value too small beside `L3` of `M66`: `Q0`
+                2 | M66 E1 L3 Q1
+                  |     ^^ error[word-unfit-for-another] `E1` does not go with `L3` of `M66`
+            "#]],
         );
     }
 
@@ -234,7 +250,12 @@ mod tests {
             &RULE,
             "linuxcnc",
             "#1=2\n#2=10\nG10 L#1 P#2 X1\n#3=3\nM66 P1 L#3\nG10 L#1 P[#2-1] X1\nM2\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G10 L#1 P#2 X1
+                  |         ^^^ error[word-unfit-for-another] value too large beside `L2` of `G10`: `P10`
+                5 | M66 P1 L#3
+                  | ^^^ error[word-unfit-for-another] `M66` without `Q` beside `L3`
+            "#]],
         );
     }
 
@@ -246,6 +267,11 @@ mod tests {
     #[test]
     fn what_is_said() {
         let found = findings(&only(&RULE), "linuxcnc", "G10 L20 P1 X1 R30\nM2\n", &World::default());
-        expect![[""]].assert_eq(&found.iter().map(words).collect::<String>());
+        expect![[r#"
+            `R30` does not go with `L20` of `G10`
+              here: tool radius (L1, L10, L11), or rotation about Z in degrees (L2)
+              note: `G10` (write offsets) does not take `R` beside `L20`  [LCNC-G; RS274-2.9]
+              help: remove `R`, or correct `L20`
+        "#]].assert_eq(&found.iter().map(words).collect::<String>());
     }
 }
