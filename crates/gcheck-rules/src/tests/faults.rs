@@ -50,7 +50,7 @@ fn said(fault: &Fault) -> Said {
         Fault::NotNow(..) => By(&["refused-in-plane", "cycle-in-inverse-time", "codes-conflict"]),
         Fault::Malformed => {
             By(&["unexpected-text", "unclosed-bracket", "malformed-number", "words-beside-o-word"])
-        },
+        }
         Fault::Conflict => By(&[
             "codes-conflict",
             "two-codes-of-one-group",
@@ -115,17 +115,15 @@ fn said(fault: &Fault) -> Said {
         Fault::NoSuchLabel(_) => By(&["jump-target-missing", "jump-to-missing-block"]),
         Fault::NoSuchProgram => {
             By(&["subprogram-missing", "o-word-subroutine-missing", "turning-profile-not-usable"])
-        },
-        Fault::TooDeep => By(&["calls-nested-too-deep"]),
-        Fault::LoopMismatch => {
-            By(&[
-                "loop-end-missing",
-                "loop-begin-missing",
-                "crossed-loops",
-                "o-word-unmatched",
-                "subroutine-inside-subroutine",
-            ])
         }
+        Fault::TooDeep => By(&["calls-nested-too-deep"]),
+        Fault::LoopMismatch => By(&[
+            "loop-end-missing",
+            "loop-begin-missing",
+            "crossed-loops",
+            "o-word-unmatched",
+            "subroutine-inside-subroutine",
+        ]),
         Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
         Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
         Fault::Alarm(_) => By(&["alarm-reached"]),

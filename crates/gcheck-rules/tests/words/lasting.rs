@@ -36,7 +36,10 @@ pub(crate) fn of(control: &Control, subject: &Subject<'_>) -> Vec<Lasting> {
 
 /// How the word stays in effect for the code of the block that reads it.
 fn row<'c>(control: &'c Control, subject: &Subject<'_>, letter: Letter) -> Option<&'c LastingWords> {
-    let reader = subject.codes.iter().find(|code| code.reads().contains(letter))?;
+    let sets_mode = subject.codes.iter().any(|code| code.entry().group == "feed-mode");
+    // A feed counts in the mode that it was given under.
+    let reads = |code: &&gcheck_controls::Code<'_>| code.reads().contains(letter);
+    let reader = subject.codes.iter().find(reads).filter(|_| !sets_mode || letter != Letter::of('F'))?;
     let words = &reader.entry().words;
     let is_modal =
         words.iter().any(|word| Letter::parse(&word.letter) == Some(letter) && word.need == Need::Modal);
@@ -50,7 +53,12 @@ fn of_word(control: &Control, subject: &Subject<'_>, word: &Word, row: &LastingW
     let own = subject.block.clone();
     let any_block = row.from == LastingFrom::AnyBlock;
     let cancelled = !row.until.contains(&LastingEnd::Cancel);
-    let change = if has("M6") { vec!["T2 M6".to_owned(), "S1000 M3".to_owned()] } else { Vec::new() };
+    // A change that gives the word itself tells nothing.
+    let change = match (has("M6"), word.letter.ascii()) {
+        (false, _) | (true, b'T') => Vec::new(),
+        (true, b'S') => vec!["T2 M6".to_owned(), "M3".to_owned()],
+        (true, _) => vec!["T2 M6".to_owned(), "S1000 M3".to_owned()],
+    };
     let mut ways =
         vec![("alone", vec![alone.clone()], any_block), ("after its own block", vec![own.clone()], true)];
     if has("G90") {

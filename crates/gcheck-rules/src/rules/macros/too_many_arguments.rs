@@ -71,10 +71,15 @@ mod tests {
             let arguments: String = (1..=count).map(|n| format!("[{n}]")).collect();
             format!("o1 sub\no1 endsub\no1 call {arguments}\nM2\n")
         };
-        check_rule(&RULE, "linuxcnc", &call(32), &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            &call(32),
+            &expect![[r#"
             3 | o1 call [1][2][3][4][5][6][7][8][9][10][11][12][13][14][15][16][17][18][19][20][21][22][23][24][25][26][27][28][29][30][31][32]
               |                                                                                                                        ^^^^ error[too-many-arguments] 32 arguments in a call
-        "#]]);
+        "#]],
+        );
         check_rule(&RULE, "linuxcnc", &call(30), &expect![[""]]);
     }
 }

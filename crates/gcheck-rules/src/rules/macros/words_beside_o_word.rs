@@ -85,10 +85,15 @@ mod tests {
                   |             ^^^^ error[words-beside-o-word] `#5=1` in the block of an O-word
             "#]],
         );
-        check_rule(&RULE, "linuxcnc", "G0 X1\no100 X2\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X1\no100 X2\nM2\n",
+            &expect![[r#"
             2 | o100 X2
               |      ^^ error[words-beside-o-word] `X2` in the block of an O-word
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -105,6 +110,7 @@ mod tests {
               there: the O-word
               note: an O-word is alone in its block, after a block number at most
               help: put the other words in a block of their own
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

@@ -49,13 +49,12 @@ impl PathRule for RefusedInPlane {
             cx.control().code_at(word.code).is_some_and(|code| code.number() == motion.number())
         });
         let finding = cx
-            .finding(
-                &META,
-                range,
-                format!("the control does not make this move in the plane of `{plane}` (`{name}`)"),
-            )
+            .finding(&META, range, format!("`{name}` does not work in this plane (`{plane}`)"))
             .label(entry.title.as_str())
-            .note(format!("`{name}` ({}) does not work in this plane  [{}]", entry.title, entry.source))
+            .note(format!(
+                "`{name}` ({}) is refused in the plane of `{plane}`  [{}]",
+                entry.title, entry.source
+            ))
             .help("select the plane of the move before it, on a mill `G17`")
             .at_most(limit(entry.confidence));
         report.add(cx.resting_on(finding, Fact::Mode(Role::Plane), &format!("`{plane}`")));
@@ -77,17 +76,22 @@ mod tests {
             "G21 G90 G19 F100\nG0 X0 Y0\nG5.1 X4 I2 J-6\nG17\nG5.1 X4 I2 J-6\nM2\n",
             &expect![[r#"
                 3 | G5.1 X4 I2 J-6
-                  | ^^^^ error[refused-in-plane] the control does not make this move in the plane of `G19` (`G5.1`)
+                  | ^^^^ error[refused-in-plane] `G5.1` does not work in this plane (`G19`)
             "#]],
         );
     }
 
     #[test]
     fn planes_of_secondary_axes() {
-        check_rule(&RULE, "linuxcnc", "G21 G90 G17.1 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n", &expect![[r#"
-            3 | G2 X10 Y0 I5
-              | ^^ error[refused-in-plane] the control does not make this move in the plane of `G17.1` (`G2`)
-        "#]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G17.1 F100\nG0 X0 Y0\nG2 X10 Y0 I5\nM2\n",
+            &expect![[r#"
+                3 | G2 X10 Y0 I5
+                  | ^^ error[refused-in-plane] `G2` does not work in this plane (`G17.1`)
+            "#]],
+        );
     }
 
     #[test]
@@ -95,11 +99,12 @@ mod tests {
         let program = "G21 G90 G18 F100\nG0 X0 Y0\nG5 X1 Y1 I0 J1 P1 Q1\nM2\n";
         let found = findings(&only(&RULE), "linuxcnc", program, &World::default());
         expect![[r#"
-            the control does not make this move in the plane of `G18` (`G5`)
+            `G5` does not work in this plane (`G18`)
               here: cubic spline
               there: `G18` set here
-              note: `G5` (cubic spline) does not work in this plane  [LCNC-G; RS274-2.9]
+              note: `G5` (cubic spline) is refused in the plane of `G18`  [LCNC-G; RS274-2.9]
               help: select the plane of the move before it, on a mill `G17`
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

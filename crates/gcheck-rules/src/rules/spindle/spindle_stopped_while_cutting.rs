@@ -97,7 +97,8 @@ impl PathRule for SpindleStoppedWhileCutting {
         {
             return;
         }
-        self.told.push(stopped_by);
+        // The cycle stops the spindle once more.
+        self.told.extend([stopped_by, Some(cx.origin().at)]);
         let codes = cx.codes();
         let code = codes.iter().find(|ix| needs_turning_spindle(cx.model.effect(**ix)));
         let Some(code) = code.and_then(|ix| cx.code_of(*ix)) else { return };
@@ -280,8 +281,6 @@ mod tests {
             &expect![[r#"
                 2 | G86 X1 Z-1 R1 P1 F100
                   | ^^^ warning[spindle-stopped-while-cutting] cycle while the spindle is stopped (`G86`)
-                3 | X2
-                  | ^^ warning[spindle-stopped-while-cutting] cut after the spindle was stopped (`M5`)
             "#]],
         );
         check_rule(

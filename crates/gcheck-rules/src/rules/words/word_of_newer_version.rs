@@ -74,12 +74,17 @@ mod tests {
 
     #[test]
     fn the_word_is_marked() {
-        check_rule(&RULE, "linuxcnc", "M51 P0 $0\nG64 P0.1\nG97 S100 $0\nG97 S100\nM2\n", &expect![[r#"
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "M51 P0 $0\nG64 P0.1\nG97 S100 $0\nG97 S100\nM2\n",
+            &expect![[r#"
             1 | M51 P0 $0
               |        ^^ warning[word-of-newer-version] only newer versions read `$` with `M51`
             3 | G97 S100 $0
               |          ^^ warning[word-of-newer-version] only newer versions read `$` with `G97`
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]
@@ -90,6 +95,7 @@ mod tests {
               here: spindle number
               note: older versions of the control refuse the block  [LCNC-M; RS274-2.9]
               help: remove `$` if the machine has an older version
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }

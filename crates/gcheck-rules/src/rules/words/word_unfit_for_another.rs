@@ -272,6 +272,7 @@ mod tests {
               here: tool radius (L1, L10, L11), or rotation about Z in degrees (L2)
               note: `G10` (write offsets) does not take `R` beside `L20`  [LCNC-G; RS274-2.9]
               help: remove `R`, or correct `L20`
-        "#]].assert_eq(&found.iter().map(words).collect::<String>());
+        "#]]
+        .assert_eq(&found.iter().map(words).collect::<String>());
     }
 }
