@@ -58,6 +58,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             } else if let Op::Call(function, count) = op
                 && cx.control().functions().iter().any(|f| f.name == function.name())
                 && *function != Function::Exists
+                && !cx.block().flags.contains(BlockFlags::ERROR)
                 && !takes_arguments(*function, usize::from(*count), cx.control().semantics())
             {
                 report.add(other_count(cx, expr.range.clone(), *function, *count));

@@ -40,7 +40,8 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     if !cx.control().syntax().o_words || cx.block().flags.contains(BlockFlags::ERROR) {
         return;
     }
-    let number = cx.word('O');
+    // A colon in a word of another dialect is not a program number.
+    let number = cx.word('O').filter(|word| cx.text(word).starts_with(['o', 'O']));
     let statement = cx.statements().find(|statement| matches!(statement.kind, StatementKind::OWord { .. }));
     let label = match (number, statement) {
         (Some(word), _) => cx.range(word),

@@ -6,6 +6,7 @@ use gcheck_engine::Fault;
 use crate::declare::declare_rule;
 use crate::facts::usage::may_be_called;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// The code that cuts a curve through the control points before it (`G5.3`) finds no curve that began (`G5.2`), or fewer
@@ -43,15 +44,34 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(CurveNotComplete) },
+        run: Run::Path { watch: Watch::BLOCKS.union(Watch::FAULTS), make: || Box::new(CurveNotComplete::default()) },
     }
 }
 
-struct CurveNotComplete;
+#[derive(Default, Clone, PartialEq)]
+struct CurveNotComplete {
+    /// A curve was begun, whether or not the control took its points.
+    is_begun: bool,
+    /// As it was before the block under way.
+    was_begun: bool,
+}
+
+remembers!(CurveNotComplete);
 
 impl PathRule for CurveNotComplete {
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| effect == Effect::NurbsClose)
+    }
+
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.was_begun = self.is_begun;
+        if cx.has_effect(|effect| matches!(effect, Effect::NurbsOpen | Effect::NurbsClose)) {
+            self.is_begun = cx.has_effect(|effect| effect == Effect::NurbsOpen);
+        }
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
@@ -62,7 +82,8 @@ impl PathRule for CurveNotComplete {
         let opener = cx.name_of_effect(Effect::NurbsOpen).unwrap_or_default();
         let closer = cx.name_of_effect(Effect::NurbsClose).unwrap_or_default();
         let (message, label, help) = match fault {
-            Fault::NoMotionMode => (
+            // Points that the control refuses are reported in their blocks.
+            Fault::NoMotionMode if !self.was_begun => (
                 format!("end of a curve that did not begin (`{closer}`)"),
                 format!("`{opener}` does not come before it"),
                 format!("begin the curve with `{opener}`, then give its control points"),
@@ -97,6 +118,16 @@ mod tests {
 
     use super::RULE;
     use crate::testing::check_rule;
+
+    #[test]
+    fn a_curve_whose_points_are_refused_did_begin() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G18 F100\nG0 X0 Z0\nG5.2 P1 L3\nX0 Z1 P1\nX2 Z2 P1\nG5.3\nM2\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn points_are_counted_with_the_start() {
