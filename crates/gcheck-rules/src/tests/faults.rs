@@ -15,16 +15,7 @@ enum Said {
 fn said(fault: &Fault) -> Said {
     use Said::{By, Nobody};
     match fault {
-        Fault::Value(fault) => match fault {
-            ValueFault::DivisionByZero
-            | ValueFault::NegativeRoot
-            | ValueFault::LogarithmOfNonPositive
-            | ValueFault::ArcFunctionRange
-            | ValueFault::NegativePower
-            | ValueFault::NotFinite => By(&["expression-without-value"]),
-            ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
-            ValueFault::NoSuchFunction => By(&["function-unknown"]),
-        },
+        Fault::Value(fault) => said_of_value(*fault),
         Fault::Undecidable => Nobody("what is not known is not a mistake of the program"),
         Fault::UnsetParameter => By(&["named-parameter-unset"]),
         Fault::ReadOnlyVariable(_) => {
@@ -75,16 +66,7 @@ fn said(fault: &Fault) -> Said {
         }
         Fault::NoMotionMode => By(&["axis-words-without-motion-mode", "curve-not-complete"]),
         Fault::NoAxisWords => By(&["motion-without-axis-words"]),
-        Fault::Arc(fault) => match fault {
-            ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on", "arc-wrong-plane-word"]),
-            ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
-            ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
-            ArcFault::ZeroRadius => By(&["zero-radius-arc"]),
-            ArcFault::RadiusTooSmall { .. } => By(&["arc-radius-too-small"]),
-            ArcFault::OffCircle { .. } => By(&["arc-end-off-circle"]),
-            ArcFault::FullCircleByRadius => By(&["full-circle-by-radius"]),
-            ArcFault::Turns => By(&["arc-turns-not-whole"]),
-        },
+        Fault::Arc(fault) => said_of_arc(*fault),
         Fault::Cycle(fault) => match fault {
             CycleFault::Missing(_) => By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"]),
             CycleFault::RBelowBottom => By(&["cycle-r-below-bottom"]),
@@ -127,6 +109,36 @@ fn said(fault: &Fault) -> Said {
         Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
         Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
         Fault::Alarm(_) => By(&["alarm-reached"]),
+    }
+}
+
+/// Of an expression without a value.
+fn said_of_value(fault: ValueFault) -> Said {
+    use Said::By;
+    match fault {
+        ValueFault::DivisionByZero
+        | ValueFault::NegativeRoot
+        | ValueFault::LogarithmOfNonPositive
+        | ValueFault::ArcFunctionRange
+        | ValueFault::NegativePower
+        | ValueFault::NotFinite => By(&["expression-without-value"]),
+        ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
+        ValueFault::NoSuchFunction => By(&["function-unknown"]),
+    }
+}
+
+/// Of an arc.
+fn said_of_arc(fault: ArcFault) -> Said {
+    use Said::By;
+    match fault {
+        ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on", "arc-wrong-plane-word"]),
+        ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
+        ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
+        ArcFault::ZeroRadius => By(&["zero-radius-arc"]),
+        ArcFault::RadiusTooSmall { .. } => By(&["arc-radius-too-small"]),
+        ArcFault::OffCircle { .. } => By(&["arc-end-off-circle"]),
+        ArcFault::FullCircleByRadius => By(&["full-circle-by-radius"]),
+        ArcFault::Turns => By(&["arc-turns-not-whole"]),
     }
 }
 

@@ -220,7 +220,7 @@ impl Maker<'_, '_> {
         let alone = self.subject.block[word.range.clone()].trim().to_owned();
         cases.push(self.case(Kind::Missing, letter, self.without(letter), &[], &block));
         let asked = self.lasting(letter);
-        cases.push(self.case(Kind::Lasting, letter, asked, &[alone.clone()], &block));
+        cases.push(self.case(Kind::Lasting, letter, asked, std::slice::from_ref(&alone), &block));
         let Some(row) = self.row(letter) else { return };
         if row.from == LastingFrom::AnyBlock && matches!(letter.ascii(), b'D' | b'H') {
             let cancels: Vec<_> = ["G40", "G49"].into_iter().filter(|code| self.has(code)).collect();

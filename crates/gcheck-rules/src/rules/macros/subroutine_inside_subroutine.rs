@@ -48,12 +48,11 @@ fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let mut around: Option<&OWord> = None;
     for (ix, word) in words.iter().enumerate() {
         match (word.keyword, around) {
-            (OKeyword::Sub, None) => around = Some(word),
             // Another rule reports a subroutine that never ends.
             (OKeyword::Sub, Some(outer)) if ends(outer, words.get(ix..).unwrap_or_default()) => {
                 report.add(finding(cx, outer, word));
             }
-            (OKeyword::Sub, Some(_)) => around = Some(word),
+            (OKeyword::Sub, _) => around = Some(word),
             (OKeyword::EndSub, Some(outer)) if outer.label == word.label => around = None,
             _ => {}
         }

@@ -79,19 +79,19 @@ impl PathRule for CurveNotComplete {
         if !cx.has_effect(closes) {
             return;
         }
-        let opener = cx.name_of_effect(Effect::NurbsOpen).unwrap_or_default();
-        let closer = cx.name_of_effect(Effect::NurbsClose).unwrap_or_default();
+        let begin = cx.name_of_effect(Effect::NurbsOpen).unwrap_or_default();
+        let end = cx.name_of_effect(Effect::NurbsClose).unwrap_or_default();
         let (message, label, help) = match fault {
             // Points that the control refuses are reported in their blocks.
             Fault::NoMotionMode if !self.was_begun => (
-                format!("end of a curve that did not begin (`{closer}`)"),
-                format!("`{opener}` does not come before it"),
-                format!("begin the curve with `{opener}`, then give its control points"),
+                format!("end of a curve that did not begin (`{end}`)"),
+                format!("`{begin}` does not come before it"),
+                format!("begin the curve with `{begin}`, then give its control points"),
             ),
             Fault::TooFewPoints => (
-                format!("curve with too few control points (`{closer}`)"),
+                format!("curve with too few control points (`{end}`)"),
                 "fewer points than the order of the curve, its start included".to_owned(),
-                format!("give more control points, or a lower order (`L`) in the block of `{opener}`"),
+                format!("give more control points, or a lower order (`L`) in the block of `{begin}`"),
             ),
             _ => return,
         };
@@ -101,7 +101,7 @@ impl PathRule for CurveNotComplete {
             .finding(&META, cx.effect_range(closes), message)
             .label(label)
             .note(format!(
-                "`{closer}` ({}) cuts the curve of the points since `{opener}`  [{}]",
+                "`{end}` ({}) cuts the curve of the points since `{begin}`  [{}]",
                 entry.title, entry.source
             ))
             .help(help)
