@@ -5,7 +5,7 @@ use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::facts::word_sets::letters_of;
-use crate::{BlockCx, Finding, Report, Run, Severity};
+use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
     /// A code has a word that the manual of the control lists, and that versions before the newest refuse.
@@ -26,7 +26,7 @@ declare_rule! {
     /// ```
     rule "word-of-newer-version" in "words" {
         summary: "word that only newer versions of the control read",
-        severity: Warning,
+        severity: Info,
         tier: Block,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::CODE, check },
@@ -58,8 +58,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
                 )
                 .label(meaning.map_or("", |word| word.is.as_str()))
                 .note(format!("older versions of the control refuse the block  [{}]", entry.source))
-                .help(format!("remove `{letter}` if the machine has an older version"))
-                .at_most(Severity::Warning),
+                .help(format!("remove `{letter}` if the machine has an older version")),
             );
         }
     }
@@ -79,11 +78,11 @@ mod tests {
             "linuxcnc",
             "M51 P0 $0\nG64 P0.1\nG97 S100 $0\nG97 S100\nM2\n",
             &expect![[r#"
-            1 | M51 P0 $0
-              |        ^^ warning[word-of-newer-version] only newer versions read `$` with `M51`
-            3 | G97 S100 $0
-              |          ^^ warning[word-of-newer-version] only newer versions read `$` with `G97`
-        "#]],
+                1 | M51 P0 $0
+                  |        ^^ info[word-of-newer-version] only newer versions read `$` with `M51`
+                3 | G97 S100 $0
+                  |          ^^ info[word-of-newer-version] only newer versions read `$` with `G97`
+            "#]],
         );
     }
 
