@@ -1,7 +1,7 @@
 //! What a caller may have given a program that the analysis takes for something else.
 //!
-//! Knows: which variables and modes a caller hands over, and that a value which the program itself sets is its own, whoever
-//! calls. Must not know: any rule.
+//! Knows: which variables and modes a caller hands over, and that a value which the program itself sets is its own under every
+//! caller. Must not know: any rule.
 
 use gcheck_controls::SystemVariable;
 use gcheck_engine::{Abstract, Domain, Truth};
