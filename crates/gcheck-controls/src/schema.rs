@@ -272,6 +272,9 @@ pub struct BlockRules {
     pub word_twice: Handling,
     /// A word that neither a code of the block nor the active motion reads.
     pub unread_word: Handling,
+    /// A block number that comes after other words.
+    #[serde(default = "accepted")]
+    pub late_number: Handling,
     /// Its source.
     pub source: String,
     /// How sure it is.
@@ -286,10 +289,15 @@ impl Default for BlockRules {
             code_twice: Handling::Accepted,
             word_twice: Handling::LastWins,
             unread_word: Handling::Ignored,
+            late_number: Handling::Accepted,
             source: "general knowledge".to_owned(),
             confidence: Confidence::Assumed,
         }
     }
+}
+
+fn accepted() -> Handling {
+    Handling::Accepted
 }
 
 /// What becomes of a contradiction or repetition in a block.
@@ -537,7 +545,13 @@ pub struct WordEntry {
     /// The value must be greater than this.
     #[serde(default)]
     pub above: Option<f64>,
-    /// Confidence of `min`, `max` and `above` where it differs from the word's.
+    /// The values that it may have, where the control takes single ones: `[0, 1, 2, 10, 11, 20]`.
+    #[serde(default)]
+    pub values: Vec<f64>,
+    /// What holds of it beside other words of the block, by their values.
+    #[serde(default)]
+    pub beside: Vec<Beside>,
+    /// Confidence of `values`, `min`, `max` and `above` where it differs from the word's.
     #[serde(default)]
     pub range_confidence: Option<Confidence>,
     /// Value when left out, in words.
@@ -555,6 +569,26 @@ pub struct WordEntry {
     /// Confidence of this word's facts where it differs from the entry's.
     #[serde(default)]
     pub confidence: Option<Confidence>,
+}
+
+/// What holds of a word beside another one of its block: `P` of `G10` is 0 to 9 beside `L2`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Beside {
+    /// The other words with their values, of which any is enough: `["L2", "L20"]`.
+    pub with: Vec<String>,
+    /// The word must not be in the block.
+    #[serde(default)]
+    pub refused: bool,
+    /// Smallest value.
+    #[serde(default)]
+    pub min: Option<f64>,
+    /// Largest value.
+    #[serde(default)]
+    pub max: Option<f64>,
+    /// The value must be greater than this.
+    #[serde(default)]
+    pub above: Option<f64>,
 }
 
 /// Must a word be in the block?

@@ -147,6 +147,15 @@ impl Problems<'_> {
                     self.say(code, format!("word `{}` cannot be required with `{item}`", word.letter));
                 }
             }
+            for beside in &word.beside {
+                let bounds = [beside.min, beside.max, beside.above].into_iter().flatten().count();
+                if !beside.with.iter().all(|item| is_word(item)) || beside.with.is_empty() {
+                    self.say(code, format!("word `{}` is beside something that is not a word", word.letter));
+                }
+                if beside.refused == (bounds > 0) {
+                    self.say(code, format!("word `{}` is refused or has a range, one of them", word.letter));
+                }
+            }
             if word.need == crate::Need::Conditional && word.when.is_none() {
                 self.say(code, format!("word `{}` is conditional but does not say when", word.letter));
             }

@@ -42,6 +42,7 @@ impl WordEntry {
     /// What it may be: its kind and its bounds, `length, above 0`.
     pub fn values_in_words(&self) -> String {
         let range = match (self.min, self.max, self.above) {
+            _ if !self.values.is_empty() => format!(", {}", one_of(&self.values)),
             (Some(min), Some(max), _) => format!(", {min} to {max}"),
             (Some(min), None, _) => format!(", from {min}"),
             (None, Some(max), _) => format!(", up to {max}"),
@@ -49,6 +50,16 @@ impl WordEntry {
             (None, None, None) => String::new(),
         };
         format!("{}{range}", self.kind.in_words())
+    }
+}
+
+/// Single values for people: `0, 1 or 2`.
+pub fn one_of(values: &[f64]) -> String {
+    let texts: Vec<String> = values.iter().map(f64::to_string).collect();
+    match texts.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
     }
 }
 

@@ -20,6 +20,7 @@ use crate::lattice::Lattice;
 
 pub use abstract_value::{Abstract, AbstractValue, NumberSet};
 pub use concrete::{Concrete, ConcreteValue};
+pub use scalar::takes_arguments;
 
 /// An answer that may be out of reach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -43,13 +43,15 @@ pub struct WordFacts<'a> {
     pub max: Option<f64>,
     /// The value must be greater than this.
     pub above: Option<f64>,
+    /// The values that it may have; empty where the bounds say all.
+    pub values: &'a [f64],
     /// A minus sign is accepted.
     pub negative: bool,
     /// The code that reads the word; `None` when the general entry of the address applies.
     pub code: Option<Code<'a>>,
     /// How sure these facts are.
     pub confidence: Confidence,
-    /// How sure `min`, `max` and `above` are.
+    /// How sure `values`, `min`, `max` and `above` are.
     pub range_confidence: Confidence,
     /// Where they are written: manual and page.
     pub source: &'a str,
@@ -187,6 +189,7 @@ fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterE
         min: entry.min,
         max: entry.max,
         above: entry.above,
+        values: &entry.values,
         negative: general.is_none_or(|g| g.negative),
         code: Some(code),
         confidence,
@@ -202,6 +205,7 @@ fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
         min: entry.min,
         max: entry.max,
         above: None,
+        values: &[],
         negative: entry.negative,
         code: None,
         confidence: entry.confidence,

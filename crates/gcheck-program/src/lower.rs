@@ -48,6 +48,8 @@ pub struct Dialect<'c> {
 struct LetterFacts {
     known: bool,
     integer: bool,
+    /// It counts something, point or not.
+    whole: bool,
     count: bool,
     negative: bool,
     repeatable: bool,
@@ -60,6 +62,7 @@ impl LetterFacts {
     const UNKNOWN: Self = Self {
         known: false,
         integer: false,
+        whole: false,
         count: false,
         negative: true,
         repeatable: false,
@@ -72,6 +75,7 @@ impl LetterFacts {
     fn is_quiet(&self) -> bool {
         self.known
             && !self.integer
+            && !self.whole
             && self.negative
             && self.min == f64::NEG_INFINITY
             && self.max == f64::INFINITY
@@ -90,6 +94,7 @@ impl<'c> Dialect<'c> {
                 *facts = LetterFacts {
                     known: true,
                     integer: integer && !control.numbers().integers_take_point,
+                    whole: integer,
                     count: integer || !entry.scaled,
                     negative: entry.negative,
                     repeatable: entry.repeatable,
@@ -237,7 +242,7 @@ impl<'c> Dialect<'c> {
                     if shape.minus && !facts.negative {
                         flags |= BlockFlags::NEGATIVE;
                     }
-                    if !(facts.min..=facts.max).contains(&value) {
+                    if !(facts.min..=facts.max).contains(&value) || facts.whole && value.fract() != 0.0 {
                         flags |= BlockFlags::OUT_OF_RANGE;
                     }
                 }

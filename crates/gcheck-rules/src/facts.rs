@@ -6,6 +6,7 @@
 pub(crate) mod arcs;
 pub(crate) mod bar_feed;
 pub(crate) mod boundary;
+pub(crate) mod callers;
 pub(crate) mod compensation;
 pub(crate) mod computed_words;
 pub(crate) mod coolant;

@@ -25,6 +25,8 @@ lattice! {
         pub(crate) given: [f64; 2],
         /// The last dwell of any series: some controls give it to taps without one of their own.
         pub(crate) last_dwell: Option<f64>,
+        /// `R` of the last pocket, which a pocket without one of its own uses.
+        pub(crate) pocket_r: Option<f64>,
         /// A threading cycle turned the feed override on, though the program has it off.
         pub(crate) feed_override_on: Truth,
         /// I, J, K.
@@ -46,6 +48,7 @@ impl CycleWords {
         p: f64::NAN,
         given: [f64::NAN; 2],
         last_dwell: None,
+        pocket_r: None,
         feed_override_on: Truth::False,
         ijk: [f64::NAN; 3],
         e: f64::NAN,
@@ -57,8 +60,8 @@ impl CycleWords {
 
     /// Nothing of a new series yet, but the level that it began at where another cycle goes on from it.
     pub(crate) fn series(&self, goes_on: bool) -> Self {
-        let Self { last_dwell, feed_override_on, initial, .. } = *self;
-        let new = Self { last_dwell, feed_override_on, ..Self::NONE };
+        let Self { last_dwell, pocket_r, feed_override_on, initial, .. } = *self;
+        let new = Self { last_dwell, pocket_r, feed_override_on, ..Self::NONE };
         if goes_on && self.has_begun() {
             let may_have = [Self::START].into_iter().collect();
             Self { may_have, initial, ..new }
@@ -69,14 +72,19 @@ impl CycleWords {
 
     /// Whether a series is under way, and with which words, is not known.
     pub(crate) fn unknown(&self) -> Self {
-        let Self { last_dwell, feed_override_on, .. } = *self;
+        let Self { last_dwell, pocket_r, feed_override_on, .. } = *self;
         let may_have = LetterSet::of("RZQPIJKEXYN");
-        Self { may_have, last_dwell, feed_override_on, ..Self::NONE }
+        Self { may_have, last_dwell, pocket_r, feed_override_on, ..Self::NONE }
     }
 
     /// As [`Self::unknown`], after something that nobody knows.
     pub(crate) fn forgotten(&self) -> Self {
-        Self { last_dwell: Some(f64::NAN), feed_override_on: Truth::Unknown, ..self.unknown() }
+        Self {
+            last_dwell: Some(f64::NAN),
+            pocket_r: Some(f64::NAN),
+            feed_override_on: Truth::Unknown,
+            ..self.unknown()
+        }
     }
 
     /// May the word have been given in this series? Then its NaN is a value that nobody knows.

@@ -362,8 +362,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// Refuses a block whose words and codes do not fit together, before anything of it acts.
     pub(super) fn check_block(&self, place: &Place, words: &[Word], state: &State<D>) -> Step {
         let rules = &self.model.contract;
-        if self.leaves_to_rules() || rules.idle {
+        if rules.idle {
             return Ok(());
+        }
+        if self.leaves_to_rules() {
+            return if rules.strict { self.check_polar(state) } else { Ok(()) };
         }
         let codes = self.words.codes();
         let present = self.words.present();
@@ -589,13 +592,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 return Err(Fault::Conflict);
             }
         }
-        if polar && present.intersects(LetterSet::of("XY")) {
-            return Err(Fault::Conflict);
-        }
-        // The plane that the block itself chooses is not in effect yet.
-        if polar && state.plane(self.model).is_some_and(|plane| plane != Plane::Xy) {
-            return Err(Fault::Conflict);
-        }
+        self.check_polar(state)?;
         if has(Effect::MachineCoordinates) {
             let straight = acting.code().map(|ix| self.model.effect(ix));
             if !matches!(straight, Some(Effect::Rapid | Effect::Linear)) {
@@ -615,6 +612,17 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::Cycle(CycleFault::Rotary));
         }
         Ok(())
+    }
+
+    /// Words of a radius and an angle are in the place of X and Y, and in their plane; the plane that the block itself chooses is
+    /// not in effect yet.
+    fn check_polar(&self, state: &State<D>) -> Step {
+        let present = self.words.present();
+        if !present.intersects(POLAR) {
+            return Ok(());
+        }
+        let is_elsewhere = || state.plane(self.model).is_some_and(|plane| plane != Plane::Xy);
+        if present.intersects(LetterSet::of("XY")) || is_elsewhere() { Err(Fault::Conflict) } else { Ok(()) }
     }
 
     /// What each code, and the motion, says of its words.

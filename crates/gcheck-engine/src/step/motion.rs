@@ -476,7 +476,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.assumptions.insert(Assumption::Unsettled(Unsettled::Curve));
                     [f64::NAN; 2]
                 }
-                _ => return Err(Fault::MissingWord(Letter::of('I'))),
+                (None, Some(_), _) => return Err(Fault::MissingWord(Letter::of('I'))),
+                (Some(_), None, _) => return Err(Fault::MissingWord(Letter::of('J'))),
             };
             state.curve = Perhaps::Yes(ControlPoints(Rc::new(vec![[p, q, 0.0]])));
             vec![start, [start[0] + first[0], start[1] + first[1]], [end[0] + p, end[1] + q], end]

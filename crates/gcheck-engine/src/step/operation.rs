@@ -81,8 +81,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let layer = self.length(Letter::of('Q'), state).ok_or(needed('Q'))?;
         let r = match self.length(Letter::of('R'), state) {
             Some(r) => r,
-            None => state.cycle.word('R', state.cycle.r).ok_or(needed('R'))?,
+            None => {
+                let of_cycle = state.cycle.word('R', state.cycle.r);
+                of_cycle.or(state.cycle.pocket_r).ok_or(needed('R'))?
+            }
         };
+        state.cycle.pocket_r = Some(r);
         let length = |letter: char| self.length(Letter::of(letter), state).map(Mm);
         let mut words = GeneralPocket {
             start: (Mm(target.raw(Axis::X)), Mm(target.raw(Axis::Y))),

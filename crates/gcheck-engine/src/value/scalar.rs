@@ -88,13 +88,19 @@ pub(crate) fn call(
 /// # Errors
 /// [`ValueFault::NoSuchFunction`]; [`ValueFault::Malformed`] for `EXISTS`, which has no value here.
 pub(crate) fn check_arity(function: Function, count: usize, semantics: &Semantics) -> Result<(), ValueFault> {
-    let fits = match function {
-        Function::Exists => return Err(ValueFault::Malformed),
+    if function == Function::Exists {
+        return Err(ValueFault::Malformed);
+    }
+    if takes_arguments(function, count, semantics) { Ok(()) } else { Err(ValueFault::NoSuchFunction) }
+}
+
+/// Does the function exist with so many arguments on a control that has a function of this name?
+pub fn takes_arguments(function: Function, count: usize, semantics: &Semantics) -> bool {
+    match function {
         Function::Atan => count == 2 || count == 1 && semantics.atan_alone,
         Function::Pow => count == 2,
         _ => count == 1,
-    };
-    if fits { Ok(()) } else { Err(ValueFault::NoSuchFunction) }
+    }
 }
 
 /// How near two numbers must be to be equal: by their distance.

@@ -2,10 +2,11 @@
 //!
 //! Knows: the same ranges, signs and whole numbers that written words are judged by. Must not know: any rule.
 
-use gcheck_controls::{Code, Confidence, WordKind};
+use gcheck_controls::{Code, Confidence, WordKind, one_of};
 use gcheck_engine::AbstractValue;
 use gcheck_program::{BlockFlags, Word};
 
+use crate::facts::callers::CallerValues;
 use crate::{Finding, PathCx, RuleMeta, Severity, WordFacts, limit};
 
 /// So far from a whole number a count may be: what arithmetic leaves over.
@@ -27,20 +28,20 @@ enum Why {
     Small,
     Large,
     Fraction,
+    Unlisted,
 }
 
 /// The computed words of the block that have, or may have, a value that their code does not take.
 ///
 /// Nothing is known of a value in an interval unless the whole interval is refused.
-pub(crate) fn refused<'a>(cx: &PathCx<'a>) -> Vec<Refused<'a>> {
+pub(crate) fn refused<'a>(cx: &PathCx<'a>, callers: &CallerValues) -> Vec<Refused<'a>> {
     let flags = cx.origin().flags;
     if !flags.contains(BlockFlags::EXPRESSION)
         || flags.intersects(BlockFlags::UNKNOWN_CODE | BlockFlags::ERROR)
     {
         return Vec::new();
     }
-    // The caller may give other values.
-    if cx.depth() == 1 && cx.survey.is_called_from_elsewhere() {
+    if callers.may_decide(cx) {
         return Vec::new();
     }
     let mut found = Vec::new();
@@ -85,8 +86,15 @@ fn why(value: f64, facts: &WordFacts<'_>) -> Option<Why> {
     } else if facts.max.is_some_and(|max| value > max) {
         Some(Why::Large)
     } else {
-        (is_count && (value - value.round()).abs() > WHOLE_WITHIN).then_some(Why::Fraction)
+        let is_fraction = is_count && (value - value.round()).abs() > WHOLE_WITHIN;
+        let is_listed = facts.values.is_empty() || is_among(value, facts);
+        if is_fraction { Some(Why::Fraction) } else { (!is_listed).then_some(Why::Unlisted) }
     }
+}
+
+/// Is the value one of those that are listed for the word?
+pub(crate) fn is_among(value: f64, facts: &WordFacts<'_>) -> bool {
+    facts.values.iter().any(|listed| (listed - value).abs() <= WHOLE_WITHIN)
 }
 
 /// What both rules of computed words report: `sure` says "is" or "may be".
@@ -99,6 +107,7 @@ pub(crate) fn finding(cx: &PathCx<'_>, rule: &'static RuleMeta, refused: &Refuse
     let (what, takes, confidence) = match why {
         Why::Small => ("too small", range_of(facts), range_confidence(cx, refused)),
         Why::Large => ("too large", range_of(facts), range_confidence(cx, refused)),
+        Why::Unlisted => ("not among those", range_of(facts), facts.range_confidence),
         Why::Fraction => ("not a whole number", "whole numbers".to_owned(), facts.confidence),
     };
     let finding = cx
@@ -145,13 +154,22 @@ fn range_confidence(cx: &PathCx<'_>, refused: &Refused<'_>) -> Confidence {
 
 /// "0 to 99", "1 or more", "more than 0".
 pub(crate) fn range_of(facts: &WordFacts<'_>) -> String {
-    match (facts.min, facts.above, facts.max) {
+    if !facts.values.is_empty() {
+        return one_of(facts.values);
+    }
+    bounds_of(facts.min, facts.above, facts.max).unwrap_or_else(|| {
+        if facts.negative { "any number".to_owned() } else { "no negative number".to_owned() }
+    })
+}
+
+/// Bounds in words; `None` where there are none.
+pub(crate) fn bounds_of(min: Option<f64>, above: Option<f64>, max: Option<f64>) -> Option<String> {
+    Some(match (min, above, max) {
         (Some(min), _, Some(max)) => format!("{min} to {max}"),
         (Some(min), _, None) => format!("{min} or more"),
         (None, Some(above), Some(max)) => format!("more than {above}, up to {max}"),
         (None, Some(above), None) => format!("more than {above}"),
         (None, None, Some(max)) => format!("{max} or less"),
-        (None, None, None) if !facts.negative => "no negative number".to_owned(),
-        (None, None, None) => "any number".to_owned(),
-    }
+        (None, None, None) => return None,
+    })
 }

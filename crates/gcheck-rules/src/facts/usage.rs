@@ -71,7 +71,7 @@ pub(crate) fn reads_start_state(
 }
 
 /// Has the start state an assumed value for it?
-fn is_assumed(value: SystemValue) -> bool {
+pub(crate) fn is_assumed(value: SystemValue) -> bool {
     use SystemValue as V;
     !matches!(
         value,

@@ -136,11 +136,14 @@ pub(crate) mod macros {
     pub(crate) mod o_word_label_reused;
     pub(crate) mod o_word_unmatched;
     pub(crate) mod several_assignments;
+    pub(crate) mod subroutine_inside_subroutine;
+    pub(crate) mod too_many_arguments;
     pub(crate) mod variable_never_read;
     pub(crate) mod variable_number_not_whole;
     pub(crate) mod variable_read_before_set;
     pub(crate) mod variable_reserved;
     pub(crate) mod variable_unlisted;
+    pub(crate) mod words_beside_o_word;
 }
 
 pub(crate) mod mapping {
@@ -154,6 +157,7 @@ pub(crate) mod mapping {
 
 pub(crate) mod modal {
     pub(crate) mod code_given_twice;
+    pub(crate) mod code_must_come_first;
     pub(crate) mod code_must_stand_alone;
     pub(crate) mod codes_conflict;
     pub(crate) mod distance_mode_not_stated;
@@ -161,6 +165,7 @@ pub(crate) mod modal {
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
     pub(crate) mod modal_change_in_skipped_block;
+    pub(crate) mod refused_in_plane;
     pub(crate) mod restart_with_changed_mode;
     pub(crate) mod safe_start_missing;
     pub(crate) mod saved_modes_missing;
@@ -174,6 +179,7 @@ pub(crate) mod modal {
 pub(crate) mod motion {
     pub(crate) mod axis_words_without_motion_mode;
     pub(crate) mod corner_before_rapid;
+    pub(crate) mod curve_not_complete;
     pub(crate) mod dwell_beside_motion;
     pub(crate) mod dwell_unit_unsure;
     pub(crate) mod dwell_very_long;
@@ -339,6 +345,7 @@ pub(crate) mod words {
     pub(crate) mod axis_given_twice;
     pub(crate) mod axis_word_passed_over;
     pub(crate) mod axis_word_unsure;
+    pub(crate) mod block_number_not_first;
     pub(crate) mod computed_value_out_of_range;
     pub(crate) mod decimal_point_on_integer;
     pub(crate) mod dwell_time_in_other_word;
@@ -347,6 +354,7 @@ pub(crate) mod words {
     pub(crate) mod missing_decimal_point;
     pub(crate) mod needed_word_missing;
     pub(crate) mod number_out_of_range;
+    pub(crate) mod polar_word_refused;
     pub(crate) mod required_word_missing;
     pub(crate) mod sign_not_accepted;
     pub(crate) mod too_many_digits;
@@ -357,7 +365,9 @@ pub(crate) mod words {
     pub(crate) mod word_forbidden;
     pub(crate) mod word_given_twice;
     pub(crate) mod word_not_read;
+    pub(crate) mod word_of_newer_version;
     pub(crate) mod word_passed_over;
+    pub(crate) mod word_unfit_for_another;
     pub(crate) mod words_exclude_each_other;
 }
 
@@ -477,11 +487,14 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::o_word_label_reused::RULE,
     &macros::o_word_unmatched::RULE,
     &macros::several_assignments::RULE,
+    &macros::subroutine_inside_subroutine::RULE,
+    &macros::too_many_arguments::RULE,
     &macros::variable_never_read::RULE,
     &macros::variable_number_not_whole::RULE,
     &macros::variable_read_before_set::RULE,
     &macros::variable_reserved::RULE,
     &macros::variable_unlisted::RULE,
+    &macros::words_beside_o_word::RULE,
     &mapping::cylinder_diameter_from_setting::RULE,
     &mapping::cylinder_feed_mode::RULE,
     &mapping::cylinder_left_on::RULE,
@@ -489,6 +502,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &mapping::cylinder_word_value_ignored::RULE,
     &mapping::maybe_cylinder_left_on::RULE,
     &modal::code_given_twice::RULE,
+    &modal::code_must_come_first::RULE,
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
     &modal::distance_mode_not_stated::RULE,
@@ -496,6 +510,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,
     &modal::modal_change_in_skipped_block::RULE,
+    &modal::refused_in_plane::RULE,
     &modal::restart_with_changed_mode::RULE,
     &modal::safe_start_missing::RULE,
     &modal::saved_modes_missing::RULE,
@@ -506,6 +521,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::units_not_stated::RULE,
     &motion::axis_words_without_motion_mode::RULE,
     &motion::corner_before_rapid::RULE,
+    &motion::curve_not_complete::RULE,
     &motion::dwell_beside_motion::RULE,
     &motion::dwell_unit_unsure::RULE,
     &motion::dwell_very_long::RULE,
@@ -644,6 +660,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::axis_given_twice::RULE,
     &words::axis_word_passed_over::RULE,
     &words::axis_word_unsure::RULE,
+    &words::block_number_not_first::RULE,
     &words::computed_value_out_of_range::RULE,
     &words::decimal_point_on_integer::RULE,
     &words::dwell_time_in_other_word::RULE,
@@ -652,6 +669,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::missing_decimal_point::RULE,
     &words::needed_word_missing::RULE,
     &words::number_out_of_range::RULE,
+    &words::polar_word_refused::RULE,
     &words::required_word_missing::RULE,
     &words::sign_not_accepted::RULE,
     &words::too_many_digits::RULE,
@@ -662,6 +680,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::word_forbidden::RULE,
     &words::word_given_twice::RULE,
     &words::word_not_read::RULE,
+    &words::word_of_newer_version::RULE,
     &words::word_passed_over::RULE,
+    &words::word_unfit_for_another::RULE,
     &words::words_exclude_each_other::RULE,
 ];

@@ -15,16 +15,7 @@ enum Said {
 fn said(fault: &Fault) -> Said {
     use Said::{By, Nobody};
     match fault {
-        Fault::Value(fault) => match fault {
-            ValueFault::DivisionByZero
-            | ValueFault::NegativeRoot
-            | ValueFault::LogarithmOfNonPositive
-            | ValueFault::ArcFunctionRange
-            | ValueFault::NegativePower
-            | ValueFault::NotFinite => By(&["expression-without-value"]),
-            ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
-            ValueFault::NoSuchFunction => By(&["function-unknown"]),
-        },
+        Fault::Value(fault) => said_of_value(*fault),
         Fault::Undecidable => Nobody("what is not known is not a mistake of the program"),
         Fault::UnsetParameter => By(&["named-parameter-unset"]),
         Fault::ReadOnlyVariable(_) => {
@@ -32,28 +23,40 @@ fn said(fault: &Fault) -> Said {
         }
         Fault::VariableNumber => By(&["variable-number-not-whole"]),
         Fault::MissingValue(_) => By(&["address-without-value"]),
-        Fault::MissingWord(_) => By(&["required-word-missing", "word-choice-missing", "thread-without-lead"]),
+        Fault::MissingWord(_) => By(&[
+            "required-word-missing",
+            "word-choice-missing",
+            "thread-without-lead",
+            "needed-word-missing",
+            "word-unfit-for-another",
+        ]),
         Fault::WordRange(_) => By(&[
             "number-out-of-range",
             "sign-not-accepted",
             "decimal-point-on-integer",
             "computed-value-out-of-range",
+            "word-unfit-for-another",
         ]),
-        Fault::UnknownCode => By(&["unknown-code"]),
-        Fault::NotNow(..) => By(&["cycle-in-inverse-time", "codes-conflict"]),
-        Fault::Malformed => By(&["unexpected-text", "unclosed-bracket", "malformed-number"]),
+        Fault::UnknownCode => By(&["unknown-code", "code-must-come-first"]),
+        Fault::NotNow(..) => By(&["refused-in-plane", "cycle-in-inverse-time", "codes-conflict"]),
+        Fault::Malformed => {
+            By(&["unexpected-text", "unclosed-bracket", "malformed-number", "words-beside-o-word"])
+        }
         Fault::Conflict => By(&[
             "codes-conflict",
             "two-codes-of-one-group",
             "words-exclude-each-other",
             "machine-coordinates-in-increments",
+            "polar-word-refused",
+            "too-many-arguments",
+            "word-unfit-for-another",
         ]),
         Fault::WordTwice(_) => By(&["word-given-twice", "code-given-twice"]),
-        Fault::UnreadWord(_) => By(&["word-not-read", "word-forbidden"]),
-        Fault::Misplaced(_) => Nobody("the order of numbers in a block matters to one interpreter only"),
+        Fault::UnreadWord(_) => By(&["word-not-read", "word-forbidden", "word-of-newer-version"]),
+        Fault::Misplaced(_) => By(&["block-number-not-first"]),
         Fault::TooManyCodes => By(&["too-many-m-codes"]),
         Fault::LineTooLong => By(&["line-too-long"]),
-        Fault::TooFewPoints => Nobody("splines are one interpreter's own"),
+        Fault::TooFewPoints => By(&["curve-not-complete"]),
         Fault::NoFeed => By(&["feed-missing", "feed-zero", "probe-without-feed"]),
         Fault::NoInverseTimeFeed => By(&["inverse-time-feed-missing"]),
         Fault::SpindleStopped => By(&["spindle-stopped-while-cutting"]),
@@ -61,18 +64,9 @@ fn said(fault: &Fault) -> Said {
         Fault::NoSuchAxis(_) => {
             By(&["axis-not-on-machine", "cylinder-axis-not-on-machine", "unknown-address"])
         }
-        Fault::NoMotionMode => By(&["axis-words-without-motion-mode"]),
+        Fault::NoMotionMode => By(&["axis-words-without-motion-mode", "curve-not-complete"]),
         Fault::NoAxisWords => By(&["motion-without-axis-words"]),
-        Fault::Arc(fault) => match fault {
-            ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on", "arc-wrong-plane-word"]),
-            ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
-            ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
-            ArcFault::ZeroRadius => By(&["zero-radius-arc"]),
-            ArcFault::RadiusTooSmall { .. } => By(&["arc-radius-too-small"]),
-            ArcFault::OffCircle { .. } => By(&["arc-end-off-circle"]),
-            ArcFault::FullCircleByRadius => By(&["full-circle-by-radius"]),
-            ArcFault::Turns => By(&["arc-turns-not-whole"]),
-        },
+        Fault::Arc(fault) => said_of_arc(*fault),
         Fault::Cycle(fault) => match fault {
             CycleFault::Missing(_) => By(&["cycle-word-missing", "cycle-words-lost", "cycle-dwell-missing"]),
             CycleFault::RBelowBottom => By(&["cycle-r-below-bottom"]),
@@ -101,14 +95,50 @@ fn said(fault: &Fault) -> Said {
         Fault::OverTravel(_) => By(&["move-outside-travel"]),
         Fault::NoSavedModes => By(&["saved-modes-missing"]),
         Fault::NoSuchLabel(_) => By(&["jump-target-missing", "jump-to-missing-block"]),
-        Fault::NoSuchProgram => By(&["subprogram-missing", "o-word-subroutine-missing"]),
-        Fault::TooDeep => By(&["calls-nested-too-deep"]),
-        Fault::LoopMismatch => {
-            By(&["loop-end-missing", "loop-begin-missing", "crossed-loops", "o-word-unmatched"])
+        Fault::NoSuchProgram => {
+            By(&["subprogram-missing", "o-word-subroutine-missing", "turning-profile-not-usable"])
         }
+        Fault::TooDeep => By(&["calls-nested-too-deep"]),
+        Fault::LoopMismatch => By(&[
+            "loop-end-missing",
+            "loop-begin-missing",
+            "crossed-loops",
+            "o-word-unmatched",
+            "subroutine-inside-subroutine",
+        ]),
         Fault::StrayReturn => By(&["return-outside-subroutine", "o-word-unmatched"]),
         Fault::NoProgramEnd => By(&["subprogram-without-return", "program-end-missing"]),
         Fault::Alarm(_) => By(&["alarm-reached"]),
+    }
+}
+
+/// Of an expression without a value.
+fn said_of_value(fault: ValueFault) -> Said {
+    use Said::By;
+    match fault {
+        ValueFault::DivisionByZero
+        | ValueFault::NegativeRoot
+        | ValueFault::LogarithmOfNonPositive
+        | ValueFault::ArcFunctionRange
+        | ValueFault::NegativePower
+        | ValueFault::NotFinite => By(&["expression-without-value"]),
+        ValueFault::Malformed => By(&["missing-operand", "expression-too-deep", "stray-bracket"]),
+        ValueFault::NoSuchFunction => By(&["function-unknown"]),
+    }
+}
+
+/// Of an arc.
+fn said_of_arc(fault: ArcFault) -> Said {
+    use Said::By;
+    match fault {
+        ArcFault::NoCentre => By(&["arc-without-centre", "arc-mode-left-on", "arc-wrong-plane-word"]),
+        ArcFault::CentreAndRadius => By(&["arc-centre-and-radius"]),
+        ArcFault::WrongPlane(_) => By(&["arc-wrong-plane-word"]),
+        ArcFault::ZeroRadius => By(&["zero-radius-arc"]),
+        ArcFault::RadiusTooSmall { .. } => By(&["arc-radius-too-small"]),
+        ArcFault::OffCircle { .. } => By(&["arc-end-off-circle"]),
+        ArcFault::FullCircleByRadius => By(&["full-circle-by-radius"]),
+        ArcFault::Turns => By(&["arc-turns-not-whole"]),
     }
 }
 

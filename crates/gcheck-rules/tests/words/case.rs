@@ -74,6 +74,7 @@ pub(crate) fn of(control: &Control, code: Code<'_>, subject: &Subject<'_>) -> Ve
         maker.places(word, &mut cases);
     }
     maker.extra(&mut cases);
+    maker.refused_beside(&mut cases);
     cases
 }
 
@@ -152,7 +153,7 @@ impl Maker<'_, '_> {
         let general = self.control.letter(word.letter);
         let entry = self.entry(word.letter);
         let (kind, min, max, above) = match (entry, general) {
-            (Some(e), _) => (e.kind, e.min, e.max, e.above),
+            (Some(e), _) => self.bounds(e),
             (None, Some(g)) => (g.kind, g.min, g.max, None),
             (None, None) => return Vec::new(),
         };
@@ -181,7 +182,35 @@ impl Maker<'_, '_> {
         if is_count {
             values.push(format!("{}", word.number.trunc() + 0.5));
         }
+        let listed = entry.map_or(&[][..], |entry| &entry.values);
+        if let Some(highest) = listed.iter().copied().reduce(f64::max) {
+            values.push(show(highest + 1.0));
+        }
         values
+    }
+
+    /// Kind and bounds of a word, as it is beside the other words of the block.
+    fn bounds(&self, entry: &WordEntry) -> (WordKind, Option<f64>, Option<f64>, Option<f64>) {
+        let stands = |item: &String| {
+            self.subject.words.iter().any(|word| format!("{}{}", word.letter, word.number) == *item)
+        };
+        let beside = entry.beside.iter().find(|beside| beside.with.iter().any(stands));
+        let beside = beside.map(|beside| (beside.min, beside.max, beside.above)).unwrap_or_default();
+        (entry.kind, entry.min.or(beside.0), entry.max.or(beside.1), entry.above.or(beside.2))
+    }
+
+    /// Words that the data refuse beside the values of the block's words.
+    fn refused_beside(&self, cases: &mut Vec<Case>) {
+        let stands = |item: &String| {
+            self.subject.words.iter().any(|word| format!("{}{}", word.letter, word.number) == *item)
+        };
+        for entry in self.subject.codes.iter().flat_map(|code| &code.entry().words) {
+            let is_refused =
+                entry.beside.iter().any(|beside| beside.refused && beside.with.iter().any(stands));
+            let Some(letter) = Letter::parse(&entry.letter).filter(|_| is_refused) else { continue };
+            let block = self.subject.with_word(&format!("{letter}1"));
+            cases.push(self.case(Kind::Extra, letter, Asked::Finding, &[], &block));
+        }
     }
 
     /// The word in an earlier block, and nowhere.
@@ -191,7 +220,7 @@ impl Maker<'_, '_> {
         let alone = self.subject.block[word.range.clone()].trim().to_owned();
         cases.push(self.case(Kind::Missing, letter, self.without(letter), &[], &block));
         let asked = self.lasting(letter);
-        cases.push(self.case(Kind::Lasting, letter, asked, &[alone.clone()], &block));
+        cases.push(self.case(Kind::Lasting, letter, asked, std::slice::from_ref(&alone), &block));
         let Some(row) = self.row(letter) else { return };
         if row.from == LastingFrom::AnyBlock && matches!(letter.ascii(), b'D' | b'H') {
             let cancels: Vec<_> = ["G40", "G49"].into_iter().filter(|code| self.has(code)).collect();

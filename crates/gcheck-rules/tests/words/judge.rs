@@ -54,9 +54,7 @@ impl<'c> Judge<'c> {
 
     /// The lines that findings are on, from 0; `None` where findings are left out.
     pub(crate) fn lines(&self, program: &str) -> Option<BTreeSet<usize>> {
-        let line = |at: u32| {
-            program.as_bytes()[..(at as usize).min(program.len())].iter().filter(|b| **b == b'\n').count()
-        };
+        let line = |at: u32| program.bytes().take(at as usize).filter(|byte| *byte == b'\n').count();
         let outcome = self.check(program);
         let all = outcome.findings.iter().flat_map(|f| line(f.range.start)..=line(f.range.end)).collect();
         outcome.omitted.is_empty().then_some(all)

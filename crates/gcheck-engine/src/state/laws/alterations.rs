@@ -133,6 +133,7 @@ fn words() -> Vec<(&'static str, Alter)> {
         }),
         ("begin of a series", |s| s.cycle.begin(10.0)),
         ("last dwell", |s| s.cycle.last_dwell = Some(1.0)),
+        ("plane of the last pocket", |s| s.cycle.pocket_r = Some(1.0)),
         ("feed override of a cycle", |s| s.cycle.feed_override_on = Truth::True),
         ("start of a pass", |s| s.turning = turning(|words| words.start[0] = Some(1.0))),
         ("corner of a pass", |s| s.turning = turning(|words| words.corner[1] = Some(1.0))),

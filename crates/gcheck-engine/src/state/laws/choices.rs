@@ -184,6 +184,7 @@ made! {
         [words.p, words.e, words.initial] = [c.make(), c.make(), c.make()];
         words.given = [c.make(), c.make()];
         words.last_dwell = c.make();
+        words.pocket_r = c.make();
         words.feed_override_on = c.make();
         words.ijk = [c.make(), c.make(), c.make()];
         words

@@ -1,13 +1,16 @@
 //! A turning cycle whose profile cannot be used.
 
+use gcheck_controls::{Effect, Letter};
 use gcheck_engine::{At, Fault};
 
 use crate::declare::declare_rule;
+use crate::facts::cycles::cycle_name;
 use crate::facts::offset_schemes::whole;
-use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
-    /// The profile that a turning cycle names ends before it begins, or the cycle is inside its own profile.
+    /// The profile that a turning cycle names is not in the file, ends before it begins, or the cycle is inside its own
+    /// profile.
     ///
     /// ## Why it matters
     /// The control stops with an alarm before it cuts.
@@ -21,6 +24,13 @@ declare_rule! {
     /// G1 Z-1. F.005
     /// N20 X2.
     /// M30
+    /// ```
+    /// The profile is a subroutine that the file does not have.
+    /// ```nc,reported,linuxcnc
+    /// G18 G7 G21 G90 F100
+    /// G0 X40 Z1
+    /// G71 Q100 D1
+    /// M2
     /// ```
     /// ## Not reported
     /// ```nc,quiet,haas-lathe
@@ -46,6 +56,9 @@ struct TurningProfileNotUsable;
 
 impl PathRule for TurningProfileNotUsable {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
+        if *fault == Fault::NoSuchProgram && cx.has_effect(is_turning_operation) {
+            report.add(absent(cx));
+        }
         if *fault != Fault::Profile {
             return;
         }
@@ -76,6 +89,24 @@ impl PathRule for TurningProfileNotUsable {
         }
         report.add(finding);
     }
+}
+
+/// Is it a cycle whose profile may be a subroutine?
+fn is_turning_operation(effect: Effect) -> bool {
+    matches!(effect, Effect::FinishProfile | Effect::RoughAlongZ | Effect::RoughAlongX)
+}
+
+fn absent(cx: &PathCx<'_>) -> Finding {
+    let name = cycle_name(cx);
+    cx.finding(
+        &META,
+        cx.letter_range('Q'),
+        format!("profile of the turning cycle is not in the file (`{name}`)"),
+    )
+    .label("no subroutine has this number")
+    .note("the profile of the cycle is the subroutine that `Q` names")
+    .help("write the profile as a subroutine before the cycle, or correct `Q`")
+    .at_most(Severity::Warning)
 }
 
 #[cfg(test)]

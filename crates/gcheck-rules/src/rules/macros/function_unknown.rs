@@ -1,14 +1,15 @@
-//! A function that the control does not have.
+//! A function that the control does not have, or not with so many arguments.
 
 use std::ops::Range;
 
+use gcheck_engine::takes_arguments;
 use gcheck_program::{BlockFlags, Function, Op};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
 
 declare_rule! {
-    /// An expression calls a function that is not among those of the control.
+    /// An expression calls a function that is not among those of the control, or gives it another number of arguments.
     ///
     /// ## Why it matters
     /// The control stops with an alarm at the block. Functions differ: only some controls have `POW` and `BIN`, only
@@ -18,7 +19,14 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// #1=POW[2, 3]
     /// ```
+    /// Here an arc tangent needs both sides of the angle.
+    /// ```nc,reported,linuxcnc
+    /// #1=ATAN[1]
+    /// ```
     /// ## Not reported
+    /// ```nc,quiet,linuxcnc
+    /// #1=ATAN[1]/[2]
+    /// ```
     /// ```nc,quiet,linuxcnc
     /// #1=SQRT[2**3]
     /// ```
@@ -26,7 +34,7 @@ declare_rule! {
     /// #1=BIN[#2]
     /// ```
     rule "function-unknown" in "macros" {
-        summary: "function that the control does not have",
+        summary: "function that the control does not have in this form",
         severity: Warning,
         tier: Block,
         since: "0.1.0",
@@ -47,15 +55,42 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
                 && !ops.iter().take(ix).any(|o| matches!(o, Op::Call(f, _) if f == function))
             {
                 report.add(finding(cx, expr.range.clone(), *function));
+            } else if let Op::Call(function, count) = op
+                && cx.control().functions().iter().any(|f| f.name == function.name())
+                && *function != Function::Exists
+                && !cx.block().flags.contains(BlockFlags::ERROR)
+                && !takes_arguments(*function, usize::from(*count), cx.control().semantics())
+            {
+                report.add(other_count(cx, expr.range.clone(), *function, *count));
             }
         }
     }
 }
 
+/// The function's name in an expression, in bytes of the chunk.
+fn name_within(cx: &BlockCx<'_>, within: Range<u32>, name: &str) -> Range<u32> {
+    let at = cx.slice(within.clone()).to_ascii_uppercase().find(name).map(|at| within.start + at as u32);
+    at.map_or(within, |at| at..at + name.len() as u32)
+}
+
+fn other_count(cx: &BlockCx<'_>, within: Range<u32>, function: Function, count: u8) -> Finding {
+    let name = function.name();
+    let place = name_within(cx, within, name);
+    let arguments = if count == 1 { "argument" } else { "arguments" };
+    let help = if function == Function::Atan {
+        "divide the opposite side by the adjacent one: `ATAN[#1]/[#2]`, with `[1]` for the second where there is a quotient"
+    } else {
+        "give the function the arguments that it takes"
+    };
+    Finding::new(&META, cx.in_file(place), format!("function `{name}` with {count} {arguments}"))
+        .label("the control refuses this number of arguments")
+        .note("the number of arguments of a function differs from control to control")
+        .help(help)
+}
+
 fn finding(cx: &BlockCx<'_>, within: Range<u32>, function: Function) -> Finding {
     let name = function.name();
-    let at = cx.slice(within.clone()).to_ascii_uppercase().find(name).map(|at| within.start + at as u32);
-    let place = at.map_or(within, |at| at..at + name.len() as u32);
+    let place = name_within(cx, within, name);
     let known: Vec<&str> = cx.control().functions().iter().map(|f| f.name.as_str()).collect();
     Finding::new(&META, cx.in_file(place), format!("function `{name}` is not known on this control"))
         .label("no such function")

@@ -65,7 +65,7 @@ declare_rule! {
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FAULTS),
+            watch: Watch::BLOCKS.union(Watch::CUTS).union(Watch::CHANGES).union(Watch::FAULTS),
             make: || Box::new(SpindleStoppedWhileCutting::default()),
         },
     }
@@ -84,6 +84,35 @@ remembers!(SpindleStoppedWhileCutting: told);
 impl PathRule for SpindleStoppedWhileCutting {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let semantics = cx.model.semantics();
+        if !semantics.strict || !semantics.cycles.tap_needs_spindle || !cx.has_effect(needs_turning_spindle) {
+            return;
+        }
+        let stands = cx.state().spindle() == Some(Spindle::Stopped);
+        let stopped_by = cx.trace().set_by(Fact::Spindle);
+        if !stands || cx.has_effect(starts_spindle) || cx.is_called_only() || self.told.contains(&stopped_by)
+        {
+            return;
+        }
+        // The cycle stops the spindle once more.
+        self.told.extend([stopped_by, Some(cx.origin().at)]);
+        let codes = cx.codes();
+        let code = codes.iter().find(|ix| needs_turning_spindle(cx.model.effect(**ix)));
+        let Some(code) = code.and_then(|ix| cx.code_of(*ix)) else { return };
+        let (name, entry) = (code.number(), code.entry());
+        let finding = cx
+            .finding(
+                &META,
+                cx.effect_range(needs_turning_spindle),
+                format!("cycle while the spindle is stopped (`{name}`)"),
+            )
+            .label("the control refuses the cycle")
+            .note(format!("`{name}` ({}) needs a spindle that turns  [{}]", entry.title, entry.source))
+            .help("start the spindle with `S` and `M3` or `M4` before this block");
+        report.add(since(cx, finding, stopped_by));
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -207,6 +236,19 @@ fn bores(code: Code<'_>) -> bool {
     matches!(code.effect(), Effect::CycleFineBore | Effect::CycleBackBore)
 }
 
+/// Is it a cycle that a strict control begins only while the spindle turns?
+fn needs_turning_spindle(effect: Effect) -> bool {
+    matches!(
+        effect,
+        Effect::CycleTap
+            | Effect::CycleLeftTap
+            | Effect::CycleBoreStop
+            | Effect::CycleBackBore
+            | Effect::CycleBoreManual
+            | Effect::CycleBoreDwellManual
+    )
+}
+
 /// Does the code touch the work with a probe?
 pub(super) fn probes(effect: Effect) -> bool {
     matches!(
@@ -229,6 +271,25 @@ mod tests {
 
     use super::RULE;
     use crate::testing::{World, check_rule, findings, only, words};
+
+    #[test]
+    fn a_boring_cycle_that_stops_the_spindle_needs_one_that_turns() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G0 X0 Y0 Z5\nG86 X1 Z-1 R1 P1 F100\nX2\nG80\nS900 M3\nG86 X1 Z-1 R1 P1\nG80\nM2\n",
+            &expect![[r#"
+                2 | G86 X1 Z-1 R1 P1 F100
+                  | ^^^ warning[spindle-stopped-while-cutting] cycle while the spindle is stopped (`G86`)
+            "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G0 X0. Y0. Z1.\nG86 X1. Z-1. R1. F9.\nG80\nM30\n",
+            &expect![[""]],
+        );
+    }
 
     #[test]
     fn moves_around_a_touch_cut_nothing() {

@@ -1,12 +1,14 @@
 //! A computed value that its code cannot use.
 
 use gcheck_controls::{Code, Letter};
-use gcheck_engine::{Fault, FrameKind};
+use gcheck_engine::Fault;
 use gcheck_program::Value;
 
 use crate::declare::declare_rule;
+use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::{self, refused};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A word's value is computed, and the code cannot use it: a fraction or a negative number for a count, a feed or
@@ -45,16 +47,26 @@ declare_rule! {
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::FAULTS.union(Watch::ALL_BLOCKS),
-            make: || Box::new(ComputedValueOutOfRange),
+            make: || Box::new(ComputedValueOutOfRange::default()),
         },
     }
 }
 
-struct ComputedValueOutOfRange;
+#[derive(Default, Clone, PartialEq)]
+struct ComputedValueOutOfRange {
+    callers: CallerValues,
+}
+
+remembers!(ComputedValueOutOfRange);
 
 impl PathRule for ComputedValueOutOfRange {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        for one in refused(cx).iter().filter(|one| one.is_certain) {
+        self.callers.see(cx);
+        for one in refused(cx, &self.callers).iter().filter(|one| one.is_certain) {
             report.add(computed_words::finding(cx, &META, one));
         }
     }
@@ -62,11 +74,10 @@ impl PathRule for ComputedValueOutOfRange {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::WordRange(letter) = fault else { return };
         // What the data refuse was reported before the block was executed.
-        if refused(cx).iter().any(|one| one.is_certain && one.word.letter == *letter) {
+        if refused(cx, &self.callers).iter().any(|one| one.is_certain && one.word.letter == *letter) {
             return;
         }
-        let is_main = cx.state().frames().iter().all(|frame| frame.kind == FrameKind::Main);
-        if is_main && cx.survey.is_called_from_elsewhere() {
+        if self.callers.may_decide(cx) {
             return;
         }
         // Other rules judge a written number without executing the block.

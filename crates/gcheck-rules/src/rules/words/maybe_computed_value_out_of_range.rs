@@ -1,8 +1,10 @@
 //! A computed value that its code cannot use on some path.
 
 use crate::declare::declare_rule;
+use crate::facts::callers::CallerValues;
 use crate::facts::computed_words::{self, refused};
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Remembers, remembers};
 
 declare_rule! {
     /// A word's value is computed, and on some paths that come here the code cannot use it.
@@ -32,15 +34,25 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(MaybeComputedValueOutOfRange) },
+        run: Run::Path { watch: Watch::ALL_BLOCKS, make: || Box::new(MaybeComputedValueOutOfRange::default()) },
     }
 }
 
-struct MaybeComputedValueOutOfRange;
+#[derive(Default, Clone, PartialEq)]
+struct MaybeComputedValueOutOfRange {
+    callers: CallerValues,
+}
+
+remembers!(MaybeComputedValueOutOfRange);
 
 impl PathRule for MaybeComputedValueOutOfRange {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        for one in refused(cx).iter().filter(|one| !one.is_certain) {
+        self.callers.see(cx);
+        for one in refused(cx, &self.callers).iter().filter(|one| !one.is_certain) {
             report.add(cx.with_path(computed_words::finding(cx, &META, one)).at_most(Severity::Warning));
         }
     }

@@ -4,7 +4,7 @@ use gcheck_controls::{Code, WordEntry, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
-use crate::facts::computed_words::range_of;
+use crate::facts::computed_words::{is_among, range_of};
 use crate::{BlockCx, Finding, Report, Run, Severity, WordFacts, limit};
 
 declare_rule! {
@@ -57,10 +57,19 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
             report.add(finding(cx, word, &facts, high));
-        } else if is_count(facts.kind) && !told && value.fract() != 0.0 && cx.words_are_plain() {
-            report.add(fraction(cx, word, &facts));
+        } else if is_count(facts.kind) && value.fract() != 0.0 {
+            if !told && cx.words_are_plain() && has_meaning(cx, word, &facts) {
+                report.add(fraction(cx, word, &facts));
+            }
+        } else if !facts.values.is_empty() && !is_among(value, &facts) && !is_sign && cx.words_are_plain() {
+            report.add(unlisted(cx, word, &facts));
         }
     }
+}
+
+/// Is it known what the word is? In a block without its code, the mode in effect may read it.
+fn has_meaning(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> bool {
+    facts.code.is_some() || cx.control().letter(word.letter).is_some_and(|entry| entry.free)
 }
 
 /// Does the word count something, or name it by its number?
@@ -78,6 +87,15 @@ fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .at_most(limit(facts.confidence));
     // A control may round a count; the number of a program it cannot.
     if facts.kind == WordKind::Program { finding } else { finding.at_most(Severity::Warning) }
+}
+
+fn unlisted(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
+    Finding::new(&META, cx.range(word), format!("value is not among those{of}: `{}`", cx.text(word)))
+        .label(facts.is)
+        .note(format!("`{}`{of} takes {}  [{}]", word.letter, range_of(facts), facts.source))
+        .help("correct the value")
+        .at_most(limit(facts.range_confidence))
 }
 
 fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> Finding {

@@ -60,10 +60,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#ocode:subroutines",
         "More than 30 arguments are refused",
-        "`check` reports the 31st argument (error), as `run` refuses it",
+        "rule `too-many-arguments`",
         &[refused(
             "error[too-many-arguments]",
             "O100 SUB\nG0 X#30\nO100 ENDSUB\nO100 CALL [1] [2] [3] [4] [5] [6] [7] [8] [9] [10] [11] [12] [13] [14] [15] [16] [17] [18] [19] [20] [21] [22] [23] [24] [25] [26] [27] [28] [29] [30] [31]\nM2\n",
