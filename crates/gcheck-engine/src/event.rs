@@ -230,6 +230,8 @@ pub struct Clearing {
     pub length: Mm,
     /// Time of that way.
     pub seconds: Seconds,
+    /// The outline turns counter-clockwise, so that its inside is on its left.
+    pub counter_clockwise: bool,
     /// Where the tool stands, work coordinates.
     pub at: Position,
 }

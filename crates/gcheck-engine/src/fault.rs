@@ -174,6 +174,13 @@ pub enum CycleFault {
     OutlineEmpty,
     /// A pocket whose start hole lies outside its outline.
     StartOutside,
+    /// A pocket whose tool is larger than an arc that it must cut from inside.
+    ArcBelowTool {
+        /// Radius of the smallest such arc, mm.
+        arc: f64,
+        /// Radius of the tool, mm.
+        tool: f64,
+    },
 }
 
 /// Why compensation cannot go on.

@@ -258,6 +258,13 @@ impl BlockTable {
         self.ops.get(expr.ops.start as usize..expr.ops.end as usize).unwrap_or_default()
     }
 
+    /// Does the word's value depend on a variable?
+    pub fn reads_variable(&self, word: &Word) -> bool {
+        let Value::Expr(ix) = word.value else { return false };
+        let reads = |op: &Op| matches!(op, Op::Variable(_) | Op::Named { .. } | Op::Indirect);
+        self.ops(self.expr(ix)).iter().any(reads)
+    }
+
     /// The value of an expression that is a number as it is written: `[5]`, `-1.`.
     pub fn constant(&self, ix: ExprIx) -> Option<f64> {
         match self.ops(self.expr(ix)) {

@@ -148,6 +148,7 @@ fn pockets_are_estimates() {
         levels: 1,
         length: Mm(300.0),
         seconds: Seconds(30.0),
+        counter_clockwise: true,
         at: run.at,
     };
     run.event(Event::Cleared(clearing)).rapid(0.0, 0.0, 0.0);

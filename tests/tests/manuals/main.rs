@@ -14,5 +14,6 @@ mod examples;
 mod interpreter;
 mod product;
 mod proof;
+mod second_reader;
 mod seeds;
 mod statements;

@@ -131,6 +131,8 @@ pub struct PocketPlan {
     pub high: [Mm; 3],
     /// Area inside the outline, square millimetres.
     pub area: f64,
+    /// The outline turns counter-clockwise, so that its inside is on its left.
+    pub counter_clockwise: bool,
     /// Way cut at feed.
     pub cut_length: Mm,
     /// Time at feed; unknown without a feed.
@@ -142,8 +144,29 @@ pub struct PocketPlan {
 /// Ends of the outline may miss each other by this much, millimetres.
 const GAP: f64 = 0.01;
 
-/// The corners of an outline that is closed around its start hole. The first piece leads from the hole to the outline.
-fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Vec<(f64, f64)>, CycleError> {
+/// A tool may be larger than an inside arc by this much, millimetres: rounded end points and centres.
+const ARC_SLACK: f64 = 0.005;
+
+/// Refuses a tool that is larger than an arc which the inside of the outline curves around: its centre cannot follow the wall.
+///
+/// An arc curves around the inside where it turns as the outline does.
+fn check_arcs(wall: &[Cut], counter_clockwise: bool, tool_radius: f64) -> Result<(), CycleError> {
+    let tightest = wall
+        .iter()
+        .filter_map(|cut| match *cut {
+            Cut::Arc { from, centre, ccw, .. } if ccw == counter_clockwise => Some(distance(from, centre)),
+            _ => None,
+        })
+        .fold(f64::INFINITY, f64::min);
+    if tightest + ARC_SLACK < tool_radius {
+        return Err(CycleFault::ArcBelowTool { arc: tightest, tool: tool_radius }.into());
+    }
+    Ok(())
+}
+
+/// The pieces of an outline that is closed around its start hole, and its corners. The first piece that is given leads from
+/// the hole to the outline and is left out.
+fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<(Vec<Cut>, Vec<(f64, f64)>), CycleError> {
     let cuts = cuts(start, outline)?;
     let wall = cuts.get(1..).unwrap_or_default();
     let (Some(first), Some(last)) = (wall.first(), wall.last()) else {
@@ -155,7 +178,7 @@ fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Vec<(f64, f64)>
     }
     let corners = flattened(wall);
     if contains(&corners, (start.0.0, start.1.0)) {
-        Ok(corners)
+        Ok((wall.to_vec(), corners))
     } else {
         Err(CycleFault::StartOutside.into())
     }
@@ -166,10 +189,13 @@ fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Vec<(f64, f64)>
 ///
 /// # Errors
 ///
-/// Exactly one of `I` and `J`; `I`, `J`, `Q` positive; a closed outline with the start hole inside; a floor below `R`.
+/// Exactly one of `I` and `J`; `I`, `J`, `Q` positive; a closed outline with the start hole inside, whose inside arcs are not
+/// smaller than the tool; a floor below `R`.
 pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Result<PocketPlan, CycleError> {
     known(&[words.start.0, words.start.1])?;
-    let corners = closed(words.start, outline)?;
+    let (wall, corners) = closed(words.start, outline)?;
+    let counter_clockwise = area(&corners) > 0.0;
+    check_arcs(&wall, counter_clockwise, words.tool_radius.0)?;
     known(&[words.r, words.bottom, words.layer, words.finish])?;
     let (step, letter) = match (words.step_x, words.step_y) {
         (Some(_), Some(_)) => return Err(CycleFault::Geometry.into()),
@@ -233,6 +259,7 @@ pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Resu
         low: [low_x, low_y, words.bottom],
         high: [high_x, high_y, words.r],
         area,
+        counter_clockwise,
         cut_length,
         estimated: cut_length / words.feed,
         end: [start[0], start[1], words.r],

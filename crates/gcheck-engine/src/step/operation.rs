@@ -11,7 +11,7 @@ use super::lathe::profile::ProfileBlocks;
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::cycles::{
-    CircularPocket, CycleError, GeneralPocket, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
+    CircularPocket, CycleError, GeneralPocket, ProfileSegment, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
     general_pocket,
 };
 use crate::event::{Clearing, Event, TravelKind};
@@ -20,8 +20,16 @@ use crate::model::Role;
 use crate::observer::Observer;
 use crate::origin::At;
 use crate::position::{Axis, Position};
-use crate::state::{Frame, FrameKind, State};
+use crate::state::{Frame, FrameKind, ModeSet, State};
 use crate::value::Domain;
+
+/// An outline as its program was read.
+struct Outline {
+    /// Its pieces from the start hole on; `None` when they are not all known.
+    segments: Option<Vec<ProfileSegment>>,
+    /// Increments or positions, as the program leaves them to the blocks after the pocket (Haas NGC mill manual 2017, p. 318).
+    distance: ModeSet,
+}
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     // ---- pockets ----
@@ -114,7 +122,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let mut start = target;
         start.set(Axis::Z, state.position().raw(Axis::Z));
         let outline = self.outline(program, &start, state)?;
-        let plan = outline.map_or(Err(CycleError::Unknown), |outline| general_pocket(&outline, &words));
+        let plan = outline
+            .as_ref()
+            .and_then(|outline| outline.segments.as_ref())
+            .map_or(Err(CycleError::Unknown), |segments| general_pocket(segments, &words));
         let mut strokes = Vec::new();
         let mut cleared = None;
         if let Ok(plan) = &plan {
@@ -127,6 +138,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 levels: plan.levels.len() as u32,
                 length,
                 seconds: length / words.feed,
+                counter_clockwise: plan.counter_clockwise,
                 at: Position::UNKNOWN,
             });
             strokes.push(Stroke::Rapid(start.xyz()));
@@ -147,6 +159,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             outcome = self.carry_out(&[Stroke::Rapid(over_hole)], Ok(over_hole), Plane::Xy, end, state);
         }
         Self::release_compensation(held.without_path(), state);
+        if let Some(outline) = outline {
+            state.modes.put(Role::Distance, outline.distance);
+        }
         outcome?;
         checked
     }
@@ -171,13 +186,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    /// The pieces of an outline, from the start hole on; `None` when they are not all known.
-    fn outline(
-        &mut self,
-        program: Count,
-        start: &Position,
-        state: &State<D>,
-    ) -> Step<Option<Vec<crate::cycles::ProfileSegment>>> {
+    /// The outline that a program draws from the start hole on; `None` when the program is not known.
+    fn outline(&mut self, program: Count, start: &Position, state: &State<D>) -> Step<Option<Outline>> {
         let Count::Known(number) = program else { return Ok(None) };
         let at = self.origin.at;
         let label = self.file(at.file).and_then(|file| file.loaded.outline().label(number, at.block, true));
@@ -196,7 +206,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let kind = if found.is_some() { FrameKind::Local } else { FrameKind::Subprogram };
         drawn.calls.push(Frame::new(kind, first, at, Some(0)));
         let profile = self.read_profile(blocks, Plane::Xy, &mut drawn)?;
-        Ok(Some(profile.segments).filter(|_| profile.complete))
+        let mut distance = *drawn.mode(Role::Distance);
+        if !profile.complete {
+            distance = distance.join(state.mode(Role::Distance));
+        }
+        Ok(Some(Outline { segments: Some(profile.segments).filter(|_| profile.complete), distance }))
     }
 
     /// Radius of the tool that `D` names, now or before; 0 for `D0`, NaN unknown.

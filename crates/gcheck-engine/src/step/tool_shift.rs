@@ -5,7 +5,7 @@
 //! Both add to the programmed point what the control adds, in the axes of the work coordinates. A length along the tool moves
 //! the axes that the block names and no others: an axis that is left out stands still, though the tool has turned.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
 
 use super::{Count, Executor, Step};
@@ -32,9 +32,6 @@ const HEAD: Kinematics = Kinematics {
     sign: [1.0, 1.0],
     pivot_length: None,
 };
-
-/// Parts of a vector that are left out are zero when those that stand make up a length this close to one.
-const COMPLETE_WITHIN: f64 = 0.005;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G143`: the length of `H` along the tool.
@@ -169,8 +166,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(radius) = state.tool_shift.cutter
             && radius != 0.0
         {
-            for (slot, part) in shift.iter_mut().zip(self.vector(state)) {
-                *slot += if part == 0.0 { 0.0 } else { radius * part };
+            // An axis that the block does not name is not shifted (Haas NGC mill manual 2017, p. 313).
+            for ((slot, part), axis) in shift.iter_mut().zip(self.vector(state)).zip(XYZ) {
+                *slot += if part == 0.0 || !self.words.has(axis.letter()) { 0.0 } else { radius * part };
             }
         }
         shift
@@ -185,19 +183,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         kinematics.offset_along_tool([Mm::ZERO; 3], Mm(length), target.abc()).map(|mm| mm.0)
     }
 
-    /// The vector of the block; NaN where it is not known.
+    /// The vector of the block; NaN where it is not known. A part that is not written is zero; the block that switches
+    /// compensation on goes to its point when it has no vector (Haas NGC mill manual 2017, p. 311 and 313).
     fn vector(&self, state: &State<D>) -> [f64; 3] {
         let cycle = state.active_cycle(self.model);
         let is_straight =
             matches!(state.effect(Role::Motion, self.model), Some(Effect::Rapid | Effect::Linear))
                 && cycle.is_some_and(|code| !code.is_some());
         let parts = IJK.map(|letter| self.words.number(Letter::of(letter)));
-        if !is_straight || parts == [None; 3] {
+        let switches_on = |code: &CodeIx| self.model.effect(*code) == Effect::CompensationVector;
+        if !is_straight || parts == [None; 3] && !self.words.codes().iter().any(switches_on) {
             return [f64::NAN; 3];
         }
-        let length = parts.into_iter().flatten().map(|part| part * part).sum::<f64>().sqrt();
-        let left_out = if (length - 1.0).abs() <= COMPLETE_WITHIN { 0.0 } else { f64::NAN };
-        parts.map(|part| part.unwrap_or(left_out))
+        parts.map(|part| part.unwrap_or(0.0))
     }
 
     /// Axes that the block does not name stand still under a length along the tool.

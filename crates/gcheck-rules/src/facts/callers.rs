@@ -8,7 +8,7 @@ use gcheck_engine::{Abstract, Domain, Truth};
 use gcheck_program::{BlockFlags, Op};
 
 use crate::PathCx;
-use crate::facts::usage::{is_assumed, is_called_from_elsewhere};
+use crate::facts::usage::is_assumed;
 
 /// Whether the program has read something on its way that its caller may have given.
 ///
@@ -35,7 +35,7 @@ impl CallerValues {
 
 /// Is the block one of a program that others call, and not of one that this program calls?
 fn is_called(cx: &PathCx<'_>) -> bool {
-    cx.depth() == 1 && is_called_from_elsewhere(cx.survey)
+    cx.depth() == 1 && cx.survey.is_called_from_elsewhere()
 }
 
 /// Does the block read a variable that nobody has set yet, or a mode, a tool or an offset as the control starts with it?

@@ -152,7 +152,11 @@ pub(crate) fn mode_finding(
         ),
         (Role::Length, _) => (
             "work offset measured with a tool length on",
-            "the tool's length would go into the work offset",
+            if cx.origin().letters.contains(Letter::of('Z')) {
+                "the tool's length would go into the work offset"
+            } else {
+                "the control refuses it with a length in effect"
+            },
             "switch the length off (`G49`) before it",
         ),
         _ => {

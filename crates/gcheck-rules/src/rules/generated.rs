@@ -59,6 +59,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pocket_on_wrong_side;
     pub(crate) mod pocket_outline_open;
     pub(crate) mod pocket_outline_too_long;
     pub(crate) mod pocket_outline_unfit;
@@ -76,6 +77,7 @@ pub(crate) mod cycles {
 pub(crate) mod five_axis {
     pub(crate) mod cutter_vector_incomplete;
     pub(crate) mod cutter_vector_not_unit;
+    pub(crate) mod cutter_vector_without_axis;
     pub(crate) mod cutter_vector_without_size;
     pub(crate) mod five_axis_axis_left_out;
     pub(crate) mod five_axis_feed_per_minute;
@@ -110,6 +112,7 @@ pub(crate) mod machine {
     pub(crate) mod feed_above_machine_limit;
     pub(crate) mod five_axis_length_on_another_machine;
     pub(crate) mod move_outside_travel;
+    pub(crate) mod pocket_arc_below_tool;
     pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
@@ -148,6 +151,7 @@ pub(crate) mod macros {
 
 pub(crate) mod mapping {
     pub(crate) mod cylinder_diameter_from_setting;
+    pub(crate) mod cylinder_end_without_begin;
     pub(crate) mod cylinder_feed_mode;
     pub(crate) mod cylinder_left_on;
     pub(crate) mod cylinder_without_rotary_axis;
@@ -422,6 +426,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pocket_on_wrong_side::RULE,
     &cycles::pocket_outline_open::RULE,
     &cycles::pocket_outline_too_long::RULE,
     &cycles::pocket_outline_unfit::RULE,
@@ -436,6 +441,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::turning_start_inside_profile::RULE,
     &five_axis::cutter_vector_incomplete::RULE,
     &five_axis::cutter_vector_not_unit::RULE,
+    &five_axis::cutter_vector_without_axis::RULE,
     &five_axis::cutter_vector_without_size::RULE,
     &five_axis::five_axis_axis_left_out::RULE,
     &five_axis::five_axis_feed_per_minute::RULE,
@@ -464,6 +470,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::feed_above_machine_limit::RULE,
     &machine::five_axis_length_on_another_machine::RULE,
     &machine::move_outside_travel::RULE,
+    &machine::pocket_arc_below_tool::RULE,
     &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
@@ -496,6 +503,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &macros::variable_unlisted::RULE,
     &macros::words_beside_o_word::RULE,
     &mapping::cylinder_diameter_from_setting::RULE,
+    &mapping::cylinder_end_without_begin::RULE,
     &mapping::cylinder_feed_mode::RULE,
     &mapping::cylinder_left_on::RULE,
     &mapping::cylinder_without_rotary_axis::RULE,

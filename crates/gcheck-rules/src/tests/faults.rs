@@ -77,6 +77,7 @@ fn said(fault: &Fault) -> Said {
             CycleFault::Plane | CycleFault::Geometry => By(&["cycle-numbers-contradict"]),
             CycleFault::OutlineOpen(_) | CycleFault::OutlineEmpty => By(&["pocket-outline-open"]),
             CycleFault::StartOutside => By(&["pocket-start-outside"]),
+            CycleFault::ArcBelowTool { .. } => By(&["pocket-arc-below-tool"]),
         },
         Fault::Compensation(fault) => match fault {
             CompensationFault::EntryTooShort { .. } => By(&["lead-in-too-short"]),
@@ -231,6 +232,7 @@ fn detailed_faults() -> Vec<Fault> {
             CycleFault::OutlineOpen(1.0),
             CycleFault::OutlineEmpty,
             CycleFault::StartOutside,
+            CycleFault::ArcBelowTool { arc: 1.0, tool: 2.0 },
         ]
         .map(Fault::Cycle),
     );

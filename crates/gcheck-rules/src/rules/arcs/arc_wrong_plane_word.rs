@@ -74,6 +74,13 @@ impl PathRule for ArcWrongPlaneWord {
                     report.add(alone(cx, foreign, plane));
                 }
             }
+            // `J` was meant to be the distance to the centre.
+            Fault::Arc(ArcFault::ZeroRadius) => {
+                let foreign = centre_word_across(plane);
+                if is_nonzero(cx, foreign) {
+                    report.add(alone(cx, foreign, plane));
+                }
+            }
             // The words of a helix in another plane seldom meet on a circle.
             Fault::Arc(ArcFault::OffCircle { .. } | ArcFault::RadiusTooSmall { .. }) => {
                 let foreign = centre_word_across(plane);
@@ -158,7 +165,7 @@ const fn name_of(plane: Plane) -> &'static str {
 /// The word across is the only one: the arc has neither a centre in its plane nor a radius.
 fn alone(cx: &PathCx<'_>, letter: char, plane: Plane) -> Finding {
     let finding = finding(cx, letter, plane)
-        .note("without another centre word or a radius, the arc has no centre in its plane")
+        .note("without a distance in another centre word, or a radius, the arc has no centre in its plane")
         .at_most(Severity::Warning);
     match cx.model.semantics().arcs.straight_setting.as_deref() {
         Some(setting) => finding.note(format!("setting {setting} decides: a straight line, or an alarm")),
@@ -213,6 +220,19 @@ mod tests {
                   |              ^^ error[arc-wrong-plane-word] `J` does not belong to an arc in the ZX plane
                 3 | G17 G2 X0 Y0 K1
                   |              ^^ error[arc-wrong-plane-word] `K` does not belong to an arc in the XY plane
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_zero_beside_it_is_no_centre() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X3. Y1. Z.05\nG18\nG2 I0 J.25 Z-.1 F12.\nM30\n",
+            &expect![[r#"
+                3 | G2 I0 J.25 Z-.1 F12.
+                  |       ^^^^ warning[arc-wrong-plane-word] `J` does not belong to an arc in the ZX plane
             "#]],
         );
     }

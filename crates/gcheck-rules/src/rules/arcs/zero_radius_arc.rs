@@ -1,6 +1,8 @@
 //! An arc without size.
 
+use gcheck_controls::Letter;
 use gcheck_engine::{ArcFault, Fault};
+use gcheck_geometry::Plane;
 
 use crate::declare::declare_rule;
 use crate::facts::arcs::{counts_least_increments, limited_by_arc_facts};
@@ -40,7 +42,7 @@ impl PathRule for ZeroRadiusArc {
         if *fault != Fault::Arc(ArcFault::ZeroRadius) {
             return;
         }
-        if counts_least_increments(cx) {
+        if counts_least_increments(cx) || has_centre_word_across(cx) {
             return;
         }
         let is_size = |word: &gcheck_program::Word| matches!(word.letter.ascii(), b'I' | b'J' | b'K' | b'R');
@@ -50,6 +52,17 @@ impl PathRule for ZeroRadiusArc {
             .help("give the distance from the start to the centre, or write a straight move (`G1`)");
         report.add(limited_by_arc_facts(cx, finding));
     }
+}
+
+/// Has the block the centre word of the axis that is perpendicular to its plane, and not a zero? The word is what is wrong then.
+fn has_centre_word_across(cx: &PathCx<'_>) -> bool {
+    let across = match cx.state().plane(cx.model) {
+        Some(Plane::Xy) => 'K',
+        Some(Plane::Zx) => 'J',
+        Some(Plane::Yz) => 'I',
+        None => return false,
+    };
+    cx.has_word(|word| word.letter == Letter::of(across) && word.number().is_some_and(|number| number.abs() > 0.0))
 }
 
 #[cfg(test)]
@@ -71,6 +84,16 @@ mod tests {
                 3 | G3 X20 Y0 R0
                   |           ^^ error[zero-radius-arc] arc with a radius of zero
             "#]],
+        );
+    }
+
+    #[test]
+    fn the_centre_word_of_another_plane_is_reported_elsewhere() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G20 G90 G54 G0 X3. Y1. Z.05\nG18\nG2 I0 J.25 Z-.1 F12.\nM30\n",
+            &expect![[""]],
         );
     }
 

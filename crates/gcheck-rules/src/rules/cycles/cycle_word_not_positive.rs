@@ -59,7 +59,8 @@ impl PathRule for CycleWordNotPositive {
         };
         let codes = cx.codes();
         let mut codes = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
-        if word.is_some_and(|word| word.number().is_some()) && codes.any(is_judged) {
+        // The range of the word says so, of a number as of a computed value.
+        if word.is_some() && codes.any(is_judged) {
             return;
         }
         let range =

@@ -17,7 +17,7 @@ declare_rule! {
     ///
     /// ## Why it matters
     /// The control only reads the outline; it does not execute it. A rapid move, a cycle, a tool change or a depth in
-    /// it is refused with an alarm, or ignored.
+    /// it is refused with an alarm, or ignored. Macro variables cannot be used in it.
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -97,6 +97,16 @@ fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Repor
                 .label("the control takes no variables in an outline")
                 .help("write the outline with numbers")
                 .at_most(Severity::Warning);
+            report.add(of_pocket(cx, finding, code));
+            return;
+        }
+        if let Some(word) = words.iter().find(|word| place.table.reads_variable(word)) {
+            let letter = word.letter;
+            let finding = cx
+                .finding(&META, range(word), format!("the pocket's outline has a macro variable (`{letter}`)"))
+                .label("the control takes no variables in an outline")
+                .help("write the outline with numbers")
+                .at_most(limit(code.entry().confidence));
             report.add(of_pocket(cx, finding, code));
             return;
         }
@@ -254,6 +264,20 @@ mod tests {
                   | ^^^ error[pocket-outline-unfit] the pocket's outline has the end of the program (`M30`)
             "#]],
         );
+    }
+
+    #[test]
+    fn variables_are_refused_though_their_value_is_known() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &format!("#110=2.\n{HEAD}G1 Y1.\nX-#110\nY[-1.]\nM99\n"),
+            &expect![[r#"
+                8 | X-#110
+                  | ^^^^^^ error[pocket-outline-unfit] the pocket's outline has a macro variable (`X`)
+            "#]],
+        );
+        check_rule(&RULE, "haas-mill", &format!("{HEAD}G1 Y1.\nX[1.+1.]\nM99\n"), &expect![[""]]);
     }
 
     #[test]

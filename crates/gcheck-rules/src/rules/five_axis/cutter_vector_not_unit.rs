@@ -23,7 +23,7 @@ declare_rule! {
     /// point of the box I ± e, J ± e, K ± e that is nearest to zero is not beyond 1, and the farthest is not short of
     /// it. So the length may differ from 1 by at most √3 · e, and I² + J² + K² by about twice that: 0.0017 with three
     /// decimals, 0.00017 with four. n is the largest number of decimals among the three, and at least two. A computed
-    /// component counts as one with two decimals.
+    /// component counts as one with two decimals. A component that is not written is zero.
     ///
     /// The three numbers have the control's meaning: they are not lengths and are not converted between inch and
     /// millimetre, but a number without a decimal point counts least increments (`K1` is 0.0001 in inch).
@@ -78,8 +78,8 @@ impl PathRule for CutterVectorNotUnit {
             return;
         }
         let [least, most] = lengths(&given);
-        let is_whole = given.len() == IJK.len();
-        if least > 1.0 || is_whole && most < 1.0 {
+        // A component that is not written is zero.
+        if least > 1.0 || most < 1.0 {
             let finding = finding(cx, *parts, &words, decimals, mode);
             report.add(resting_on_mode(cx, finding, Role::Compensation));
         }

@@ -2,13 +2,13 @@
 
 use std::ops::Range;
 
-use gcheck_controls::{CodeIx, LetterSet};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_controls::{CodeIx, Effect, LetterSet};
+use gcheck_engine::{At, Axis, Event, Fact, Role};
 use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::facts::modes::ignores_distance_mode;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -34,14 +34,23 @@ declare_rule! {
     /// G0 X50.
     /// M30
     /// ```
+    /// The end of cylindrical mapping is reported as a warning: without it the next move turns the part.
+    /// ```nc,reported,haas-mill
+    /// G90 G54 G0 X0. Y0. A0.
+    /// G107 Y0. A0. Q50.
+    /// G1 Y10. F100.
+    /// /G107
+    /// G0 Y50.
+    /// M30
+    /// ```
     rule "modal-change-in-skipped-block" in "modal" {
         summary: "mode depends on the block delete switch",
-        severity: Info,
+        severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
             watch: Watch::BLOCKS.union(Watch::RAPIDS).union(Watch::CUTS),
-            make: || Box::new(ModalChangeInSkippedBlock { skipped: Vec::new(), changes: Vec::new() }),
+            make: || Box::new(ModalChangeInSkippedBlock { skipped: Vec::new(), changes: Vec::new(), unwrapped: None }),
         },
     }
 }
@@ -76,9 +85,22 @@ struct ModalChangeInSkippedBlock {
     skipped: Vec<(Role, CodeIx)>,
     /// The last change of each role by a block to be skipped.
     changes: Vec<Change>,
+    /// A block to be skipped that ended cylindrical mapping: the wrapped axis, the one that turned, the code.
+    unwrapped: Option<Unwrapped>,
 }
 
-remembers!(ModalChangeInSkippedBlock: changes);
+remembers!(ModalChangeInSkippedBlock: changes, unwrapped);
+
+/// The end of cylindrical mapping in a block to be skipped.
+#[derive(Clone, PartialEq)]
+struct Unwrapped {
+    linear: Axis,
+    rotary: Axis,
+    name: String,
+    range: Range<u32>,
+}
+
+remembers!(Unwrapped: range);
 
 impl PathRule for ModalChangeInSkippedBlock {
     fn memory(&mut self) -> Remembers<'_> {
@@ -90,6 +112,7 @@ impl PathRule for ModalChangeInSkippedBlock {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, _: &mut Report<'_>) {
+        self.note_mapping(cx);
         for code in cx.codes().iter().copied() {
             let Some(role) = cx.model.role(code).filter(|role| ROLES.contains(role)) else { continue };
             if !is_optional(cx) {
@@ -123,10 +146,43 @@ fn is_optional(cx: &PathCx<'_>) -> bool {
 }
 
 impl ModalChangeInSkippedBlock {
+    /// The code that begins mapping ends it too, so its mode does not tell them apart.
+    fn note_mapping(&mut self, cx: &PathCx<'_>) {
+        let is_mapping = |effect| effect == Effect::CylinderMapping;
+        if !cx.has_effect(is_mapping) {
+            return;
+        }
+        self.unwrapped = None;
+        let ends = !cx.origin().letters.intersects(LetterSet::of("XYZABCQR"));
+        if let Some(cylinder) = cx.state().wrapped().cylinder().filter(|_| ends && is_optional(cx)) {
+            self.unwrapped = Some(Unwrapped {
+                linear: cylinder.linear,
+                rotary: cylinder.rotary,
+                name: cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default(),
+                range: cx.effect_range(is_mapping),
+            });
+        }
+    }
+
+    fn still_wrapped(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let moves = |unwrapped: &Unwrapped| cx.origin().letters.contains(unwrapped.linear.letter());
+        let Some(Unwrapped { linear, rotary, name, range }) = self.unwrapped.take_if(|it| moves(it)) else { return };
+        let (linear, rotary) = (linear.name(), rotary.name());
+        report.add(
+            cx.finding(&META, range, format!("what follows depends on the block delete switch (`/`, `{name}`)"))
+                .label(format!("ends the mapping of {linear} only when the switch is off"))
+                .also(cx.range(), format!("moves {linear}, or turns {rotary} when that block is skipped"))
+                .help(format!("write `{name}` in a block without `/`")),
+        );
+    }
+
     fn moves(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         if cx.survey.block_deletes == 0 {
             cx.enough();
             return;
+        }
+        if !is_optional(cx) {
+            self.still_wrapped(cx, report);
         }
         if self.changes.is_empty()
             || is_optional(cx)
@@ -164,7 +220,8 @@ impl ModalChangeInSkippedBlock {
                 )
                 .label("changes a mode only when the switch is off")
                 .also(cx.range(), otherwise)
-                .help("set the mode back in a block with `/`, or state it in the next block without `/`"),
+                .help("set the mode back in a block with `/`, or state it in the next block without `/`")
+                .at_most(Severity::Info),
             );
         }
     }

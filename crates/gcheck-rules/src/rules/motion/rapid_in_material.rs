@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use gcheck_engine::{Axis, Event, Travel, TravelKind};
-use gcheck_geometry::Mm;
+use gcheck_engine::{ArcMove, Axis, Event, Travel, TravelKind};
+use gcheck_geometry::{Mm, Plane};
 
 use crate::declare::declare_rule;
 use crate::facts::cuts::{Clear, Cuts, LEVEL, SURFACE, distance, point};
@@ -83,6 +83,8 @@ remembers!(Rapid: bytes);
 const MOST_WAITING: usize = 32;
 /// Shorter ways say nothing: millimetres.
 const SHORT: f64 = 1.0;
+/// Chords that an arc is looked at as: with 24, a circle of 100 mm is off by less than 0.5 mm.
+const CHORDS: u8 = 24;
 /// A level counts as depth if it is lower than the highest rapid move by more than this: millimetres.
 const LIFT: f64 = 0.5;
 
@@ -103,12 +105,15 @@ impl PathRule for RapidInMaterial {
             }
             return;
         };
-        if let Event::Travel(travel) = event {
-            if travel.kind == TravelKind::Rapid {
-                self.rapid(cx, cuts, travel);
-            } else if !self.waiting.is_empty() {
-                self.tell(cx, cuts, travel, report);
+        match event {
+            Event::Travel(travel) if travel.kind == TravelKind::Rapid => self.rapid(cx, cuts, travel),
+            Event::Travel(travel) if travel.kind == TravelKind::Feed && !self.waiting.is_empty() => {
+                if let (Some(from), Some(to)) = (point(&travel.from), point(&travel.to)) {
+                    self.tell(cx, cuts, from, to, report);
+                }
             }
+            Event::Arc(arc) if !self.waiting.is_empty() => self.tell_arc(cx, cuts, arc, report),
+            _ => {}
         }
     }
 }
@@ -136,11 +141,37 @@ impl RapidInMaterial {
         }
     }
 
+    /// The same as [`Self::tell`] for an arc in the XY plane, as chords.
+    fn tell_arc(&mut self, cx: &PathCx<'_>, cuts: &Cuts, arc: &ArcMove, report: &mut Report<'_>) {
+        let (Some([x0, y0, z0]), Some([x1, y1, z1])) = (point(&arc.from), point(&arc.to)) else { return };
+        let [cx_mm, cy_mm] = [arc.centre.0.0, arc.centre.1.0];
+        let is_flat = arc.plane == Plane::Xy && (z0 - z1).abs() <= LEVEL;
+        if !is_flat || ![cx_mm, cy_mm, arc.sweep].into_iter().all(f64::is_finite) {
+            return;
+        }
+        // More than a turn cuts the same circle again.
+        let sweep = arc.sweep.clamp(-std::f64::consts::TAU, std::f64::consts::TAU);
+        let (radius, start) = ((x0 - cx_mm).hypot(y0 - cy_mm), (y0 - cy_mm).atan2(x0 - cx_mm));
+        let mut from = [x0, y0, z0];
+        for chord in 1..=CHORDS {
+            let angle = start + sweep * f64::from(chord) / f64::from(CHORDS);
+            let end = [cx_mm + radius * angle.cos(), cy_mm + radius * angle.sin()];
+            let to = if chord == CHORDS { [x1, y1, z1] } else { [end[0], end[1], z0] };
+            self.tell(cx, cuts, from, to, report);
+            from = to;
+        }
+    }
+
     /// Does this cut cross a rapid move that waits, where nothing was cut before it?
-    fn tell(&mut self, cx: &PathCx<'_>, cuts: &Cuts, travel: &Travel, report: &mut Report<'_>) {
-        let (Some(from), Some(to)) = (point(&travel.from), point(&travel.to)) else { return };
-        let ([x0, y0, z0], [x1, y1, z1]) = (from, to);
-        if travel.kind != TravelKind::Feed || (z0 - z1).abs() > LEVEL {
+    fn tell(
+        &mut self,
+        cx: &PathCx<'_>,
+        cuts: &Cuts,
+        [x0, y0, z0]: [f64; 3],
+        [x1, y1, z1]: [f64; 3],
+        report: &mut Report<'_>,
+    ) {
+        if (z0 - z1).abs() > LEVEL {
             return;
         }
         self.waiting.retain(|rapid| {
@@ -209,6 +240,25 @@ mod tests {
               | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
         "#]],
         );
+    }
+
+    #[test]
+    fn an_arc_that_cuts_there_later_counts_too() {
+        let bores = |lift: &str| {
+            format!(
+                "G20 G90 G54 G0 X.2 Y0.\nG43 H1 Z1.\nG1 Z-.5 F20.\nG3 I-.2\nG1 X0.\n{lift}G0 X3.2\nZ.1\nG1 Z-.5\nG3 I-.2\nG1 X3.\nG0 Z1.\nM30\n"
+            )
+        };
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &bores(""),
+            &expect![[r#"
+                6 | G0 X3.2
+                  | ^^^^^^^ warning[rapid-in-material] rapid move through material that is cut only later
+            "#]],
+        );
+        check_rule(&RULE, "haas-mill", &bores("G0 Z.1\n"), &expect![[""]]);
     }
 
     #[test]

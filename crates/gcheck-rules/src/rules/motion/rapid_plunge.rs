@@ -62,6 +62,8 @@ struct RapidPlunge {
     fed: u8,
     /// Rapid moves down from where the tool cut on sideways: the first, and how many.
     odd: Option<(Finding, u32)>,
+    /// The largest radius around which the drawing was wrapped, millimetres.
+    widest: f64,
 }
 
 remembers!(RapidPlunge: plunge, odd);
@@ -112,7 +114,8 @@ impl PathRule for RapidPlunge {
                 Some(plunge) if travel.kind == TravelKind::Feed => self.note(cx, &plunge, &travel.to),
                 _ => {}
             }
-            self.plunge = look(cx, cuts, travel);
+            let surface = self.surface(cx);
+            self.plunge = look(cx, cuts, travel, surface);
         } else if let (Some(plunge), Event::Arc(arc)) = (plunge, event) {
             self.note(cx, &plunge, &arc.to);
         }
@@ -127,6 +130,18 @@ impl PathRule for RapidPlunge {
 }
 
 impl RapidPlunge {
+    /// Where the part begins, in Z: at its zero, or where a step of a shaft lies below the widest one.
+    fn surface(&mut self, cx: &PathCx<'_>) -> f64 {
+        let Some(cylinder) = cx.state().wrapped().cylinder() else { return 0.0 };
+        let radius = cylinder.diameter / 2.0;
+        if radius.is_finite() {
+            self.widest = self.widest.max(radius);
+            radius - self.widest
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
     /// Keeps a rapid move down after which the tool cuts on sideways.
     fn note(&mut self, cx: &PathCx<'_>, plunge: &Plunge, to: &Position) {
         let cuts_on = point(to).is_some_and(|[.., z]| (z - plunge.to[2]).abs() < LEVEL);
@@ -145,14 +160,14 @@ impl RapidPlunge {
 }
 
 /// A rapid move from above the part to a depth that nothing has reached at that place.
-fn look(cx: &PathCx<'_>, cuts: &Cuts, travel: &Travel) -> Option<Plunge> {
+fn look(cx: &PathCx<'_>, cuts: &Cuts, travel: &Travel, surface: f64) -> Option<Plunge> {
     if travel.kind != TravelKind::Rapid || travel.expanded {
         return None;
     }
     let to = point(&travel.to)?;
     let above = travel.from.get(gcheck_engine::Axis::Z)? >= 0.0;
     let [x, y, z] = to;
-    if !above || z >= -LEVEL {
+    if !above || z >= surface - LEVEL {
         return None;
     }
     let clear = Clear::of(cx);
@@ -208,6 +223,25 @@ mod tests {
                   | ^^^^^^^ warning[rapid-plunge] rapid move down into the part
                 5 | X50. Z-3.
                   | ^^^^^^^^^ warning[rapid-plunge] rapid move down into the part
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_narrower_step_of_a_shaft_lies_deeper() {
+        let shaft = |radius: &str, z: &str| {
+            format!(
+                "G20 G90 G54 G0 X0. Y0. Z1.\nG107 Y0. A0. R1.5\nG0 Z.1\nG1 Z-.05 F10.\nY4.\nG0 Z1.\nG107\nG107 Y0. A0. R{radius}\nG0 X3.\nZ{z}\nG1 Z-.4\nG0 Z1.\nG107\nM30\n"
+            )
+        };
+        check_rule(&RULE, "haas-mill", &shaft("1.25", "-.15"), &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            &shaft("1.25", "-.3"),
+            &expect![[r#"
+                10 | Z-.3
+                   | ^^^^ warning[rapid-plunge] rapid move down into the part
             "#]],
         );
     }
