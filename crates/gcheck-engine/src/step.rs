@@ -127,11 +127,15 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     flow: Option<Flow<D>>,
     /// `G53`, `G9` and the like: what holds for this block only.
     machine_coordinates: bool,
-    /// Goes on behind what the control refuses, as an analysis does that looks for more than one mistake.
+    /// Goes on after what the control refuses, as an analysis does that looks for more than one mistake.
     pub(crate) lenient: bool,
     /// What was refused in the block under way.
     refused: Option<Fault>,
-    /// What was refused in a block that leads elsewhere all the same, where a run goes on past alarms.
+    /// What went before the block under way, where execution goes on past alarms.
+    before: Option<past_alarm::Before>,
+    /// Moves given out so far, but those of compensated paths.
+    moves: u64,
+    /// What was refused in a block that leads elsewhere all the same, where execution goes on past alarms.
     pub(crate) refused_in_passing: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
     passes_exactly: bool,
@@ -215,6 +219,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             machine_coordinates: false,
             lenient: false,
             refused: None,
+            before: None,
+            moves: 0,
             refused_in_passing: None,
             passes_exactly: false,
             rest_is_lost: false,
@@ -270,6 +276,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
+        if self.lenient {
+            self.before = Some(self.before_block(state));
+        }
         let outcome = self.run_block(&place, table, block, state);
         if !matches!(outcome, Outcome::Fault(_)) {
             self.observer.after(self.origin, state);
@@ -358,8 +367,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if !self.pending.is_empty() {
             let mut pending = std::mem::take(&mut self.pending);
             for (target, value) in pending.drain(..) {
-                if let Some(end) = self.assign(target, value, state)? {
-                    return Ok(end);
+                match self.assign(target, value, state) {
+                    Ok(None) => {}
+                    Ok(Some(end)) => return Ok(end),
+                    Err(fault) => self.refuse(fault)?,
                 }
             }
             self.pending = pending;
@@ -409,6 +420,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if state.compensation.is_followed() && !at_once {
             self.emit_compensated(state, event);
         } else {
+            let is_move =
+                matches!(event, Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. });
+            self.moves += u64::from(is_move);
             self.observer.event(self.origin, state, &event);
         }
     }
@@ -544,11 +558,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if let Err(fault) = self.check_block(place, words, state) {
             self.refuse(fault)?;
         }
-        if state.tool_shift.is_on() {
-            self.words_of_tool_shift(state)?;
+        if state.tool_shift.is_on()
+            && let Err(fault) = self.words_of_tool_shift(state)
+        {
+            self.refuse(fault)?;
         }
-        if self.words.present().intersects(self.model.lasting) {
-            self.remember_lasting_words(state)?;
+        if self.words.present().intersects(self.model.lasting)
+            && let Err(fault) = self.remember_lasting_words(state)
+        {
+            self.refuse(fault)?;
+            (state.tool.h, state.tool.d) = (D::unknown(), D::unknown());
         }
         let present = self.words.present();
         let codes = self.words.codes();
@@ -556,7 +575,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         // A block that only moves: nothing to put in order.
         if codes.is_empty() && !present.intersects(FEED_SPEED_TOOL) {
             return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns {
-                self.motion(state)
+                let done = self.motion(state);
+                self.past(done, Action::Motion, state)
             } else {
                 Ok(())
             };
@@ -577,7 +597,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         for ix in codes {
             let Some(code) = self.model.code(*ix) else { continue };
             if self.model.contracts.get(ix.index()).is_some_and(|contract| contract.first_only) {
-                return self.code(*ix, place, words, state);
+                let first = *ix;
+                let done = self.code(first, place, words, state);
+                return self.past(done, Action::Code(first), state);
             }
             match code.effect {
                 Effect::MachineCoordinates => {
@@ -620,13 +642,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let cancels = |action: &Action| matches!(action, Action::Code(ix) if *ix == self.model.cycle_cancel);
         actions.sort_by_key(|(rank, action)| (*rank, !cancels(action)));
         for (_, action) in actions.iter().copied() {
-            match action {
-                Action::Code(code) => self.code(code, place, words, state)?,
-                Action::Feed => self.feed_word(state)?,
-                Action::Speed => self.speed_word(state)?,
-                Action::Tool => self.tool_word(state)?,
-                Action::Motion => self.motion(state)?,
-            }
+            let done = match action {
+                Action::Code(code) => self.code(code, place, words, state),
+                Action::Feed => self.feed_word(state),
+                Action::Speed => self.speed_word(state),
+                Action::Tool => self.tool_word(state),
+                Action::Motion => self.motion(state),
+            };
+            self.past(done, action, state)?;
             if std::mem::take(&mut self.rest_is_lost) {
                 break;
             }
@@ -695,7 +718,22 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     // ---- expressions ----
 
+    /// The value of an expression. An execution that goes on past alarms takes one that has none for unknown.
     fn evaluate(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        expr: &Expr,
+        state: &State<D>,
+    ) -> Step<D::Value> {
+        self.value_of(place, table, expr, state).or_else(|fault| {
+            self.refuse(fault)?;
+            Ok(D::unknown())
+        })
+    }
+
+    /// The value of an expression, or why it has none.
+    fn value_of(
         &mut self,
         place: &Place,
         table: &BlockTable,
@@ -905,10 +943,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let target = self.assignee(place, table, target, state)?;
                     let value = self.evaluate(place, table, table.expr(*value), state)?;
                     if self.model.semantics().assignments_after_block {
-                        self.check_assignable(target)?;
-                        self.pending.push((target, value));
-                    } else if let Some(end) = self.assign(target, value, state)? {
-                        return Ok(Statements::Done(end));
+                        match self.check_assignable(target) {
+                            Ok(()) => self.pending.push((target, value)),
+                            Err(fault) => self.refuse(fault)?,
+                        }
+                        continue;
+                    }
+                    match self.assign(target, value, state) {
+                        Ok(None) => {}
+                        Ok(Some(end)) => return Ok(Statements::Done(end)),
+                        Err(fault) => self.refuse(fault)?,
                     }
                 }
                 StatementKind::If { condition } | StatementKind::Guard { condition } => {
@@ -926,7 +970,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 StatementKind::Goto { target } => {
                     let Some(target) = target else { return Err(Fault::Malformed) };
-                    let value = self.evaluate(place, table, table.expr(*target), state)?;
+                    let value = self.value_of(place, table, table.expr(*target), state)?;
                     return self.jump_to_label(&value, state).map(Statements::Done);
                 }
                 StatementKind::Do { condition, .. } => {
