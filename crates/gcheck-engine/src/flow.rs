@@ -522,8 +522,8 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         self.executor.observer.events = 0;
         let outcome = self.executor.step(at, state);
         if let Some(fault) = self.executor.refused_in_passing.take() {
-            self.executor.fault(state, &fault);
-            self.lose_way(at, &fault);
+            self.tell(at, &fault, state);
+            self.executor.give_out_bridge(state);
         }
         // The first event of a block is the block's own work.
         self.work += 1 + self.executor.observer.events.saturating_sub(1);
@@ -640,13 +640,16 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
 
     /// After a block that was refused: the observer is told, and execution goes on where it does once the block is corrected.
     fn go_on(&mut self, at: At, fault: &Fault, state: &mut State<Abstract>) -> Option<At> {
-        self.executor.fault(state, fault);
-        self.lose_way(at, fault);
+        self.tell(at, fault, state);
         self.executor.go_on(at, fault, state)
     }
 
-    /// Notes a refused block that may lead elsewhere once it is corrected.
-    fn lose_way(&mut self, at: At, fault: &Fault) {
+    /// Tells the observer of a refused block, and notes it where it may lead elsewhere once it is corrected.
+    fn tell(&mut self, at: At, fault: &Fault, state: &State<Abstract>) {
+        match self.executor.take_state_at_fault() {
+            Some(then) => self.executor.fault(&then, fault),
+            None => self.executor.fault(state, fault),
+        }
         let may_lead_elsewhere = matches!(
             fault,
             Fault::NoSuchLabel(_)

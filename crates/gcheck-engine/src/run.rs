@@ -103,6 +103,7 @@ pub fn run<O: Observer<Concrete>>(
         {
             let origin = executor.origin();
             alarms.add(&mut executor.observer, origin, &state, fault);
+            executor.give_out_bridge(&mut state);
         }
         match outcome {
             Outcome::Next => at = at.next(),

@@ -135,6 +135,10 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     before: Option<past_alarm::Before>,
     /// Moves given out so far, but those of compensated paths.
     moves: u64,
+    /// The line to where a refused move leads, to be given out when the observer has been told of the alarm.
+    bridge: Option<Event>,
+    /// The state in which a part of the block was refused first, where execution goes on past alarms.
+    at_fault: Option<Box<State<D>>>,
     /// What was refused in a block that leads elsewhere all the same, where execution goes on past alarms.
     pub(crate) refused_in_passing: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
@@ -221,6 +225,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             refused: None,
             before: None,
             moves: 0,
+            bridge: None,
+            at_fault: None,
             refused_in_passing: None,
             passes_exactly: false,
             rest_is_lost: false,
@@ -278,6 +284,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.pending.clear();
         if self.lenient {
             self.before = Some(self.before_block(state));
+            (self.bridge, self.at_fault) = (None, None);
         }
         let outcome = self.run_block(&place, table, block, state);
         if !matches!(outcome, Outcome::Fault(_)) {
@@ -566,7 +573,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if self.words.present().intersects(self.model.lasting)
             && let Err(fault) = self.remember_lasting_words(state)
         {
-            self.refuse(fault)?;
+            self.refuse_in(fault, state)?;
             (state.tool.h, state.tool.d) = (D::unknown(), D::unknown());
         }
         let present = self.words.present();

@@ -59,8 +59,8 @@ fn an_arc_off_its_circle_is_a_line_to_its_end() {
         &expect![[r#"
             rapid X0 Y0 Z5
             feed X10 Y0 Z5
-            feed X20 Y0 Z5
             block 3: Arc(OffCircle { start: 3.0, end: 7.0 })
+            feed X20 Y0 Z5
             feed X20 Y10 Z5
             Ended(Program), 1 alarms
         "#]],
@@ -90,12 +90,12 @@ fn a_half_typed_cycle_goes_to_its_hole_and_the_rest_is_run() {
     check(
         "O1\nG21 G90 G0 X0. Y0. Z50.\nG83 X5. Y6.\nG80\nG0 X9.\nM30\n",
         &expect![[r#"
-            rapid X0 Y0 Z50
-            rapid X5 Y6 Z50
-            block 2: Cycle(Missing(R))
-            rapid X9 Y6 Z50
-            Ended(Program), 1 alarms
-        "#]],
+        rapid X0 Y0 Z50
+        block 2: Cycle(Missing(R))
+        rapid X5 Y6 Z50
+        rapid X9 Y6 Z50
+        Ended(Program), 1 alarms
+    "#]],
     );
 }
 

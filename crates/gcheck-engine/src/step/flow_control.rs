@@ -645,10 +645,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                         OLabel::Number(number) => number.to_string(),
                         OLabel::Computed => String::new(),
                     }));
-                    if self.lenient {
-                        self.lose_everything(state)?;
-                    }
-                    return Err(Fault::NoSuchProgram);
+                    self.refuse_in(Fault::NoSuchProgram, state)?;
+                    self.lose_everything(state)?;
+                    return Ok(Outcome::Next);
                 };
                 let callee = Callee { arguments: values, ..Callee::plain(FrameKind::OWord, target, 0) };
                 self.enter(callee, state)

@@ -48,10 +48,23 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if matches!(fault, Fault::NoProgramEnd) || self.place(at).is_none() {
             return self.return_from_unfinished(state);
         }
+        self.give_out_bridge(state);
         if *fault == Fault::TooDeep {
             return Some(self.pass_over_recursion(at, state));
         }
         Some(at.next())
+    }
+
+    /// When the observer has been told of an alarm: the line to where the refused move leads.
+    pub(crate) fn give_out_bridge(&mut self, state: &mut State<D>) {
+        if let Some(event) = self.bridge.take() {
+            self.emit(state, event);
+        }
+    }
+
+    /// The state in which the block was refused: that before its refused part became unknown.
+    pub(crate) fn take_state_at_fault(&mut self) -> Option<Box<State<D>>> {
+        self.at_fault.take()
     }
 
     /// A subprogram whose text ends without a return goes back to its caller; a main program is over.
@@ -88,9 +101,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// the block.
     pub(super) fn past(&mut self, done: Step, action: Action, state: &mut State<D>) -> Step {
         let Err(fault) = done else { return Ok(()) };
-        if !self.lenient {
-            return Err(fault);
-        }
+        self.refuse_in(fault.clone(), state)?;
         match action {
             Action::Code(ix) => self.lose_code(ix, &fault, state),
             Action::Feed => {
@@ -101,12 +112,19 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Action::Tool => self.lose_tool_word(state),
             Action::Motion => self.end_refused_move(&fault, state),
         }
-        self.refuse(fault)
+        Ok(())
+    }
+
+    /// As [`Executor::refuse`], before what the refused part was to change becomes unknown.
+    pub(super) fn refuse_in(&mut self, fault: Fault, state: &State<D>) -> Step {
+        self.refuse(fault)?;
+        self.at_fault.get_or_insert_with(|| Box::new(state.clone()));
+        Ok(())
     }
 
     /// A move was refused: the axes go where the block means them to go.
     fn end_refused_move(&mut self, fault: &Fault, state: &mut State<D>) {
-        self.bridge(fault, state);
+        self.draw_bridge(fault, state);
         if !self.leaves_to_rules() {
             return;
         }
@@ -130,7 +148,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// A straight line to where the refused block leads, unless it moved.
-    fn bridge(&mut self, fault: &Fault, state: &mut State<D>) {
+    fn draw_bridge(&mut self, fault: &Fault, state: &mut State<D>) {
         let Some(before) = self.before else { return };
         if state.compensation.is_followed() {
             return self.bridge_beside(state);
@@ -171,7 +189,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let kind = if in_cycle { TravelKind::Rapid } else { TravelKind::Feed };
         let (from, programmed, to) = (before.actual, *state.position(), *state.actual());
-        self.emit(state, Event::Travel(Travel { kind, from, programmed, to, expanded: true }));
+        self.bridge = Some(Event::Travel(Travel { kind, from, programmed, to, expanded: true }));
     }
 
     /// A refused move under cutter compensation ends at its point; how the path beside it goes on is not known.

@@ -69,12 +69,18 @@ impl PathRule for CheckedPastAlarm {
         let is_elsewhere = matches!(fault, Fault::NoSuchLabel(_))
             && is_called_from_elsewhere(cx.survey)
             && cx.state().frames().len() <= 1;
-        if is_elsewhere {
+        // What the machine's builder or user added is not in the file.
+        let is_users =
+            cx.codes().iter().any(|ix| cx.code_of(*ix).is_some_and(gcheck_controls::Code::is_user));
+        if is_elsewhere || is_users {
             return;
         }
         self.told = true;
         let finding = crate::Finding::new(&META, cx.range(), "the check goes on past this alarm")
-            .label("the control stops here")
+            .label(match fault {
+                Fault::NoSuchProgram => "the control stops here if it does not have the program",
+                _ => "the control stops here",
+            })
             .note("what follows is checked as if this block were corrected")
             .help("correct this block first");
         report.add(finding);
@@ -90,7 +96,15 @@ mod tests {
 
     #[test]
     fn the_first_alarm_of_a_file_is_marked() {
-        check_rule(&RULE, "fanuc-mill", "O1\nG0 X1.\nGOTO 20\nG0 X2.\nGOTO 30\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nG0 X1.\nGOTO 20\nG0 X2.\nGOTO 30\nM30\n",
+            &expect![[r#"
+            3 | GOTO 20
+              | ^^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+        "#]],
+        );
     }
 
     #[test]
@@ -99,13 +113,24 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "O1\n#1=0\nWHILE [#1 LT 3] DO1\nM98 P2\n#1=#1+1\nEND1\nM30\nO2\nGOTO 9\nG0 X1.\nM99\n",
-            &expect![[""]],
+            &expect![[r#"
+                9 | GOTO 9
+                  | ^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+            "#]],
         );
     }
 
     #[test]
     fn a_missing_subroutine_is_passed_over() {
-        check_rule(&RULE, "linuxcnc", "G0 X1\no1 call\nG0 X2\nM2\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G0 X1\no1 call\nG0 X2\nM2\n",
+            &expect![[r#"
+            2 | o1 call
+              | ^^^^^^^ info[checked-past-alarm] the check goes on past this alarm
+        "#]],
+        );
     }
 
     #[test]
