@@ -562,26 +562,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Puts the parts of the block in the control's order and executes them.
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
-        if let Err(fault) = self.check_block(place, words, state) {
-            self.refuse(fault)?;
-        }
-        if state.tool_shift.is_on()
-            && let Err(fault) = self.words_of_tool_shift(state)
-        {
-            self.refuse(fault)?;
-        }
-        if self.words.present().intersects(self.model.lasting)
-            && let Err(fault) = self.remember_lasting_words(state)
-        {
-            self.refuse_in(fault, state)?;
-            (state.tool.h, state.tool.d) = (D::unknown(), D::unknown());
-        }
+        let names_unknown = self.prepare(place, words, state)?;
         let present = self.words.present();
         let codes = self.words.codes();
         let turns = self.turns_about_centre(state);
         // A block that only moves: nothing to put in order.
         if codes.is_empty() && !present.intersects(FEED_SPEED_TOOL) {
-            return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns {
+            let moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
+            return if moves && !names_unknown {
                 let done = self.motion(state);
                 self.past(done, Action::Motion, state)
             } else {
@@ -599,7 +587,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
         // Some codes share their axis words with a motion beside them.
         let mut names_motion = false;
-        let mut taken = false;
+        let mut taken = names_unknown;
         let mut macro_call = false;
         for ix in codes {
             let Some(code) = self.model.code(*ix) else { continue };
@@ -639,7 +627,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     add(rank, action);
                 }
             }
-            if moves && (!taken || names_motion && self.refuses_incomplete()) {
+            if moves && (!taken || names_motion && (names_unknown || self.refuses_incomplete())) {
                 add(self.model.motion_rank, Action::Motion);
             }
         }
@@ -662,6 +650,39 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             }
         }
         Ok(())
+    }
+
+    /// What comes before the parts of the block. True when one of its codes is unknown, and may be what reads the other words.
+    fn prepare(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step<bool> {
+        if let Err(fault) = self.check_block(place, words, state) {
+            self.refuse(fault)?;
+        }
+        if state.tool_shift.is_on()
+            && let Err(fault) = self.words_of_tool_shift(state)
+        {
+            self.refuse(fault)?;
+        }
+        if self.words.present().intersects(self.model.lasting)
+            && let Err(fault) = self.remember_lasting_words(state)
+        {
+            self.refuse_in(fault, state)?;
+            (state.tool.h, state.tool.d) = (D::unknown(), D::unknown());
+        }
+        let names_unknown = self.refused == Some(Fault::UnknownCode) && self.leaves_to_rules();
+        if names_unknown && !self.names_motion() {
+            // The axis words may be the unknown code's own.
+            self.lose_position(state)?;
+        }
+        Ok(names_unknown)
+    }
+
+    /// Does a code of the block say how its axes move?
+    fn names_motion(&self) -> bool {
+        let is_motion = |ix: &CodeIx| {
+            let code = self.model.code(*ix);
+            code.is_some_and(|code| matches!(code.role, Some(Role::Motion | Role::Cycle)))
+        };
+        self.words.codes().iter().any(is_motion)
     }
 
     /// The length of a word in millimetres, or the angle of a rotary axis in degrees.

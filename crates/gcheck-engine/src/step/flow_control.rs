@@ -595,7 +595,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     if state.calls.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
                 {
                     if self.holds_subroutine(at, end) {
-                        return Err(Fault::LoopMismatch);
+                        self.refuse(Fault::LoopMismatch)?;
                     }
                     Ok(Outcome::Jump(to(end + 1)))
                 }

@@ -50,7 +50,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         self.give_out_bridge(state);
         if *fault == Fault::TooDeep {
-            return Some(self.pass_over_recursion(at, state));
+            return Some(Self::pass_over_recursion(at, state));
         }
         Some(at.next())
     }
@@ -79,7 +79,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// The outermost call of a program that calls itself is over, and what it leaves is not known.
-    fn pass_over_recursion(&mut self, at: At, state: &mut State<D>) -> At {
+    fn pass_over_recursion(at: At, state: &mut State<D>) -> At {
         let frames = state.calls.frames();
         let repeated = |entry: At| frames.iter().skip(1).filter(|frame| frame.entry == entry).count() > 1;
         let outermost = frames.iter().skip(1).position(|frame| repeated(frame.entry));
@@ -302,7 +302,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
                 state.turning = KeptTurningWords::of(&TurningWords::UNKNOWN);
             }
-            E::TapHere | E::LeftTapHere => state.spindle.way = Flat::Unknown,
             E::CircularPocketClockwise
             | E::CircularPocketCounterClockwise
             | E::GeneralPocket
@@ -330,7 +329,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | E::SpindleClockwiseWithCoolant
             | E::SpindleCounterClockwiseWithCoolant
             | E::SpindleStop
-            | E::SpindleOrient => state.spindle.way = Flat::Unknown,
+            | E::SpindleOrient
+            | E::TapHere
+            | E::LeftTapHere => state.spindle.way = Flat::Unknown,
             E::ToolChange => {
                 self.lose_tool(state);
                 if self.model.semantics().tools.change_cancels_length {
