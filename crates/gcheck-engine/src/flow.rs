@@ -83,7 +83,7 @@ pub trait FlowObserver {
         let _ = cx;
     }
 
-    /// A block cannot be executed. The analysis goes on behind it.
+    /// A block cannot be executed. The analysis goes on as the programmer will who corrects it.
     fn fault(&mut self, cx: &FlowCx<'_>, fault: &Fault) {
         let _ = (cx, fault);
     }
@@ -357,6 +357,8 @@ pub fn flow_from<O: FlowObserver>(
         parted,
         pending: BTreeMap::from([(Key::of(at, &state), Pending { state, trace })]),
         met: FxHashMap::default(),
+        lost_ways: BTreeSet::new(),
+        lost: 0,
         order: Vec::new(),
         heads: Heads::default(),
         offers,
@@ -393,6 +395,10 @@ struct Flow<'a, 'p, 'o, 'd, O: FlowObserver> {
     /// The earliest first.
     pending: BTreeMap<Key, Pending>,
     met: FxHashMap<Key, Met>,
+    /// Refused blocks that may lead elsewhere once they are corrected: out of a loop.
+    lost_ways: BTreeSet<At>,
+    /// How often such a block was come by.
+    lost: u64,
     /// Keys of `met` in the order in which they were met.
     order: Vec<Key>,
     heads: Heads,
@@ -410,6 +416,17 @@ struct Flow<'a, 'p, 'o, 'd, O: FlowObserver> {
     /// The block under way, and the calls that led there.
     at: At,
     path: Rc<[At]>,
+}
+
+/// What meeting a loop's head again says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Turn {
+    /// Another turn.
+    On,
+    /// The loop has nothing new to show: what there was to come, came by its ways out.
+    Over,
+    /// The loop has nothing new to show, and a block in it that was refused may be its way out: it ends as loops end.
+    LostItsEnd,
 }
 
 /// What a stretch of blocks came to.
@@ -473,6 +490,7 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         }
         // Nothing leads back here: what loops in front looked like is of no use any more.
         self.heads.clear();
+        self.lost_ways.clear();
         self.last_offer = at.block;
         let leg = self.end_leg(&self.executor.observer.trace.clone());
         self.executor.observer.trace.begin_leg();
@@ -503,6 +521,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         self.executor.observer.stepping = Some(at);
         self.executor.observer.events = 0;
         let outcome = self.executor.step(at, state);
+        if let Some(fault) = self.executor.refused_in_passing.take() {
+            self.tell(at, &fault, state);
+            self.executor.give_out_bridge(state);
+        }
         // The first event of a block is the block's own work.
         self.work += 1 + self.executor.observer.events.saturating_sub(1);
         for also in std::mem::take(&mut self.executor.observer.also) {
@@ -578,13 +600,21 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                 Outcome::Next => at = at.next(),
                 Outcome::Jump(to) => {
                     let back = to.file == at.file && to.block <= at.block;
+                    let behind = at.next();
                     at = to;
                     self.note_way(to, &state);
-                    if self.follow_calls(&state) {
+                    let is_elsewhere = self.follow_calls(&state);
+                    if is_elsewhere {
                         self.heads.are_in(&self.path);
                     }
-                    if back && !self.turn(at, &mut state) {
-                        return Stretch::Done;
+                    if back {
+                        match self.turn(at, &mut state) {
+                            Turn::On => {}
+                            // The call is part of a loop, which comes to its end at its own jump.
+                            Turn::LostItsEnd if is_elsewhere => {}
+                            Turn::LostItsEnd => at = behind,
+                            Turn::Over => return Stretch::Done,
+                        }
                     }
                 }
                 Outcome::Fork(ways) => {
@@ -596,14 +626,50 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                     return Stretch::Done;
                 }
                 Outcome::Fault(fault) => {
-                    self.executor.fault(&state, &fault);
-                    if is_final(&fault) {
-                        return Stretch::Done;
+                    let Some(next) = self.go_on(at, &fault, &mut state) else { return Stretch::Done };
+                    if next != at.next() {
+                        self.note_way(next, &state);
+                        self.follow_calls(&state);
+                        self.heads.are_in(&self.path);
                     }
-                    at = at.next();
+                    at = next;
                 }
             }
         }
+    }
+
+    /// After a block that was refused: the observer is told, and execution goes on where it does once the block is corrected.
+    fn go_on(&mut self, at: At, fault: &Fault, state: &mut State<Abstract>) -> Option<At> {
+        self.tell(at, fault, state);
+        self.executor.go_on(at, fault, state)
+    }
+
+    /// Tells the observer of a refused block, and notes it where it may lead elsewhere once it is corrected.
+    fn tell(&mut self, at: At, fault: &Fault, state: &State<Abstract>) {
+        match self.executor.take_state_at_fault() {
+            Some(then) => self.executor.fault(&then, fault),
+            None => self.executor.fault(state, fault),
+        }
+        let may_lead_elsewhere = matches!(
+            fault,
+            Fault::NoSuchLabel(_)
+                | Fault::NoSuchProgram
+                | Fault::LoopMismatch
+                | Fault::StrayReturn
+                | Fault::TooDeep
+                | Fault::Undecidable
+                | Fault::Malformed
+                | Fault::Value(_)
+        );
+        if may_lead_elsewhere {
+            self.lost += 1;
+            self.lost_ways.insert(at);
+        }
+    }
+
+    /// Does a jump back close a loop with a refused block in it, which may be its way out?
+    fn closes_over_lost_way(&self, at: At, to: At) -> bool {
+        at.file == to.file && to <= at && self.lost_ways.range(to..=at).next().is_some()
     }
 
     /// Executes the blocks from here on that only move: the block behind them.
@@ -625,14 +691,15 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
         at
     }
 
-    /// A loop's head is met again in a solo stretch. `false` ends the stretch: the loop has nothing new to show.
-    fn turn(&mut self, at: At, state: &mut State<Abstract>) -> bool {
+    /// A loop's head is met again in a solo stretch.
+    fn turn(&mut self, at: At, state: &mut State<Abstract>) -> Turn {
         let wanted = state.frames().last().is_some_and(|frame| frame.wants(at));
         self.work += COPY + weight(state);
         let Some(head) = self.heads.at(at, wanted) else {
-            self.heads.meet(at, wanted, state, self.forks);
-            return true;
+            self.heads.meet(at, wanted, state, self.forks, self.lost);
+            return Turn::On;
         };
+        let over = if head.lost == self.lost { Turn::Over } else { Turn::LostItsEnd };
         head.visits += 1;
         if head.forks != self.forks || head.visits > MOST_EXACT_TURNS {
             // The paths parted and met again inside the loop: its turns are not exact, so they are one.
@@ -646,28 +713,30 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                 if gives_up {
                     self.give_up(Limit::Turns);
                 }
-                if never_parts && !gives_up {
+                if never_parts && !gives_up && over == Turn::Over {
                     // Whatever the turn, no condition leads out.
                     let origin = self.executor.origin();
                     self.executor.observer.endless(origin, at, state);
                 }
-                return false;
+                return over;
             }
             head.state = joined.clone();
             *state = joined;
-            return true;
+            return Turn::On;
         }
         if head.state == *state {
-            let origin = self.executor.origin();
-            self.executor.observer.endless(origin, at, state);
-            return false;
+            if over == Turn::Over {
+                let origin = self.executor.origin();
+                self.executor.observer.endless(origin, at, state);
+            }
+            return over;
         }
         // Compared with a state that is taken ever more seldom: a loop that repeats itself is found, whatever its period.
         if head.visits - head.before >= head.taken.saturating_mul(2) {
             head.state = state.clone();
             head.taken = head.visits - head.before;
         }
-        true
+        Turn::On
     }
 
     /// Executes silently, one of several states, until it is no longer the earliest.
@@ -689,6 +758,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
             let next = match self.step(at, &mut state) {
                 Outcome::Jump(to) => {
                     let trace = self.executor.observer.trace.clone();
+                    let closes = self.closes_over_lost_way(at, to);
+                    if closes && !self.follow_calls(&state) {
+                        self.arrive(at.next(), state.clone(), trace.clone());
+                    }
                     self.arrive(to, state, trace);
                     return Stretch::Done;
                 }
@@ -700,11 +773,19 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                     self.parted = true;
                     return Stretch::Done;
                 }
-                Outcome::Fault(fault) if is_final(&fault) => {
-                    self.parted = true;
-                    return Stretch::Done;
-                }
-                Outcome::Next | Outcome::Fault(_) => at.next(),
+                Outcome::Fault(fault) => match self.go_on(at, &fault, &mut state) {
+                    Some(next) if next == at.next() => next,
+                    Some(next) => {
+                        let trace = self.executor.observer.trace.clone();
+                        self.arrive(next, state, trace);
+                        return Stretch::Done;
+                    }
+                    None => {
+                        self.parted = true;
+                        return Stretch::Done;
+                    }
+                },
+                Outcome::Next => at.next(),
             };
             at = next;
             self.follow_calls(&state);
@@ -858,13 +939,10 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
                     self.executor.end(&state, ending);
                     return;
                 }
-                Outcome::Fault(fault) => {
-                    self.executor.fault(&state, &fault);
-                    if is_final(&fault) {
-                        return;
-                    }
-                    at = at.next();
-                }
+                Outcome::Fault(fault) => match self.go_on(at, &fault, &mut state) {
+                    Some(next) if next == at.next() => at = next,
+                    _ => return,
+                },
             }
             self.follow_calls(&state);
             if met.contains_key(&Key::on(Rc::clone(&self.path), at, &state)) {
@@ -877,19 +955,6 @@ impl<O: FlowObserver> Flow<'_, '_, '_, '_, O> {
 /// What a copy of a state costs beside what every copy does, in blocks.
 fn weight(state: &State<Abstract>) -> u64 {
     state.values_held() as u64 / 16
-}
-
-/// Faults after which nothing that follows can be told from what would have happened.
-fn is_final(fault: &Fault) -> bool {
-    matches!(
-        fault,
-        Fault::NoProgramEnd
-            | Fault::LoopMismatch
-            | Fault::TooDeep
-            | Fault::NoSuchLabel(_)
-            | Fault::StrayReturn
-            | Fault::Alarm(_)
-    )
 }
 
 impl<O: FlowObserver> Executor<'_, '_, Abstract, Shown<'_, '_, O>> {

@@ -13,7 +13,7 @@ use crate::origin::{At, Origin};
 use crate::program::Program;
 use crate::start::start_state;
 use crate::state::State;
-use crate::step::past_alarm::{Counting, choose_way};
+use crate::step::past_alarm::choose_way;
 use crate::step::{Ending, Executor, Options, Outcome};
 use crate::value::Concrete;
 
@@ -71,7 +71,7 @@ pub fn run<O: Observer<Concrete>>(
     fuel: u64,
     observer: O,
 ) -> RunResult {
-    let mut executor = Executor::new(program, model, machine, options, Counting::new(observer));
+    let mut executor = Executor::new(program, model, machine, options, observer);
     executor.lenient = options.past_alarms;
     let mut alarms = Alarms::default();
     let mut undecided = BTreeSet::new();
@@ -97,13 +97,13 @@ pub fn run<O: Observer<Concrete>>(
             break Stopped::OutOfFuel;
         }
         blocks += 1;
-        let before = options.past_alarms.then(|| executor.before_block(&state));
         let outcome = executor.step(at, &mut state);
-        if before.is_some()
+        if options.past_alarms
             && let Some(fault) = executor.refused_in_passing.take()
         {
             let origin = executor.origin();
             alarms.add(&mut executor.observer, origin, &state, fault);
+            executor.give_out_bridge(&mut state);
         }
         match outcome {
             Outcome::Next => at = at.next(),
@@ -114,17 +114,19 @@ pub fn run<O: Observer<Concrete>>(
             }
             Outcome::End(ending) => break Stopped::Ended(ending),
             Outcome::Fork(ways) => {
-                let chosen = before.and_then(|_| choose_way(at, ways, &mut undecided));
+                let chosen = options.past_alarms.then(|| choose_way(at, ways, &mut undecided)).flatten();
                 let Some((to, way)) = chosen else { break Stopped::Faulted(Fault::Undecidable) };
                 let origin = executor.origin();
                 alarms.add(&mut executor.observer, origin, &state, Fault::Undecidable);
                 (at, state) = (to, way);
             }
             Outcome::Fault(fault) => {
-                let Some(before) = before else { break Stopped::Faulted(fault) };
+                if !options.past_alarms {
+                    break Stopped::Faulted(fault);
+                }
                 let origin = executor.origin();
                 alarms.add(&mut executor.observer, origin, &state, fault.clone());
-                match executor.go_on(at, &before, &fault, &mut state) {
+                match executor.go_on(at, &fault, &mut state) {
                     Some(next) => at = next,
                     None => break Stopped::Faulted(fault),
                 }

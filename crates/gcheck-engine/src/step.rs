@@ -127,11 +127,19 @@ pub(crate) struct Executor<'a, 'p, D: Domain, O: Observer<D>> {
     flow: Option<Flow<D>>,
     /// `G53`, `G9` and the like: what holds for this block only.
     machine_coordinates: bool,
-    /// Goes on behind what the control refuses, as an analysis does that looks for more than one mistake.
+    /// Goes on after what the control refuses, as an analysis does that looks for more than one mistake.
     pub(crate) lenient: bool,
     /// What was refused in the block under way.
     refused: Option<Fault>,
-    /// What was refused in a block that leads elsewhere all the same, where a run goes on past alarms.
+    /// What went before the block under way, where execution goes on past alarms.
+    before: Option<past_alarm::Before>,
+    /// Moves given out so far, but those of compensated paths.
+    moves: u64,
+    /// The line to where a refused move leads, to be given out when the observer has been told of the alarm.
+    bridge: Option<Event>,
+    /// The state in which a part of the block was refused first, where execution goes on past alarms.
+    at_fault: Option<Box<State<D>>>,
+    /// What was refused in a block that leads elsewhere all the same, where execution goes on past alarms.
     pub(crate) refused_in_passing: Option<Fault>,
     /// The operation under way passes its points exactly though blending is on.
     passes_exactly: bool,
@@ -215,6 +223,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             machine_coordinates: false,
             lenient: false,
             refused: None,
+            before: None,
+            moves: 0,
+            bridge: None,
+            at_fault: None,
             refused_in_passing: None,
             passes_exactly: false,
             rest_is_lost: false,
@@ -270,6 +282,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.flow = None;
         self.machine_coordinates = false;
         self.pending.clear();
+        if self.lenient {
+            self.before = Some(self.before_block(state));
+            (self.bridge, self.at_fault) = (None, None);
+        }
         let outcome = self.run_block(&place, table, block, state);
         if !matches!(outcome, Outcome::Fault(_)) {
             self.observer.after(self.origin, state);
@@ -358,8 +374,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if !self.pending.is_empty() {
             let mut pending = std::mem::take(&mut self.pending);
             for (target, value) in pending.drain(..) {
-                if let Some(end) = self.assign(target, value, state)? {
-                    return Ok(end);
+                match self.assign(target, value, state) {
+                    Ok(None) => {}
+                    Ok(Some(end)) => return Ok(end),
+                    Err(fault) => self.refuse(fault)?,
                 }
             }
             self.pending = pending;
@@ -409,6 +427,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         if state.compensation.is_followed() && !at_once {
             self.emit_compensated(state, event);
         } else {
+            let is_move =
+                matches!(event, Event::Travel(_) | Event::Arc(_) | Event::Curve(_) | Event::RigidTap { .. });
+            self.moves += u64::from(is_move);
             self.observer.event(self.origin, state, &event);
         }
     }
@@ -564,22 +585,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Puts the parts of the block in the control's order and executes them.
     fn execute(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step {
-        if let Err(fault) = self.check_block(place, words, state) {
-            self.refuse(fault)?;
-        }
-        if state.tool_shift.is_on() {
-            self.words_of_tool_shift(state)?;
-        }
-        if self.words.present().intersects(self.model.lasting) {
-            self.remember_lasting_words(state)?;
-        }
+        let names_unknown = self.prepare(place, words, state)?;
         let present = self.words.present();
         let codes = self.words.codes();
         let turns = self.turns_about_centre(state);
         // A block that only moves: nothing to put in order.
         if codes.is_empty() && !present.intersects(FEED_SPEED_TOOL) {
-            return if present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns {
-                self.motion(state)
+            let moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
+            return if moves && !names_unknown {
+                let done = self.motion(state);
+                self.past(done, Action::Motion, state)
             } else {
                 Ok(())
             };
@@ -595,12 +610,14 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let mut moves = present.intersects(self.model.axis_letters) || present.intersects(POLAR) || turns;
         // Some codes share their axis words with a motion beside them.
         let mut names_motion = false;
-        let mut taken = false;
+        let mut taken = names_unknown;
         let mut macro_call = false;
         for ix in codes {
             let Some(code) = self.model.code(*ix) else { continue };
             if self.model.contracts.get(ix.index()).is_some_and(|contract| contract.first_only) {
-                return self.code(*ix, place, words, state);
+                let first = *ix;
+                let done = self.code(first, place, words, state);
+                return self.past(done, Action::Code(first), state);
             }
             match code.effect {
                 Effect::MachineCoordinates => {
@@ -633,7 +650,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     add(rank, action);
                 }
             }
-            if moves && (!taken || names_motion && self.refuses_incomplete()) {
+            if moves && (!taken || names_motion && (names_unknown || self.refuses_incomplete())) {
                 add(self.model.motion_rank, Action::Motion);
             }
         }
@@ -643,18 +660,52 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         let cancels = |action: &Action| matches!(action, Action::Code(ix) if *ix == self.model.cycle_cancel);
         actions.sort_by_key(|(rank, action)| (*rank, !cancels(action)));
         for (_, action) in actions.iter().copied() {
-            match action {
-                Action::Code(code) => self.code(code, place, words, state)?,
-                Action::Feed => self.feed_word(state)?,
-                Action::Speed => self.speed_word(state)?,
-                Action::Tool => self.tool_word(state)?,
-                Action::Motion => self.motion(state)?,
-            }
+            let done = match action {
+                Action::Code(code) => self.code(code, place, words, state),
+                Action::Feed => self.feed_word(state),
+                Action::Speed => self.speed_word(state),
+                Action::Tool => self.tool_word(state),
+                Action::Motion => self.motion(state),
+            };
+            self.past(done, action, state)?;
             if std::mem::take(&mut self.rest_is_lost) {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// What comes before the parts of the block. True when one of its codes is unknown, and may be what reads the other words.
+    fn prepare(&mut self, place: &Place, words: &[Word], state: &mut State<D>) -> Step<bool> {
+        if let Err(fault) = self.check_block(place, words, state) {
+            self.refuse(fault)?;
+        }
+        if state.tool_shift.is_on()
+            && let Err(fault) = self.words_of_tool_shift(state)
+        {
+            self.refuse(fault)?;
+        }
+        if self.words.present().intersects(self.model.lasting)
+            && let Err(fault) = self.remember_lasting_words(state)
+        {
+            self.refuse_in(fault, state)?;
+            (state.tool.h, state.tool.d) = (D::unknown(), D::unknown());
+        }
+        let names_unknown = self.refused == Some(Fault::UnknownCode) && self.leaves_to_rules();
+        if names_unknown && !self.names_motion() {
+            // The axis words may be the unknown code's own.
+            self.lose_position(state)?;
+        }
+        Ok(names_unknown)
+    }
+
+    /// Does a code of the block say how its axes move?
+    fn names_motion(&self) -> bool {
+        let is_motion = |ix: &CodeIx| {
+            let code = self.model.code(*ix);
+            code.is_some_and(|code| matches!(code.role, Some(Role::Motion | Role::Cycle)))
+        };
+        self.words.codes().iter().any(is_motion)
     }
 
     /// The length of a word in millimetres, or the angle of a rotary axis in degrees.
@@ -718,7 +769,22 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     // ---- expressions ----
 
+    /// The value of an expression. An execution that goes on past alarms takes one that has none for unknown.
     fn evaluate(
+        &mut self,
+        place: &Place,
+        table: &BlockTable,
+        expr: &Expr,
+        state: &State<D>,
+    ) -> Step<D::Value> {
+        self.value_of(place, table, expr, state).or_else(|fault| {
+            self.refuse(fault)?;
+            Ok(D::unknown())
+        })
+    }
+
+    /// The value of an expression, or why it has none.
+    fn value_of(
         &mut self,
         place: &Place,
         table: &BlockTable,
@@ -928,10 +994,16 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let target = self.assignee(place, table, target, state)?;
                     let value = self.evaluate(place, table, table.expr(*value), state)?;
                     if self.model.semantics().assignments_after_block {
-                        self.check_assignable(target)?;
-                        self.pending.push((target, value));
-                    } else if let Some(end) = self.assign(target, value, state)? {
-                        return Ok(Statements::Done(end));
+                        match self.check_assignable(target) {
+                            Ok(()) => self.pending.push((target, value)),
+                            Err(fault) => self.refuse(fault)?,
+                        }
+                        continue;
+                    }
+                    match self.assign(target, value, state) {
+                        Ok(None) => {}
+                        Ok(Some(end)) => return Ok(Statements::Done(end)),
+                        Err(fault) => self.refuse(fault)?,
                     }
                 }
                 StatementKind::If { condition } | StatementKind::Guard { condition } => {
@@ -949,7 +1021,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 }
                 StatementKind::Goto { target } => {
                     let Some(target) = target else { return Err(Fault::Malformed) };
-                    let value = self.evaluate(place, table, table.expr(*target), state)?;
+                    let value = self.value_of(place, table, table.expr(*target), state)?;
                     return self.jump_to_label(&value, state).map(Statements::Done);
                 }
                 StatementKind::Do { condition, .. } => {

@@ -9,8 +9,9 @@
 
 use gcheck_engine::{
     Abstract, AbstractValue, At, Axis, ConcreteValue, Domain, Ending, Event, Fault, FlowCx, FlowObserver,
-    FlowResult, Machine, Model, NoLibrary, Options, Program, Reach, Role, State, Task, flow,
+    FlowResult, Machine, Model, NoLibrary, Options, Position, Program, Reach, Role, State, Task, Tool, flow,
 };
+use gcheck_geometry::Mm;
 use gcheck_program::{Dialect, Loaded};
 
 /// A block as it was shown.
@@ -396,10 +397,135 @@ fn the_analysis_goes_on_behind_a_block_that_cannot_be_executed() {
 }
 
 #[test]
-fn a_jump_to_nowhere_ends_its_path() {
-    let seen = analyse("fanuc-mill", "GOTO 50\nG0 X1.\nM30\n");
+fn a_jump_to_nowhere_falls_through() {
+    let seen = analyse("fanuc-mill", "GOTO 50\nG0 X1.\nM30\nG0 X2.\n");
     assert_eq!(seen.watcher.faults, [(1, Fault::NoSuchLabel(50))]);
-    assert_eq!(seen.reach(2), Reach::Never);
+    assert_eq!(seen.reach(2), Reach::Always);
+    assert_eq!(seen.reach(4), Reach::Never);
+}
+
+#[test]
+fn an_arc_off_its_circle_is_a_line_to_its_end() {
+    let seen = analyse("haas-mill", "G21 G90 G0 X0. Y0.\nG1 X10. F100.\nG2 X20. Y0. I3. J0.\nG1 Y5.\nM30\n");
+    assert_eq!(seen.watcher.faults.len(), 1);
+    assert_eq!(seen.watcher.moves, 4);
+    assert_eq!(seen.state(4).position().get(Axis::X), Some(20.0));
+}
+
+#[test]
+fn a_refused_move_does_not_take_the_rest_of_its_block_with_it() {
+    let seen = analyse("haas-mill", "G21 G90 G0 X0. Y0.\nG2 X20. Y0. F100. M8\nM30\n");
+    assert_eq!(seen.watcher.faults.len(), 1);
+    assert_eq!(seen.watcher.endings, [(3, Ending::Program)]);
+    let seen = analyse("haas-mill", "G21 G90 G0 X0. Y0.\nG2 X20. I3. J5. F100. M30\nG0 X1.\n");
+    assert_eq!(seen.watcher.faults.len(), 1);
+    assert_eq!(seen.watcher.endings, [(2, Ending::Program)]);
+    assert_eq!(seen.reach(3), Reach::Never);
+}
+
+#[test]
+fn a_value_that_does_not_exist_is_unknown_afterwards() {
+    let seen =
+        analyse("fanuc-mill", "#100=5\n#100=[1/0]\nG0 X#100 Y1.\nIF [#100 EQ 5] GOTO 6\nG0 X1.\nN6 M30\n");
+    assert_eq!(seen.watcher.faults, [(2, Fault::Value(gcheck_engine::ValueFault::DivisionByZero))]);
+    assert_eq!(seen.state(4).position().get(Axis::X), None);
+    assert_eq!(seen.state(4).position().get(Axis::Y), Some(1.0));
+    assert_eq!(seen.reach(5), Reach::Some);
+}
+
+#[test]
+fn a_condition_that_has_no_value_goes_both_ways() {
+    let seen = analyse("fanuc-mill", "IF [[1/0] EQ 1] GOTO 30\nG0 X1.\nGOTO 40\nN30 G0 X2.\nN40 M30\n");
+    assert_eq!(seen.watcher.faults.len(), 1);
+    assert_eq!([seen.reach(2), seen.reach(4), seen.reach(5)], [Reach::Some, Reach::Some, Reach::Always]);
+}
+
+#[test]
+fn after_a_refused_length_no_length_is_known() {
+    let control = gcheck_controls::load("linuxcnc").unwrap();
+    let dialect = Dialect::new(&control);
+    let text = "G21 G90\nG43 H1\nG43 H7 Z5\nG0 Z10\nM2\n";
+    let loaded = Loaded::new(text, &dialect, |_, _, _| ());
+    let model = Model::new(&control);
+    let program = Program::new(loaded, &dialect, &NoLibrary);
+    let mut offset = Position::ZERO;
+    offset.set(Axis::Z, 30.0);
+    let (diameter, corner_radius) = (Mm(10.0), Mm(0.0));
+    let tool = Tool { pocket: 1, offset, diameter, corner_radius, angles: [0.0; 2], orientation: 0 };
+    let machine = Machine { tools: [(1, tool)].into(), tool_table_is_complete: true, ..Machine::default() };
+    let mut watcher = Watcher::default();
+    let result = flow(&program, &model, &machine, Task::all_paths(1_000), &mut watcher);
+    let seen = Seen { watcher, result };
+    assert_eq!(seen.watcher.faults, [(3, Fault::NoSuchTool(7))]);
+    assert_eq!(seen.state(3).length().get(Axis::Z), Some(30.0));
+    assert_eq!(seen.state(4).length().get(Axis::Z), None);
+    assert_eq!(seen.state(4).position().get(Axis::Z), Some(5.0));
+}
+
+#[test]
+fn a_missing_subroutine_is_passed_over_and_leaves_little_known() {
+    let seen = analyse("linuxcnc", "G21 G90 G0 X1\no7 call\nG0 X2\nM2\n");
+    assert_eq!(seen.watcher.faults, [(2, Fault::NoSuchProgram)]);
+    assert_eq!(seen.state(3).mode(Role::Distance).only(), None);
+    assert_eq!(seen.watcher.endings, [(4, Ending::Program)]);
+}
+
+#[test]
+fn an_alarm_in_a_subprogram_comes_with_every_call() {
+    let seen = analyse("fanuc-mill", "O1\nM98 P2\nM98 P2\nM30\nO2\nGOTO 50\nG0 X1.\nM99\n");
+    assert_eq!(seen.watcher.faults, [(6, Fault::NoSuchLabel(50)), (6, Fault::NoSuchLabel(50))]);
+    assert_eq!(seen.watcher.endings, [(4, Ending::Program)]);
+}
+
+#[test]
+fn a_return_to_a_missing_block_goes_back_to_its_caller() {
+    let seen = analyse("fanuc-mill", "O1\nM98 P2\nG0 X3.\nM30\nO2\nM99 P50\nO3\nG0 X1.\nM99\n");
+    assert_eq!(seen.watcher.faults, [(6, Fault::NoSuchLabel(50))]);
+    assert_eq!([seen.reach(3), seen.reach(8)], [Reach::Always, Reach::Never]);
+}
+
+#[test]
+fn a_loop_with_an_alarm_in_it_ends_as_it_does_without() {
+    let seen = analyse("fanuc-mill", "#1=0\nWHILE [#1 LT 3] DO1\nGOTO 50\n#1=#1+1\nEND1\nG0 X9.\nM30\n");
+    assert_eq!(seen.watcher.faults.len(), 3);
+    assert_eq!(seen.watcher.endless, [0_u32; 0]);
+    assert_eq!(seen.locals(6, 1), [Some(3.0)]);
+}
+
+#[test]
+fn a_loop_whose_way_out_leads_nowhere_is_not_endless() {
+    // The only way out: known at every turn, known at some turn, not known.
+    for program in [
+        "N10 G0 X1.\nGOTO 50\nGOTO 10\nG0 X9.\nM30\n",
+        "#1=0\nN10 #1=#1+1\nIF [#1 GT 5] GOTO 50\nGOTO 10\nG0 X9.\nM30\n",
+        "N10 G0 X1.\nIF [#500 GT 5] GOTO 50\nGOTO 10\nG0 X9.\nM30\n",
+    ] {
+        let seen = analyse("fanuc-mill", program);
+        assert_eq!(seen.watcher.endless, [0_u32; 0], "{program}");
+        assert_eq!(seen.watcher.endings.len(), 1, "{program}");
+    }
+}
+
+#[test]
+fn a_loop_without_its_end_is_straight_code() {
+    let seen = analyse("fanuc-mill", "#1=0\nWHILE [#1 LT 3] DO1\nG0 X1.\nM30\n");
+    assert_eq!(seen.watcher.faults, [(2, Fault::LoopMismatch)]);
+    assert_eq!(seen.watcher.endings, [(4, Ending::Program)]);
+}
+
+#[test]
+fn an_alarm_on_one_way_of_a_condition_leaves_both_ways_to_meet() {
+    let seen = analyse("fanuc-mill", "IF [#500 EQ 1] GOTO 20\nGOTO 50\nN20 G0 X1.\nM30\n");
+    assert_eq!(seen.watcher.faults, [(2, Fault::NoSuchLabel(50))]);
+    assert_eq!(seen.reach(3), Reach::Always);
+    assert!(seen.watcher.before.last().is_some_and(|shown| shown.solo));
+}
+
+#[test]
+fn a_recursion_without_end_is_passed_over() {
+    let seen = analyse("fanuc-mill", "O1\nM98 P2\nG0 X1.\nM30\nO2\nM98 P2\nM98 P2\nM99\n");
+    assert_eq!(seen.watcher.faults, [(6, Fault::TooDeep)]);
+    assert_eq!(seen.watcher.endings, [(4, Ending::Program)]);
 }
 
 #[test]

@@ -22,6 +22,7 @@ pub(crate) mod modes;
 pub(crate) mod notation;
 pub(crate) mod offset_schemes;
 pub(crate) mod parting;
+pub(crate) mod past_alarm;
 pub(crate) mod pockets;
 pub(crate) mod probing;
 pub(crate) mod program_calls;

@@ -7,5 +7,6 @@ mod edited_is_fresh;
 mod every_rule;
 mod faults;
 mod one_condition;
+mod past_alarms;
 mod proposed_fixes;
 mod syntax_errors;

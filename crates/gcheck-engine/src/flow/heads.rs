@@ -21,6 +21,8 @@ pub(super) struct Head {
     pub(super) state: State<Abstract>,
     /// How many forks there were when it was met.
     pub(super) forks: u64,
+    /// How often a refused block that may lead elsewhere was come by before it was met.
+    pub(super) lost: u64,
     /// How often it was met, the turns of calls that returned included.
     pub(super) visits: u32,
     /// How often it was met in such calls.
@@ -62,7 +64,7 @@ impl Heads {
     }
 
     /// The start of a loop is met for the first time in the program under way.
-    pub(super) fn meet(&mut self, at: At, wanted: bool, state: &State<Abstract>, forks: u64) {
+    pub(super) fn meet(&mut self, at: At, wanted: bool, state: &State<Abstract>, forks: u64, lost: u64) {
         let before = if self.calls.is_empty() || self.turned.is_empty() {
             0
         } else {
@@ -70,7 +72,7 @@ impl Heads {
         };
         let visits = before.saturating_add(1);
         if let Entry::Vacant(slot) = self.last().entry((at, wanted)) {
-            slot.insert(Head { state: state.clone(), forks, visits, before, joins: 0, taken: 1 });
+            slot.insert(Head { state: state.clone(), forks, lost, visits, before, joins: 0, taken: 1 });
         }
     }
 

@@ -74,6 +74,10 @@ impl Transform {
     /// Nothing.
     pub const NONE: Self = Self { scaling: Perhaps::No, rotation: Perhaps::No, mirrors: [Perhaps::No; 3] };
 
+    /// Any of them may be on.
+    pub(crate) const UNKNOWN: Self =
+        Self { scaling: Perhaps::Unknown, rotation: Perhaps::Unknown, mirrors: [Perhaps::Unknown; 3] };
+
     /// Scales by axis X, Y, Z about a centre in work coordinates; factors of 1 switch it off, unknown ones may.
     #[must_use]
     #[expect(clippy::float_cmp, reason = "off is exactly one")]

@@ -443,7 +443,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let semantics = self.model.semantics();
         if let Some(label) = &label {
             match semantics.return_to {
-                ReturnTo::Same => return self.jump_to_label(label, state),
+                ReturnTo::Same => match self.jump_to_label(label, state) {
+                    Err(fault) => self.refuse(fault)?,
+                    jump => return jump,
+                },
                 ReturnTo::Ignored if self.refuses_incomplete() => return Err(Fault::Conflict),
                 ReturnTo::Ignored | ReturnTo::Caller => {}
             }
@@ -508,10 +511,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let to = match label {
             Some(label) if self.model.semantics().return_to == ReturnTo::Caller => {
-                // The block is looked for in the program that called.
-                let Some(number) = D::known(&label) else { return Err(Fault::Undecidable) };
-                #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
-                self.label(number, caller)?.ok_or(Fault::NoSuchLabel(number as u32))?
+                match self.label_in_caller(&label, caller) {
+                    Ok(to) => to,
+                    // Corrected, it returns all the same.
+                    Err(fault) => {
+                        self.refuse(fault)?;
+                        caller.next()
+                    }
+                }
             }
             _ => caller.next(),
         };
@@ -519,6 +526,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None => Outcome::Jump(to),
             Some(without) => Outcome::Fork(vec![(to, without), (to, state.clone())]),
         })
+    }
+
+    /// The block of a return with a label: it is looked for in the program that called.
+    fn label_in_caller(&self, label: &D::Value, caller: At) -> Step<At> {
+        let Some(number) = D::known(label) else { return Err(Fault::Undecidable) };
+        #[expect(clippy::cast_sign_loss, reason = "labels are counts; `label` refused others")]
+        self.label(number, caller)?.ok_or(Fault::NoSuchLabel(number as u32))
     }
 
     /// `M73`: brings modes back on return. The state in which they are not, where nobody knows whether they are to be.
@@ -543,10 +557,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M99` in a main program.
     fn leave_main(&mut self, label: Option<D::Value>, state: &mut State<D>) -> Step<Outcome<D>> {
         if let Some(label) = label {
-            return match self.model.semantics().return_to {
-                ReturnTo::Ignored if self.refuses_incomplete() => Err(Fault::Conflict),
-                _ => self.jump_to_label(&label, state),
-            };
+            match self.model.semantics().return_to {
+                ReturnTo::Ignored if self.refuses_incomplete() => return Err(Fault::Conflict),
+                _ => match self.jump_to_label(&label, state) {
+                    Err(fault) => self.refuse(fault)?,
+                    jump => return jump,
+                },
+            }
         }
         if self.refuses_incomplete() {
             self.end_program(false, state)?;
@@ -578,7 +595,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     if state.calls.last().is_none_or(|f| f.entry != at || f.kind != FrameKind::OWord) =>
                 {
                     if self.holds_subroutine(at, end) {
-                        return Err(Fault::LoopMismatch);
+                        self.refuse(Fault::LoopMismatch)?;
                     }
                     Ok(Outcome::Jump(to(end + 1)))
                 }
@@ -628,7 +645,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                         OLabel::Number(number) => number.to_string(),
                         OLabel::Computed => String::new(),
                     }));
-                    return Err(Fault::NoSuchProgram);
+                    self.refuse_in(Fault::NoSuchProgram, state)?;
+                    self.lose_everything(state)?;
+                    return Ok(Outcome::Next);
                 };
                 let callee = Callee { arguments: values, ..Callee::plain(FrameKind::OWord, target, 0) };
                 self.enter(callee, state)

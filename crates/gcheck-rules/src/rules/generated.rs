@@ -94,6 +94,7 @@ pub(crate) mod flow {
     pub(crate) mod alarm_reached;
     pub(crate) mod analysis_incomplete;
     pub(crate) mod calls_nested_too_deep;
+    pub(crate) mod checked_past_alarm;
     pub(crate) mod endless_loop;
     pub(crate) mod fall_into_subprogram;
     pub(crate) mod jump_into_loop;
@@ -455,6 +456,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::alarm_reached::RULE,
     &flow::analysis_incomplete::RULE,
     &flow::calls_nested_too_deep::RULE,
+    &flow::checked_past_alarm::RULE,
     &flow::endless_loop::RULE,
     &flow::fall_into_subprogram::RULE,
     &flow::jump_into_loop::RULE,

@@ -1,8 +1,9 @@
 //! A program that always ends with an alarm of its own.
 
-use gcheck_engine::{Ending, FrameKind};
+use gcheck_engine::{Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
+use crate::facts::past_alarm::loses_way;
 use crate::facts::usage::reads_start_state;
 use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
@@ -46,13 +47,13 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::ENDS, make: || Box::new(AlarmReached::default()) },
+        run: Run::Path { watch: Watch::ENDS.union(Watch::FAULTS), make: || Box::new(AlarmReached::default()) },
     }
 }
 
 #[derive(Default, Clone, PartialEq)]
 struct AlarmReached {
-    /// A path came to another end.
+    /// A path came to another end, or to a jump that the control does not follow: corrected, it may lead past the alarm.
     may_end_otherwise: bool,
 }
 
@@ -66,6 +67,10 @@ impl PathRule for AlarmReached {
 
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn fault(&mut self, _: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
+        self.may_end_otherwise |= loses_way(fault);
     }
 
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {

@@ -1,6 +1,7 @@
 //! A return outside a subroutine.
 
 use gcheck_engine::Fault;
+use gcheck_program::OKeyword;
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -40,7 +41,7 @@ struct ReturnOutsideSubroutine;
 
 impl PathRule for ReturnOutsideSubroutine {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
-        if *fault != Fault::StrayReturn {
+        if *fault != Fault::StrayReturn || is_in_refused_subroutine(cx) {
             return;
         }
         let finding = cx
@@ -49,6 +50,17 @@ impl PathRule for ReturnOutsideSubroutine {
             .help("put a `SUB` with this label before the body, or end the program with `M2`");
         report.add(finding);
     }
+}
+
+/// Does a `SUB` before the block have its label? Then the control refuses the `SUB`, which another rule reports.
+fn is_in_refused_subroutine(cx: &PathCx<'_>) -> bool {
+    let here = cx.range().start;
+    let words = &cx.survey.o_words;
+    let own = words.iter().find(|word| word.range.start >= here);
+    let before = words.iter().take_while(|word| word.range.start < here);
+    own.is_some_and(|own| {
+        before.into_iter().any(|word| word.keyword == OKeyword::Sub && word.label == own.label)
+    })
 }
 
 #[cfg(test)]
@@ -69,5 +81,11 @@ mod tests {
               | ^^^^^^^^^ error[return-outside-subroutine] return outside a subroutine
         "#]],
         );
+    }
+
+    #[test]
+    fn the_end_of_a_subroutine_that_the_control_refuses_is_not_stray() {
+        check_rule(&RULE, "linuxcnc", "o1 sub\no2 sub\no2 endsub\no1 endsub\nM2\n", &expect![[""]]);
+        check_rule(&RULE, "linuxcnc", "o1 sub\nG0 X1\no1 return\nM2\n", &expect![[""]]);
     }
 }

@@ -7,6 +7,7 @@ use gcheck_engine::{Assumption, At, Fault, FlowResult, Reach};
 use gcheck_program::{BlockFlags, CallKind, OKeyword, Place, StatementKind};
 
 use crate::declare::declare_rule;
+use crate::facts::past_alarm::loses_way;
 use crate::facts::usage::{has_conditions, leads_away, reads_start_state};
 use crate::{Finding, FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
@@ -64,8 +65,10 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct UnreachableBlock {
-    /// A fault ended a path: what follows it was not analysed.
-    cut_short: bool,
+    /// Where a path goes on depends on what nobody knows.
+    is_unsure: bool,
+    /// The control does not find where the program goes on: corrected, the block may lead to any label.
+    lost_way: bool,
 }
 
 remembers!(UnreachableBlock);
@@ -76,20 +79,12 @@ impl PathRule for UnreachableBlock {
     }
 
     fn fault(&mut self, _: &PathCx<'_>, fault: &Fault, _: &mut Report<'_>) {
-        self.cut_short |= matches!(
-            fault,
-            Fault::NoProgramEnd
-                | Fault::LoopMismatch
-                | Fault::TooDeep
-                | Fault::NoSuchLabel(_)
-                | Fault::StrayReturn
-                | Fault::Undecidable
-                | Fault::Alarm(_)
-        );
+        self.is_unsure |= matches!(fault, Fault::Undecidable | Fault::Alarm(_));
+        self.lost_way |= loses_way(fault);
     }
 
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
-        if self.cut_short || cx.result.is_incomplete() || cx.others.iter().any(FlowResult::is_incomplete) {
+        if self.is_unsure || cx.result.is_incomplete() || cx.others.iter().any(FlowResult::is_incomplete) {
             return;
         }
         // With only one position of the switch, the other paths are not known.
@@ -98,7 +93,7 @@ impl PathRule for UnreachableBlock {
         if one_position || goes_anywhere(cx) {
             return;
         }
-        let groups = groups(cx);
+        let groups = groups(cx, self.lost_way);
         if groups.is_empty() {
             return;
         }
@@ -137,7 +132,8 @@ enum Cause {
     Decided(Range<u32>),
 }
 
-fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
+/// Runs of blocks that no path reaches. Past an alarm, those that follow an end of the program and have no label.
+fn groups(cx: &FinishCx<'_>, past_alarm: bool) -> Vec<Group> {
     let Some(file) = cx.program.file(0) else { return Vec::new() };
     let outline = file.loaded.outline();
     let profiles = profiles(cx);
@@ -169,6 +165,11 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                 continue;
             }
             let Some(place) = file.loaded.place(block, cx.environment.dialect) else { continue };
+            if past_alarm && place.block().flags.intersects(BlockFlags::LABEL | BlockFlags::STATEMENT) {
+                groups.extend(open.take());
+                last_reached = None;
+                continue;
+            }
             // The body of a subroutine runs when it is called; an uncalled one is whole.
             let uncalled = outline.sub_around(block).is_some_and(|sub| !is_reached(sub + 1));
             // The `while` at the end of a `do`, after a `break`.
@@ -186,6 +187,7 @@ fn groups(cx: &FinishCx<'_>) -> Vec<Group> {
                         last_reached.and_then(|block| file.loaded.place(block, cx.environment.dialect));
                     let range = place.range();
                     // After a call: the called program may not return, and its caller does not show that.
+                    let above = above.filter(|above| !past_alarm || ends_program(above, cx));
                     open = cause(cx, above.as_ref(), last_reached.unwrap_or(block), block)
                         .map(|cause| Group { range, blocks: 1, cause });
                     if open.is_none() {
@@ -224,12 +226,6 @@ fn cause(cx: &FinishCx<'_>, above: Option<&Place>, last: u32, block: u32) -> Opt
 /// end.
 fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u32> {
     let file = cx.program.file(0)?;
-    let is_end = |place: &Place| {
-        let mut words = place.table.words(place.block()).iter();
-        words.any(|word| {
-            matches!(cx.model.effect(word.code), Effect::ProgramEnd | Effect::ProgramEndWithPallet)
-        })
-    };
     let number = |place: &Place| {
         let label = place.table.words(place.block()).iter().find(|word| word.letter.ascii() == b'N')?;
         label.integer()
@@ -238,11 +234,17 @@ fn section(cx: &FinishCx<'_>, above: &Place, last: u32, block: u32) -> Option<u3
     let place = |block: u32| file.loaded.place(block, cx.environment.dialect);
     // If every block has a number, no number marks a section.
     let all_have_numbers = place(block + 1).is_some_and(|place| number(&place).is_some());
-    if !is_end(above) || all_have_numbers || !(block..part_end).filter_map(place).any(|place| is_end(&place))
-    {
+    let has_own_end = || (block..part_end).filter_map(place).any(|place| ends_program(&place, cx));
+    if !ends_program(above, cx) || all_have_numbers || !has_own_end() {
         return None;
     }
     (last + 1..=block).filter_map(place).find_map(|place| number(&place))
+}
+
+/// Does the block end the program?
+fn ends_program(place: &Place, cx: &FinishCx<'_>) -> bool {
+    let mut words = place.table.words(place.block()).iter();
+    words.any(|word| matches!(cx.model.effect(word.code), Effect::ProgramEnd | Effect::ProgramEndWithPallet))
 }
 
 /// Does a statement or jump of the text lead to the block?
@@ -499,5 +501,19 @@ mod tests {
     #[test]
     fn a_jump_to_nowhere_hides_nothing() {
         check_rule(&RULE, "fanuc-mill", "O1\nGOTO 10\nG0 X1.\nM30\n", &expect![[""]]);
+    }
+
+    #[test]
+    fn a_jump_to_nowhere_may_mean_a_label_after_the_end() {
+        check_rule(
+            &RULE,
+            "fanuc-mill",
+            "O1\nGOTO 10\nG0 X1.\nM30\nG0 X2.\nN11 G0 X3.\nX4.\nM30\n",
+            &expect![[r#"
+            5 | G0 X2.
+              | ^^^^^^ warning[unreachable-block] no path reaches this block
+        "#]],
+        );
+        check_rule(&RULE, "fanuc-mill", "O1\nN5 G0 X1.\nGOTO 10\nGOTO 5\nG0 X2.\nM30\n", &expect![[""]]);
     }
 }
