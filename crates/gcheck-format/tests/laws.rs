@@ -86,6 +86,7 @@ fn statement(table: &BlockTable, kind: &StatementKind, text: &str) -> String {
             format!("o {label} {keyword:?}")
         }
         StatementKind::Print => "print".to_owned(),
+        StatementKind::Command => format!("command {text}"),
     };
     let expressions: Vec<String> = kind.expressions().map(|expr| expression(table, expr, text)).collect();
     format!("{name} {}", expressions.join(","))

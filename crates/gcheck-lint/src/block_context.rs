@@ -54,6 +54,12 @@ pub struct WordFacts<'a> {
 }
 
 impl<'a> BlockCx<'a> {
+    /// The alarm that the control raises for what a rule finds about a code or an address: `G43.1`, `T`.
+    pub fn alarm_of(&self, rule: &str, thing: &str) -> Option<String> {
+        let alarm = self.control().alarm_of(rule, thing)?;
+        Some(alarm.number.clone().unwrap_or_else(|| alarm.text.clone()))
+    }
+
     /// The control.
     pub fn control(&self) -> &'a Control {
         self.environment.control()

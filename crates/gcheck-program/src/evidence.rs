@@ -92,6 +92,10 @@ impl Scan {
             self.form("tape-mark");
             return;
         }
+        if is_system_command(rest) {
+            self.form("system-command");
+            return;
+        }
         let whole = rest;
         let mut seen = Seen { is_head: true, ..Seen::default() };
         while let Some(first) = rest.chars().next() {
@@ -265,6 +269,17 @@ impl Scan {
     }
 }
 
+/// `$H`, `$$`, `$J=G91 X1`, `$110=500`.
+fn is_system_command(line: &str) -> bool {
+    let Some(after) = line.strip_prefix('$') else { return false };
+    let digits = after.bytes().take_while(u8::is_ascii_digit).count();
+    match after.as_bytes().get(digits) {
+        Some(b'=') if digits > 0 => true,
+        Some(byte) => digits == 0 && (byte.is_ascii_alphabetic() || *byte == b'$'),
+        None => false,
+    }
+}
+
 /// The text after the bracket that closes the one at its head; inside is an expression, of which only names count.
 fn after_brackets<'t>(rest: &'t str, scan: &mut Scan) -> &'t str {
     let mut depth = 0_usize;
@@ -384,6 +399,29 @@ mod tests {
                 turning-words
             "#]],
         );
+    }
+
+    #[test]
+    fn a_line_for_the_firmware_is_seen_where_it_opens_the_line() {
+        check(
+            "$H\nG0 X1\n",
+            &expect![[r#"
+
+                G0
+                system-command
+            "#]],
+        );
+        check(
+            "$1 S100 M3\n$[1] S2\nG0 X1 ($H)\n",
+            &expect![[r#"
+                $H
+                M3 G0
+
+            "#]],
+        );
+        for line in ["$$", "$110=500.", " $J=G91 X1 F100", "$x"] {
+            assert_eq!(collect_evidence(line).forms, ["system-command"], "{line}");
+        }
     }
 
     #[test]

@@ -63,11 +63,13 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     let Some(number) = number else {
         return finding
             .label("no control has a code of this form")
+            .alarm(word.number().and_then(|n| cx.alarm_of(META.id, &format!("{}{n}", word.letter))))
             .note("a code is a number from 0, with one decimal at most")
             .help("correct the number");
     };
     let control = cx.control();
     let finding = finding
+        .alarm(cx.alarm_of(META.id, &number.to_string()))
         .note(format!("{} has no `{number}`  [{}]", control.title(), list.source))
         .at_most(limit(if is_g { list.g_codes } else { list.m_codes }));
     let finding = if cx.environment.control_is_guessed {
