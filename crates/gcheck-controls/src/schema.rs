@@ -372,7 +372,8 @@ pub struct Hint {
     /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
     /// `turning-cycle-one-block` (`G71 P Q D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
     /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
-    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`).
+    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
+    /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has).
     #[serde(default)]
     pub form: Option<String>,
     /// Points for this control.
