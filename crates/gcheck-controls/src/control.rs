@@ -357,9 +357,9 @@ impl Control {
         self.alarms.iter().map(|alarm| alarm.rule.as_str())
     }
 
-    /// All alarms that `alarms.toml` gives.
-    pub(crate) fn alarms_of_rules(&self) -> &[AlarmOfRule] {
-        &self.alarms
+    /// All alarms that `alarms.toml` gives: the rule, the codes and addresses that the row is for (none: all others), the alarm.
+    pub fn alarms_of_rules(&self) -> impl Iterator<Item = (&str, &[String], &AlarmEntry)> {
+        self.alarms.iter().map(|alarm| (alarm.rule.as_str(), alarm.of.as_slice(), &alarm.entry))
     }
 
     /// The same control with codes that the user's configuration declares, which replace entries of the same number.

@@ -219,9 +219,9 @@ impl Problems<'_> {
                 self.say(&setting.number, "lists no values");
             }
         }
-        for alarm in control.alarms_of_rules() {
-            if alarm.entry.text.trim().is_empty() {
-                self.say("alarms.toml", format!("the alarm of `{}` has no text", alarm.rule));
+        for (rule, _, alarm) in control.alarms_of_rules() {
+            if alarm.text.trim().is_empty() {
+                self.say("alarms.toml", format!("the alarm of `{rule}` has no text"));
             }
         }
         for function in control.functions() {
