@@ -696,8 +696,8 @@ pub(crate) struct AlarmsFile {
 pub(crate) struct RuleAlarm {
     /// The rule's id.
     pub(crate) rule: String,
-    /// The codes and addresses that it holds for: `G43.1`, `T`; `G54.*` is every number with a decimal after `G54`. For the
-    /// others, the row of the rule without this field.
+    /// The codes and addresses that it holds for: `G43.1`, `T`, `G10 P` for a word of a code; `G54.*` is every number with
+    /// a decimal after `G54`. For the others, the row of the rule without this field.
     #[serde(default)]
     pub(crate) of: Vec<String>,
     /// As in [`AlarmEntry`].

@@ -139,4 +139,3 @@ pub fn alarm_name(number: &str) -> String {
     let says_itself = ["alarm ", "error "].iter().any(|word| number.starts_with(word));
     if says_itself { number.to_owned() } else { format!("alarm {number}") }
 }
-

@@ -17,7 +17,10 @@ fn after_homing_and_jogging_nobody_knows_where_the_axes_are() {
 #[test]
 fn settings_and_questions_move_nothing() {
     for line in ["$$", "$G", "$X", "$110=500", "$N0=G21 G90", "$SLP"] {
-        assert_eq!(shown(&format!("G0 X1 Y2\n{line}\nG0 X5")), "rapid x1 y2 z0 | rapid x5 y2 z0 | at x5 y2 z0");
+        assert_eq!(
+            shown(&format!("G0 X1 Y2\n{line}\nG0 X5")),
+            "rapid x1 y2 z0 | rapid x5 y2 z0 | at x5 y2 z0"
+        );
     }
 }
 
@@ -40,10 +43,4 @@ fn an_arc_may_end_off_its_circle_by_five_thousandths_or_a_thousandth_of_its_radi
     assert!(refused(&end("20.02", 10)), "{}", end("20.02", 10));
     assert!(!refused(&end("400.15", 200)), "{}", end("400.15", 200));
     assert!(refused(&end("400.25", 200)), "{}", end("400.25", 200));
-}
-
-#[test]
-fn the_end_of_the_program_leaves_units_and_the_shift() {
-    let text = shown("G91 G0 X1\nM2");
-    assert!(text.starts_with("rapid x1 y0 z0"), "{text}");
 }

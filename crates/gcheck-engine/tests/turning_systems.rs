@@ -72,7 +72,9 @@ fn the_same_part_moves_alike_in_every_system() {
 
 #[test]
 fn the_part_of_one_system_moves_otherwise_in_another() {
-    for (control, system) in [("fanuc-lathe", 1), ("fanuc-lathe-b", 0), ("fanuc-lathe-b", 2), ("fanuc-lathe-c", 1)] {
+    for (control, system) in
+        [("fanuc-lathe", 1), ("fanuc-lathe-b", 0), ("fanuc-lathe-b", 2), ("fanuc-lathe-c", 1)]
+    {
         let own = ["fanuc-lathe", "fanuc-lathe-b", "fanuc-lathe-c"][system];
         assert_ne!(motion(control, &part(system)), motion(own, &part(system)), "{control} {system}");
     }

@@ -32,12 +32,9 @@ mod tests {
 
     #[test]
     fn comments_and_blanks_count_only_where_everything_does() {
-        for (line, everything, code) in [
-            ("G1 X1.5 Y2", 10, 8),
-            ("/G1 (a; b) X1 ; to the end (", 28, 4),
-            ("(é)", 3, 0),
-            ("", 0, 0),
-        ] {
+        for (line, everything, code) in
+            [("G1 X1.5 Y2", 10, 8), ("/G1 (a; b) X1 ; to the end (", 28, 4), ("(é)", 3, 0), ("", 0, 0)]
+        {
             assert_eq!(counted_characters(line, LineCounts::Everything), everything, "{line}");
             assert_eq!(counted_characters(line, LineCounts::Code), code, "{line}");
         }

@@ -7,7 +7,8 @@
 use std::ops::Range;
 
 use gcheck_controls::{
-    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, LineCounts, Need, Semicolon, WordEntry, WordKind,
+    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, LineCounts, Need, Semicolon, WordEntry,
+    WordKind,
 };
 use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
 

@@ -834,9 +834,9 @@ fn port_statement<S: Sink>(p: &mut Parser<'_, S>) {
 /// `$H`: a line of its own.
 fn command_statement<S: Sink>(p: &mut Parser<'_, S>) {
     let before = p.tokens.get(..p.at).unwrap_or_default();
-    let opens = before
-        .iter()
-        .all(|lexeme| matches!(lexeme.token, Token::Whitespace | Token::Bom | Token::Comment(CommentEnd::Closed)));
+    let opens = before.iter().all(|lexeme| {
+        matches!(lexeme.token, Token::Whitespace | Token::Bom | Token::Comment(CommentEnd::Closed))
+    });
     if !opens {
         p.bump_as_error(SyntaxErrorKind::Unexpected);
         return;

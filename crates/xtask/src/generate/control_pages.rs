@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gcheck_controls::{
-    Access, Confidence, Control, LetterEntry, Limits, LineCounts, Machine, Motion, Need, NumberRules, OverrideSwitch,
-    Semicolon, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
+    Access, Confidence, Control, LetterEntry, Limits, LineCounts, Machine, Motion, Need, NumberRules,
+    OverrideSwitch, Semicolon, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
 };
 
 use super::generated::Generated;

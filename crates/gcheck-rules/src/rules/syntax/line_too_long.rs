@@ -49,7 +49,9 @@ fn finding(cx: &BlockCx<'_>, limit: u32) -> Finding {
     let counts = cx.control().limits().line_counts;
     let kept = places_that_count(text, counts).nth(limit as usize).unwrap_or(text.len()) as u32;
     let (of_which, help) = match counts {
-        LineCounts::Everything => ("comments included", "shorten the comment, or write the block in several lines"),
+        LineCounts::Everything => {
+            ("comments included", "shorten the comment, or write the block in several lines")
+        }
         LineCounts::Code => (
             "blanks and comments not counted",
             "write the block in several lines, or with fewer decimals than the machine resolves",
