@@ -200,7 +200,14 @@ mod tests {
     #[test]
     fn the_control_with_the_other_set_is_named() {
         let found = findings(&only(&RULE), "fanuc-lathe", "G91 G1 X1.\n", &World::default());
-        expect![[r#""#]].assert_eq(&words(&found[0]));
+        expect![[r#"
+            unknown code `G91`
+              here: not in the set of codes that is assumed
+              note: Fanuc 0i-T / 30i-T, turning centre, G code system A has no `G91`  [ABC-TABLE; general knowledge]
+              note: another setting of the control chooses a set of codes that has it
+              note: on Fanuc 0i-T / 30i-T, turning centre, G code system B: incremental distances
+              help: check which set of codes the machine is set to, and choose its control
+        "#]].assert_eq(&words(&found[0]));
     }
 
     #[test]
