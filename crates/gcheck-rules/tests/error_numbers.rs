@@ -36,7 +36,7 @@ fn errors(program: &str) -> Vec<String> {
     errors.map(|finding| format!("{} {}", finding.rule.id, finding.alarm.unwrap_or_default())).collect()
 }
 
-/// Each line of the table: a program after a header without mistakes, and what is said of it.
+/// Each line of the table: a program after a header without mistakes, and the error that is found.
 const REFUSED: &[(&str, &str)] = &[
     // A word is a letter and a number.
     ("G0 X", "address-without-value error 2"),
