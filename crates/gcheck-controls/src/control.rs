@@ -64,11 +64,28 @@ pub struct Control {
     pub(crate) variables: Vec<VariableEntry>,
     pub(crate) functions: Vec<FunctionEntry>,
     pub(crate) settings: Vec<SettingEntry>,
-    /// By rule id.
-    pub(crate) alarms: Vec<(String, AlarmEntry)>,
+    pub(crate) alarms: Vec<AlarmOfRule>,
     pub(crate) semantics: Semantics,
     pub(crate) motion: MotionRules,
     pub(crate) lasting: Vec<LastingWords>,
+}
+
+/// The alarm for what a rule finds: of some codes and addresses, or of all others.
+#[derive(Debug, Clone)]
+pub(crate) struct AlarmOfRule {
+    pub(crate) rule: String,
+    pub(crate) of: Vec<String>,
+    pub(crate) entry: AlarmEntry,
+}
+
+impl AlarmOfRule {
+    /// Is the row for this code or address by name?
+    fn names(&self, thing: &str) -> bool {
+        self.of.iter().any(|item| match item.strip_suffix(".*") {
+            Some(whole) => thing.split_once('.').is_some_and(|(before, _)| before == whole),
+            None => item == thing,
+        })
+    }
 }
 
 /// A code and what is derived from its entry once, at load time.
@@ -326,12 +343,23 @@ impl Control {
 
     /// The alarm that the control raises for what a rule finds, where it is known.
     pub fn alarm(&self, rule: &str) -> Option<&AlarmEntry> {
-        self.alarms.iter().find(|(id, _)| id == rule).map(|(_, alarm)| alarm)
+        self.alarms.iter().find(|alarm| alarm.rule == rule && alarm.of.is_empty()).map(|alarm| &alarm.entry)
+    }
+
+    /// The alarm for what a rule finds about a code or an address, as data writes it: `G43.1`, `T`.
+    pub fn alarm_of(&self, rule: &str, thing: &str) -> Option<&AlarmEntry> {
+        let own = self.alarms.iter().find(|alarm| alarm.rule == rule && alarm.names(thing));
+        own.map_or_else(|| self.alarm(rule), |alarm| Some(&alarm.entry))
     }
 
     /// Rules that `alarms.toml` names.
     pub fn rules_with_alarms(&self) -> impl Iterator<Item = &str> {
-        self.alarms.iter().map(|(id, _)| id.as_str())
+        self.alarms.iter().map(|alarm| alarm.rule.as_str())
+    }
+
+    /// All alarms that `alarms.toml` gives: the rule, the codes and addresses that the row is for (none: all others), the alarm.
+    pub fn alarms_of_rules(&self) -> impl Iterator<Item = (&str, &[String], &AlarmEntry)> {
+        self.alarms.iter().map(|alarm| (alarm.rule.as_str(), alarm.of.as_slice(), &alarm.entry))
     }
 
     /// The same control with codes that the user's configuration declares, which replace entries of the same number.

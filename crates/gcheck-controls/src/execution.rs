@@ -397,6 +397,9 @@ pub struct Semantics {
     /// Computed jumps and `GOTO` look forward first, then from the head of the program.
     #[serde(default)]
     pub goto_forward_first: bool,
+    /// Commands to the firmware after which the axes are elsewhere, by what follows the `$`: homing (`H`), jogging (`J=`).
+    #[serde(default)]
+    pub commands_that_move: Vec<String>,
     /// Comments that are shown to the operator, by the word that they begin with: `(MSG, …)`.
     #[serde(default)]
     pub message_comments: BTreeMap<String, MessageComment>,

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::fmt;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use crate::control::CodeFacts;
+use crate::control::{AlarmOfRule, CodeFacts};
 use crate::execution::{Effect, ExecutionFile, LastingWords, Semantics};
 use crate::motion::MotionRules;
 use crate::schema::{
@@ -138,7 +138,7 @@ struct Layers {
     variables: Vec<VariableEntry>,
     functions: Vec<FunctionEntry>,
     settings: Vec<SettingEntry>,
-    alarms: Vec<(String, AlarmEntry)>,
+    alarms: Vec<AlarmOfRule>,
     effects: BTreeMap<String, Effect>,
     semantics: Option<Semantics>,
     motion: Option<MotionRules>,
@@ -208,11 +208,12 @@ fn add_layer(layers: &mut Layers, source: &Source) -> Result<(), LoadError> {
         put_all(&mut layers.settings, file.settings, |s| s.number.clone());
     }
     if let Some(file) = parse_file::<AlarmsFile>(source, "alarms.toml")? {
-        let alarms = file
-            .alarms
-            .into_iter()
-            .map(|a| (a.rule, AlarmEntry { number: a.number, text: a.text, confidence: a.confidence }));
-        put_all(&mut layers.alarms, alarms.collect(), |(rule, _)| rule.clone());
+        let alarms = file.alarms.into_iter().map(|a| AlarmOfRule {
+            rule: a.rule,
+            of: a.of,
+            entry: AlarmEntry { number: a.number, text: a.text, confidence: a.confidence },
+        });
+        put_all(&mut layers.alarms, alarms.collect(), |alarm| (alarm.rule.clone(), alarm.of.clone()));
     }
     if let Some(file) = parse_file::<ExecutionFile>(source, "execution.toml")? {
         layers.effects.extend(file.effects);

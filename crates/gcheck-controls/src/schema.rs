@@ -102,6 +102,15 @@ pub struct SyntaxRules {
     /// A pair of `%` lines ends the program where no code does.
     #[serde(default)]
     pub tape_marks_end: bool,
+    /// A `%` is refused wherever it is.
+    #[serde(default)]
+    pub tape_marks_refused: bool,
+    /// `/` lets a switch of the machine skip a block; else the control passes over the sign, and the block always runs.
+    #[serde(default = "yes")]
+    pub block_delete: bool,
+    /// `$H`, `$J=G91 X1`: lines that are commands to the firmware.
+    #[serde(default)]
+    pub system_commands: bool,
 }
 
 /// What a semicolon does.
@@ -163,6 +172,9 @@ pub struct Limits {
     /// Characters in one line.
     #[serde(default)]
     pub line_length: Option<u32>,
+    /// Which characters of a line count.
+    #[serde(default)]
+    pub line_counts: LineCounts,
     /// M codes in one block.
     #[serde(default)]
     pub m_codes_per_block: Option<u8>,
@@ -193,6 +205,17 @@ pub struct Limits {
     /// The source of the limits.
     #[serde(default)]
     pub source: Option<String>,
+}
+
+/// Which characters of a line count where its length has a limit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LineCounts {
+    /// All of them.
+    #[default]
+    Everything,
+    /// Those of words: neither blanks nor comments nor `/`.
+    Code,
 }
 
 /// The positions of an override switch, percent.
@@ -357,7 +380,8 @@ pub struct Hint {
     /// `packed-tool` (`T0101` or `T101` without a tool change code), `packed-tool-short` (`T101`), `incremental-words` (`U`, `W`),
     /// `turning-cycle-one-block` (`G71 P Q D`), `turning-cycle-two-blocks` (`G71 U R`), `lower-case` (words in lower case),
     /// `five-digit-program` (`O00123`), `packed-tool-with-change` (`T0707 M06`: station and offset alike), `turning-words`
-    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`).
+    /// (several blocks with `X` and with `Z`, none with `Y`, and `G50`, `G96` or `G97`), `system-command` (`$H`, `$110=500`),
+    /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has).
     #[serde(default)]
     pub form: Option<String>,
     /// Points for this control.
@@ -706,6 +730,10 @@ pub(crate) struct AlarmsFile {
 pub(crate) struct RuleAlarm {
     /// The rule's id.
     pub(crate) rule: String,
+    /// The codes and addresses that it holds for: `G43.1`, `T`, `G10 P` for a word of a code; `G54.*` is every number with
+    /// a decimal after `G54`. For the others, the row of the rule without this field.
+    #[serde(default)]
+    pub(crate) of: Vec<String>,
     /// As in [`AlarmEntry`].
     #[serde(default)]
     pub(crate) number: Option<String>,

@@ -228,8 +228,8 @@ impl Problems<'_> {
                 self.say(&setting.number, "lists no values");
             }
         }
-        for rule in control.rules_with_alarms() {
-            if control.alarm(rule).is_none_or(|a| a.text.trim().is_empty()) {
+        for (rule, _, alarm) in control.alarms_of_rules() {
+            if alarm.text.trim().is_empty() {
                 self.say("alarms.toml", format!("the alarm of `{rule}` has no text"));
             }
         }

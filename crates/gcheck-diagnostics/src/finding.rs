@@ -101,6 +101,11 @@ impl Finding {
         self
     }
 
+    /// What the control answers, as a note says it: `the control raises alarm PS0011`.
+    pub fn alarm_note(&self) -> Option<String> {
+        self.alarm.as_deref().map(|alarm| format!("the control raises {}", alarm_name(alarm)))
+    }
+
     /// What the verdict rests on.
     #[must_use]
     pub fn assuming(mut self, text: impl Into<String>) -> Self {
@@ -128,4 +133,9 @@ impl Finding {
         self.fixes.extend(fix);
         self
     }
+}
+/// What people call an alarm of a number: `alarm PS0011`, but `error 20` where the control itself says so.
+pub fn alarm_name(number: &str) -> String {
+    let says_itself = ["alarm ", "error "].iter().any(|word| number.starts_with(word));
+    if says_itself { number.to_owned() } else { format!("alarm {number}") }
 }

@@ -17,7 +17,7 @@ mod severity;
 pub use assumption::{StatedAssumption, pins};
 pub use edit::{Edit, apply, apply_to_bytes};
 pub use example::DocExample;
-pub use finding::{Finding, Label};
+pub use finding::{Finding, Label, alarm_name};
 pub use fix::{Fix, FixKinds};
 pub use rule::{Fixability, RuleMeta, RuleSet, Tier};
 pub use severity::{Certainty, Severity};

@@ -285,7 +285,14 @@ impl<'c> Model<'c> {
         model.index_system_variables(&semantics.system_variables);
         model.cycle_cancel = model.code_with(Effect::CycleCancel);
         let group = |effect| model.code(model.code_with(effect)).map(|code| code.group);
-        model.cycles_are_motion = group(Effect::CycleDrill) == group(Effect::Linear);
+        // A control without cycles says by its cancelling code alone that no motion mode is left.
+        let cancel = control.code_at(model.cycle_cancel);
+        let ends_motion =
+            cancel.is_some_and(|code| code.entry().cancels.iter().any(|item| item == "@motion"));
+        model.cycles_are_motion = match group(Effect::CycleDrill) {
+            Some(drilling) => Some(drilling) == group(Effect::Linear),
+            None => ends_motion,
+        };
         let code_of =
             |name: &String| CodeNumber::parse(name).map(|n| control.code_ix(n)).filter(|ix| ix.is_some());
         model.at_end = semantics.at_end.iter().filter_map(code_of).collect();

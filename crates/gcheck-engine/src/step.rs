@@ -1035,6 +1035,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                         .map(Statements::Done);
                 }
                 StatementKind::Print => self.print(place, statement, state),
+                StatementKind::Command => self.system_command(place, statement, state),
             }
         }
         Ok(Statements::Words)

@@ -239,6 +239,11 @@ impl<F: FnMut(Range<u32>, &str)> Layout<'_, '_, F> {
     }
 }
 
+/// Printed text and commands to the firmware are not words.
+fn is_verbatim(kind: SyntaxKind) -> bool {
+    matches!(kind, SyntaxKind::PRINT_STATEMENT | SyntaxKind::COMMAND_STATEMENT)
+}
+
 impl<F: FnMut(Range<u32>, &str)> Sink for Layout<'_, '_, F> {
     type Checkpoint = usize;
 
@@ -249,13 +254,13 @@ impl<F: FnMut(Range<u32>, &str)> Sink for Layout<'_, '_, F> {
         if self.open.is_empty() {
             self.item();
         }
-        self.verbatim += u32::from(kind == SyntaxKind::PRINT_STATEMENT);
+        self.verbatim += u32::from(is_verbatim(kind));
         self.open.push(kind);
     }
 
     fn finish_node(&mut self) {
         match self.open.pop() {
-            Some(SyntaxKind::PRINT_STATEMENT) => self.verbatim -= 1,
+            Some(kind) if is_verbatim(kind) => self.verbatim -= 1,
             None if self.parts.last().is_some_and(|part| part.kind == SyntaxKind::NEWLINE) => {
                 self.finish_line();
             }
@@ -277,7 +282,7 @@ impl<F: FnMut(Range<u32>, &str)> Sink for Layout<'_, '_, F> {
             }
             self.items = item;
         }
-        self.verbatim += u32::from(kind == SyntaxKind::PRINT_STATEMENT);
+        self.verbatim += u32::from(is_verbatim(kind));
         self.open.push(kind);
     }
 

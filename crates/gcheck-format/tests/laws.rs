@@ -86,6 +86,7 @@ fn statement(table: &BlockTable, kind: &StatementKind, text: &str) -> String {
             format!("o {label} {keyword:?}")
         }
         StatementKind::Print => "print".to_owned(),
+        StatementKind::Command => "command".to_owned(),
     };
     let expressions: Vec<String> = kind.expressions().map(|expr| expression(table, expr, text)).collect();
     format!("{name} {}", expressions.join(","))
@@ -99,11 +100,14 @@ fn expression(table: &BlockTable, expr: ExprIx, text: &str) -> String {
     table.ops(table.expr(expr)).iter().map(op).collect::<Vec<_>>().join(" ")
 }
 
-/// The comments of a text, and what it prints.
+/// The comments of a text, what it prints, and its commands to the firmware.
 fn remarks(text: &str, dialect: &Dialect<'_>) -> Vec<String> {
     let tree = parse(text, dialect.profile()).syntax();
     tree.descendants_with_tokens()
-        .filter(|element| element.kind().is_comment() || element.kind() == SyntaxKind::PRINT_STATEMENT)
+        .filter(|element| {
+            let is_kept = matches!(element.kind(), SyntaxKind::PRINT_STATEMENT | SyntaxKind::COMMAND);
+            element.kind().is_comment() || is_kept
+        })
         .map(|element| match element {
             gcheck_syntax::SyntaxElement::Node(node) => {
                 let text = node.text().to_string();

@@ -1016,8 +1016,8 @@ mod tests {
             3,
             &expect![[r#"
             Control fanuc-lathe | Fanuc 0i-T / 30i-T, turning centre, G code system A | (gcheck: control=fanuc-lathe
-            Control fanuc-mill | Fanuc 0i-M / 30i-M, machining centre | (gcheck: control=fanuc-mill
-            Control generic-mill | Fanuc-style mill, control unknown | (gcheck: control=generic-mill
+            Control fanuc-lathe-b | Fanuc 0i-T / 30i-T, turning centre, G code system B | (gcheck: control=fanuc-lathe-b
+            Control fanuc-lathe-c | Fanuc 0i-T / 30i-T, turning centre, G code system C | (gcheck: control=fanuc-lathe-c
         "#]],
         );
         check("haas-mill", "(NOTE $0)\n", 3, &expect![[""]]);

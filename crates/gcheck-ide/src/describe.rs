@@ -6,6 +6,8 @@ use std::fmt::Write as _;
 
 use gcheck_controls::{Access, Code, Control, Letter, VariableEntry, VariableKind, WordEntry};
 
+use gcheck_diagnostics::alarm_name;
+
 use crate::foreign::Foreign;
 
 /// A code: title, rules, words, prose, example, source.
@@ -63,7 +65,10 @@ pub(crate) fn details(control: &Control, code: Code<'_>) -> String {
     let alarms = entry.alarms.iter().filter(|alarm| alarm.number.is_some());
     for alarm in alarms {
         let number = alarm.number.as_deref().unwrap_or_default();
-        let _ = write!(text, "\nAlarm {number}: {}{}\n", alarm.text, alarm.confidence.remark());
+        let name = alarm_name(number);
+        let (first, rest) = name.split_at_checked(1).unwrap_or_default();
+        let first = first.to_ascii_uppercase();
+        let _ = write!(text, "\n{first}{rest}: {}{}\n", alarm.text, alarm.confidence.remark());
     }
     let blocks: Vec<&str> = entry.setup.iter().chain([&entry.example]).map(String::as_str).collect();
     let _ = write!(text, "\n```gcode\n{}\n```\n", blocks.join("\n"));

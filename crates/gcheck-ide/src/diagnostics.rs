@@ -133,7 +133,7 @@ fn message(finding: &Finding) -> String {
 /// The notes of a finding, below its places.
 pub(crate) fn remarks(finding: &Finding) -> Vec<String> {
     let notes = finding.notes.iter().map(|note| format!("note: {note}"));
-    let alarm = finding.alarm.iter().map(|alarm| format!("note: the control raises alarm {alarm}"));
+    let alarm = finding.alarm_note().map(|alarm| format!("note: {alarm}"));
     let assumptions = finding.assumptions.iter().map(|fact| format!("note: assuming {fact}"));
     let help = finding.help.iter().map(|help| format!("help: {help}"));
     notes.chain(alarm).chain(assumptions).chain(help).collect()

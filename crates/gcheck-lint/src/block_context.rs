@@ -70,6 +70,12 @@ impl<'a> BlockCx<'a> {
         Self { environment, table, ix, block, words: table.words(block), text, base }
     }
 
+    /// The alarm that the control raises for what a rule finds about a code or an address: `G43.1`, `T`.
+    pub fn alarm_of(&self, rule: &str, thing: &str) -> Option<String> {
+        let alarm = self.control().alarm_of(rule, thing)?;
+        Some(alarm.number.clone().unwrap_or_else(|| alarm.text.clone()))
+    }
+
     /// The control.
     pub fn control(&self) -> &'a Control {
         self.environment.control()

@@ -195,7 +195,9 @@ impl<'c> Collector<'c> {
     pub(crate) fn add(&mut self, severity: Option<Severity>, finding: Finding) {
         let mut finding = finding.at_most(self.most);
         // Only what is certainly a mistake predicts an alarm.
-        if finding.alarm.is_none() && finding.severity == Severity::Error {
+        if finding.severity != Severity::Error {
+            finding.alarm = None;
+        } else if finding.alarm.is_none() {
             finding.alarm = self
                 .control
                 .alarm(finding.rule.id)

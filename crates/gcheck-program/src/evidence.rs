@@ -30,6 +30,9 @@ pub fn collect_evidence(text: &str) -> Evidence {
     let turns = [50, 96, 97].map(CodeNumber::g).iter().any(|code| scan.codes.contains(code));
     if with_x.min(with_z) >= ENOUGH_BLOCKS && with_y == 0 && turns {
         scan.form("turning-words");
+        if let Some(system) = scan.turning_system() {
+            scan.form(system);
+        }
     }
     Evidence {
         comments: scan.comments,
@@ -47,6 +50,8 @@ struct Scan {
     keeps_comments: bool,
     /// Blocks with an `X` and a value, with a `Z`, with a `Y`.
     blocks_with: [usize; 3],
+    /// A block with `G70` or `G71` and nothing that a turning cycle needs: the code chooses units.
+    units_by_cycle_number: bool,
 }
 
 /// Blocks with `X` and blocks with `Z` that a program needs before it means something that none has a `Y`.
@@ -61,6 +66,8 @@ struct Seen {
     /// `T0707`: the station and its offset are one number written twice.
     twin_tool: bool,
     turning_cycle: bool,
+    /// `G70` or `G71`: a turning cycle in some sets of codes, units in another.
+    unit_or_cycle: bool,
     letters: LetterSet,
     /// Letters with a value.
     valued: LetterSet,
@@ -78,6 +85,18 @@ impl Scan {
         }
     }
 
+    /// The set of G codes that a turning program is written in, where what it uses leaves no other: feed per revolution is
+    /// `G95` in systems B and C and not a code in A, and A has codes that the others do not.
+    fn turning_system(&self) -> Option<&'static str> {
+        let has = |numbers: &[u16]| numbers.iter().any(|n| self.codes.contains(&CodeNumber::g(*n)));
+        let of_system_a = has(&[32, 50]) || has(&[98, 99]) && !has(&[83, 84, 85, 87, 88, 89]);
+        if !has(&[95]) || of_system_a {
+            return None;
+        }
+        let is_c = self.units_by_cycle_number || has(&[24]);
+        Some(if is_c { "turning-system-c" } else { "turning-system-b" })
+    }
+
     fn comment(&mut self, text: &str) {
         let text = text.trim();
         if self.keeps_comments && !text.is_empty() {
@@ -90,6 +109,10 @@ impl Scan {
         let mut rest = line.trim_matches([' ', '\t', '\u{FEFF}', '\0']);
         if rest.starts_with('%') {
             self.form("tape-mark");
+            return;
+        }
+        if is_system_command(rest) {
+            self.form("system-command");
             return;
         }
         let whole = rest;
@@ -138,6 +161,8 @@ impl Scan {
             *count += usize::from(seen.valued.contains(Letter::of(letter)));
         }
         let has = |letter| seen.letters.contains(Letter::of(letter));
+        self.units_by_cycle_number |=
+            seen.unit_or_cycle && !seen.letters.intersects(LetterSet::of("DPQRUWXZ"));
         if seen.turning_cycle && has('P') && has('Q') && has('D') {
             self.form("turning-cycle-one-block");
         }
@@ -200,6 +225,7 @@ impl Scan {
                         self.form("lower-case");
                     }
                     seen.turning_cycle |= [71, 72, 73].map(CodeNumber::g).contains(&code);
+                    seen.unit_or_cycle |= [70, 71].map(CodeNumber::g).contains(&code);
                     seen.tool_change |= code == CodeNumber::m(6);
                     seen.macro_call |= code == CodeNumber::g(65) || code == CodeNumber::g(66);
                     if !self.codes.contains(&code) {
@@ -262,6 +288,17 @@ impl Scan {
             }
         }
         after
+    }
+}
+
+/// `$H`, `$$`, `$J=G91 X1`, `$110=500`.
+fn is_system_command(line: &str) -> bool {
+    let Some(after) = line.strip_prefix('$') else { return false };
+    let digits = after.bytes().take_while(u8::is_ascii_digit).count();
+    match after.as_bytes().get(digits) {
+        Some(b'=') if digits > 0 => true,
+        Some(byte) => digits == 0 && (byte.is_ascii_alphabetic() || *byte == b'$'),
+        None => false,
     }
 }
 
@@ -384,6 +421,48 @@ mod tests {
                 turning-words
             "#]],
         );
+    }
+
+    #[test]
+    fn feed_per_revolution_by_g95_tells_the_systems_of_codes_apart() {
+        let body = "T0101\nG97 S800 M3\nG0 X60 Z5\nG1 X58 Z0\nX56 Z-1\nX54 Z-2\n";
+        for (head, system) in [
+            ("G21 G95\n", Some("turning-system-b")),
+            ("G71 G95\n", Some("turning-system-c")),
+            ("G71 P10 Q20 U1 W1\nG95\n", Some("turning-system-b")),
+            ("G95\nG98 G83 Z-5 R2\n", Some("turning-system-b")),
+            ("G21 G99\n", None),
+            ("G95 G50 S2000\n", None),
+            ("G95 G99\n", None),
+            ("G95\nG0 Y1\n", None),
+        ] {
+            let forms = collect_evidence(&format!("{head}{body}")).forms;
+            let found = forms.iter().find(|form| form.starts_with("turning-system"));
+            assert_eq!(found.map(String::as_str), system, "{head}");
+        }
+    }
+
+    #[test]
+    fn a_line_for_the_firmware_is_seen_where_it_opens_the_line() {
+        check(
+            "$H\nG0 X1\n",
+            &expect![[r#"
+
+                G0
+                system-command
+            "#]],
+        );
+        check(
+            "$1 S100 M3\n$[1] S2\nG0 X1 ($H)\n",
+            &expect![[r#"
+                $H
+                M3 G0
+
+            "#]],
+        );
+        for line in ["$$", "$110=500.", " $J=G91 X1 F100", "$x"] {
+            assert_eq!(collect_evidence(line).forms, ["system-command"], "{line}");
+        }
     }
 
     #[test]

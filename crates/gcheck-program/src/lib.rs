@@ -8,6 +8,7 @@
 mod block;
 mod evidence;
 mod expression;
+mod line_length;
 mod loaded;
 mod lower;
 mod number;
@@ -20,6 +21,7 @@ mod tool_names;
 pub use block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 pub use evidence::{EVIDENCE_BYTES, collect_evidence};
 pub use expression::{BinaryOp, Expr, ExprIx, Function, Op};
+pub use line_length::{counted_characters, places_that_count};
 pub use loaded::{Loaded, Place, Touched};
 pub use lower::{Dialect, lower, lower_tree, profile};
 pub use number::NumberShape;

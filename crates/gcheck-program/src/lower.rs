@@ -7,12 +7,14 @@
 use std::ops::Range;
 
 use gcheck_controls::{
-    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, Need, Semicolon, WordEntry, WordKind,
+    CodeEntry, CodeIx, CodeNumber, Control, Letter, LetterSet, LineCounts, Need, Semicolon, WordEntry,
+    WordKind,
 };
 use gcheck_syntax::{Parse, Sink, SyntaxError, SyntaxKind, SyntaxProfile, parse_into, replay};
 
 use crate::block::{Block, BlockFlags, BlockIx, BlockTable, Value, Word};
 use crate::expression::{BinaryOp, Expr, ExprIx, Function, Op, is_well_formed};
+use crate::line_length::counted_characters;
 use crate::number::{self, NumberShape};
 use crate::plain::{self, PlainWord};
 use crate::statement::{OKeyword, OLabel, Statement, StatementKind, Target};
@@ -33,7 +35,9 @@ pub struct Dialect<'c> {
     points: LetterSet,
     max_digits: u32,
     line_length: u32,
+    line_counts: LineCounts,
     lower_case: bool,
+    block_delete: bool,
     /// By code index: does the code name a label or program?
     refers: Vec<bool>,
     /// By code index: words that must have been given by the time the code runs, each with those that do instead.
@@ -125,7 +129,9 @@ impl<'c> Dialect<'c> {
             letters,
             max_digits: control.numbers().max_digits.map_or(u32::MAX, u32::from),
             line_length: control.limits().line_length.unwrap_or(u32::MAX),
+            line_counts: control.limits().line_counts,
             lower_case: control.syntax().lower_case,
+            block_delete: control.syntax().block_delete,
             increments,
             lasting: control.codes().map(|code| lasting_words(code.entry())).collect(),
             refers: control
@@ -298,6 +304,7 @@ pub fn profile(control: &Control) -> SyntaxProfile {
         bare_expressions: syntax.bare_expressions,
         logic_binds_last: syntax.logic_binds_last,
         power_operator: syntax.power_operator,
+        system_commands: syntax.system_commands,
     }
 }
 
@@ -617,7 +624,8 @@ impl<'t, 'd> LowerSink<'t, 'd> {
         // Bytes are at least as many as characters: only a line that may be too long is counted.
         if range.end - range.start > self.dialect.line_length {
             let text = self.text.get(range.start as usize..range.end as usize).unwrap_or_default();
-            flags.set(BlockFlags::LONG_LINE, text.chars().count() > self.dialect.line_length as usize);
+            let counted = counted_characters(text, self.dialect.line_counts);
+            flags.set(BlockFlags::LONG_LINE, counted > self.dialect.line_length as usize);
         }
         let words_of_block =
             self.table.words.get(words.start as usize..words.end as usize).unwrap_or_default();
@@ -707,7 +715,7 @@ impl Sink for LowerSink<'_, '_> {
             SyntaxKind::ERROR | SyntaxKind::PRINT_STATEMENT => self.skip += 1,
             SyntaxKind::BLOCK_DELETE => {
                 self.block_flags |= BlockFlags::BLOCK_DELETE;
-                self.block_delete = 1;
+                self.block_delete = u8::from(self.dialect.block_delete);
             }
             SyntaxKind::GOTO_STATEMENT | SyntaxKind::ASSIGNMENT => self.close_condition(),
             _ => {}
@@ -925,6 +933,7 @@ impl LowerSink<'_, '_> {
                 }
             }
             SyntaxKind::PORT_STATEMENT => self.statement(&open, StatementKind::Print),
+            SyntaxKind::COMMAND_STATEMENT => self.statement(&open, StatementKind::Command),
             _ => {}
         }
     }
@@ -949,6 +958,7 @@ impl LowerSink<'_, '_> {
                 }
             }
             SyntaxKind::NUMBER => match inner {
+                SyntaxKind::BLOCK_DELETE if !self.dialect.block_delete => {}
                 SyntaxKind::BLOCK_DELETE => {
                     self.block_delete =
                         self.slice(&range).first().map_or(1, |digit| digit.saturating_sub(b'0').max(1));

@@ -63,6 +63,8 @@ pub enum StatementKind {
     },
     /// `DPRNT[…]`, `BPRNT[…]`, `POPEN`, `PCLOS`.
     Print,
+    /// `$H`, `$J=G91 X1`: a command to the firmware.
+    Command,
 }
 
 impl StatementKind {
@@ -76,7 +78,7 @@ impl StatementKind {
             Self::Do { condition, number } => (*condition, *number, 0..0),
             Self::End { number } => (*number, None, 0..0),
             Self::OWord { arguments, .. } => (None, None, arguments.clone()),
-            Self::Print => (None, None, 0..0),
+            Self::Print | Self::Command => (None, None, 0..0),
         };
         first.into_iter().chain(second).chain(arguments.map(ExprIx))
     }

@@ -69,6 +69,7 @@ fn dump(table: &BlockTable, text: &str, dialect: &Dialect<'_>) -> String {
                     format!("{label:?} {} {arguments:?}", keyword.name())
                 }
                 StatementKind::Print => "print".to_owned(),
+                StatementKind::Command => "command".to_owned(),
             };
             let _ = writeln!(
                 out,

@@ -70,4 +70,6 @@ pub enum ForeignForm {
     NamedParameter,
     /// `**`.
     PowerOperator,
+    /// `$H`, `$J=G91 X1`.
+    SystemCommand,
 }

@@ -384,6 +384,7 @@ fn item<S: Sink>(p: &mut Parser<'_, S>) {
         Token::Goto => goto_statement(p),
         Token::Print => print_statement(p),
         Token::Port => port_statement(p),
+        Token::Command => command_statement(p),
         Token::Then
         | Token::Else
         | Token::ElseIf
@@ -828,6 +829,25 @@ fn port_statement<S: Sink>(p: &mut Parser<'_, S>) {
     macro_statement(p, SyntaxKind::PORT_STATEMENT, |p| {
         p.bump();
     });
+}
+
+/// `$H`: a line of its own.
+fn command_statement<S: Sink>(p: &mut Parser<'_, S>) {
+    let before = p.tokens.get(..p.at).unwrap_or_default();
+    let opens = before.iter().all(|lexeme| {
+        matches!(lexeme.token, Token::Whitespace | Token::Bom | Token::Comment(CommentEnd::Closed))
+    });
+    if !opens {
+        p.bump_as_error(SyntaxErrorKind::Unexpected);
+        return;
+    }
+    if !p.profile.system_commands {
+        let range = p.offset()..p.tokens.get(p.at).map_or(0, |lexeme| lexeme.end);
+        p.foreign(ForeignForm::SystemCommand, range);
+    }
+    p.sink.start_node(SyntaxKind::COMMAND_STATEMENT);
+    p.bump();
+    p.sink.finish_node();
 }
 
 /// `O100 SUB`, `O<name> CALL [1] [2]` with a fused label.

@@ -123,6 +123,8 @@ syntax_kinds! {
     PRINT_KW,
     /// `POPEN`, `PCLOS`.
     PORT_KW,
+    /// `$H`, `$J=G91 X1`: a command to the firmware.
+    COMMAND,
     /// A character that no control reads.
     UNKNOWN,
 
@@ -153,6 +155,8 @@ syntax_kinds! {
     PRINT_STATEMENT,
     /// `POPEN`, `PCLOS`.
     PORT_STATEMENT,
+    /// `$H`, `$J=G91 X1`.
+    COMMAND_STATEMENT,
     /// `a + b`.
     BINARY,
     /// `-a`.

@@ -149,6 +149,10 @@ pub(crate) enum Token {
     #[token("PCLOS", ignore(case))]
     Port,
 
+    /// `$H`, `$J=G91 X1`, `$110=500`: a command to the firmware, up to a comment or the end of the line.
+    #[regex(r"\$([A-Za-z$/][^\r\n;(]*|[0-9]+=[^\r\n;(]*)")]
+    Command,
+
     /// Any other character; a name in angle brackets that neither `#` nor `O` introduces.
     #[regex(r"<[^<>\r\n]*>")]
     Unknown,
@@ -268,6 +272,7 @@ impl Token {
             Self::Continue => SyntaxKind::CONTINUE_KW,
             Self::Print => SyntaxKind::PRINT_KW,
             Self::Port => SyntaxKind::PORT_KW,
+            Self::Command => SyntaxKind::COMMAND,
             Self::Unknown => SyntaxKind::UNKNOWN,
         }
     }

@@ -25,6 +25,8 @@ pub struct SyntaxProfile {
     pub logic_binds_last: bool,
     /// `**`.
     pub power_operator: bool,
+    /// `$H`, `$J=G91 X1`: lines that are commands to the firmware.
+    pub system_commands: bool,
 }
 
 impl SyntaxProfile {
@@ -38,6 +40,7 @@ impl SyntaxProfile {
         bare_expressions: true,
         logic_binds_last: false,
         power_operator: false,
+        system_commands: false,
     };
 
     /// An RS274/NGC style control: `;` comments, O-words, named parameters.
@@ -50,5 +53,6 @@ impl SyntaxProfile {
         bare_expressions: false,
         logic_binds_last: true,
         power_operator: true,
+        system_commands: false,
     };
 }

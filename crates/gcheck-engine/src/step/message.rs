@@ -105,6 +105,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Rc::from(shown)
     }
 
+    /// A command to the firmware: after homing and jogging the axes are where the program does not say.
+    pub(super) fn system_command(&mut self, place: &Place, statement: &Statement, state: &mut State<D>) {
+        let Some(file) = self.file(self.origin.at.file) else { return };
+        let range = statement.range.start as usize..statement.range.end as usize;
+        let text = file.loaded.chunk_text(place.chunk).get(range).unwrap_or_default();
+        let command = text.strip_prefix('$').unwrap_or_default();
+        let is = |head: &String| {
+            command.get(..head.len()).is_some_and(|written| written.eq_ignore_ascii_case(head))
+        };
+        if self.model.semantics().commands_that_move.iter().any(is) {
+            state.points.lose();
+        }
+    }
+
     /// `DPRNT[…]`: a line for the printer. `#5[53]` prints a variable with three decimals, `*` a blank; what is not known, and
     /// what is computed, is a question mark.
     pub(super) fn print(&mut self, place: &Place, statement: &Statement, state: &mut State<D>) {

@@ -304,7 +304,7 @@ fn statement(
                 return;
             }
         }
-        StatementKind::Print => return,
+        StatementKind::Print | StatementKind::Command => return,
     }
     take(ix.0, Item::Flow);
 }

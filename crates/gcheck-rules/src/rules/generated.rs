@@ -253,9 +253,11 @@ pub(crate) mod program {
     pub(crate) mod program_never_called;
     pub(crate) mod program_number_duplicate;
     pub(crate) mod program_number_missing;
+    pub(crate) mod sequence_number_too_high;
     pub(crate) mod stray_tape_mark;
     pub(crate) mod subprogram_missing;
     pub(crate) mod tape_mark_missing;
+    pub(crate) mod tape_mark_refused;
     pub(crate) mod units_comment_contradicts;
     pub(crate) mod unsupported_dialect;
     pub(crate) mod wrong_control_suspicion;
@@ -300,6 +302,7 @@ pub(crate) mod syntax {
     pub(crate) mod assignment_without_equals;
     pub(crate) mod blank_inside_number;
     pub(crate) mod block_delete_level;
+    pub(crate) mod block_delete_not_read;
     pub(crate) mod bracket_nesting_limit;
     pub(crate) mod condition_missing;
     pub(crate) mod empty_program;
@@ -591,9 +594,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::program_never_called::RULE,
     &program::program_number_duplicate::RULE,
     &program::program_number_missing::RULE,
+    &program::sequence_number_too_high::RULE,
     &program::stray_tape_mark::RULE,
     &program::subprogram_missing::RULE,
     &program::tape_mark_missing::RULE,
+    &program::tape_mark_refused::RULE,
     &program::units_comment_contradicts::RULE,
     &program::unsupported_dialect::RULE,
     &program::wrong_control_suspicion::RULE,
@@ -626,6 +631,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &syntax::assignment_without_equals::RULE,
     &syntax::blank_inside_number::RULE,
     &syntax::block_delete_level::RULE,
+    &syntax::block_delete_not_read::RULE,
     &syntax::bracket_nesting_limit::RULE,
     &syntax::condition_missing::RULE,
     &syntax::empty_program::RULE,

@@ -35,7 +35,8 @@ fn every_kind() -> Vec<Kind> {
             ForeignForm::OWord
             | ForeignForm::MacroStatement
             | ForeignForm::NamedParameter
-            | ForeignForm::PowerOperator,
+            | ForeignForm::PowerOperator
+            | ForeignForm::SystemCommand,
         ) => kind,
     };
     let forms = [
@@ -43,6 +44,7 @@ fn every_kind() -> Vec<Kind> {
         ForeignForm::MacroStatement,
         ForeignForm::NamedParameter,
         ForeignForm::PowerOperator,
+        ForeignForm::SystemCommand,
     ];
     let plain = [
         Kind::UnclosedComment,

@@ -108,7 +108,7 @@ fn what_cannot_be_explained() {
     check_refusal(
         "explain G0 --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-mill, generic-mill, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
         exit 2
     "#]],
     );
@@ -142,7 +142,7 @@ fn codes_are_listed() {
     check_refusal(
         "codes --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-mill, generic-mill, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
         exit 2
     "#]],
     );
@@ -231,7 +231,7 @@ fn init_writes_over_nothing() {
     check_refusal(
         "init --control nonsense",
         &expect![[r#"
-        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-mill, generic-mill, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
+        ! error: no control is called `nonsense`; there are fanuc-lathe, fanuc-lathe-b, fanuc-lathe-c, fanuc-mill, generic-mill, grbl, haas-lathe, haas-mill, linuxcnc, tsnc-yh-a1m
         exit 2
     "#]],
     );

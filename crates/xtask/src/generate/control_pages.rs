@@ -6,8 +6,8 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use gcheck_controls::{
-    Access, Confidence, Control, LetterEntry, Limits, Machine, Motion, Need, NumberRules, OverrideSwitch,
-    Semicolon, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
+    Access, Confidence, Control, LetterEntry, Limits, LineCounts, Machine, Motion, Need, NumberRules,
+    OverrideSwitch, Semicolon, SyntaxRules, Unpointed, VariableEntry, VariableKind, WordEntry, load, names,
 };
 
 use super::generated::Generated;
@@ -75,6 +75,7 @@ fn page(control: &Control) -> String {
     section(&mut text, "Variables", &variables(control.variables()));
     section(&mut text, "Functions", &functions(control));
     section(&mut text, "Settings", &settings(control));
+    section(&mut text, "Alarms of findings", &alarms(control));
     section(&mut text, "References", &references(control));
     text
 }
@@ -99,10 +100,13 @@ fn syntax(rules: &SyntaxRules) -> String {
         ("several assignments in a block", rules.several_assignments),
         ("`:1234` as a program number", rules.colon_program),
         ("`O1234` as a program number", rules.program_number),
+        ("block delete (`/`)", rules.block_delete),
         ("block delete levels (`/1` to `/9`)", rules.block_delete_levels),
         ("`/` after the first word", rules.block_delete_inside),
         ("lower-case letters", rules.lower_case),
         ("`**`", rules.power_operator),
+        ("tape marks (`%`)", !rules.tape_marks_refused),
+        ("lines for the firmware (`$H`)", rules.system_commands),
     ];
     let mut rows = vec![vec!["`;`".to_owned(), semicolon.to_owned()]];
     rows.extend(facts.map(|(what, has)| vec![what.to_owned(), if has { "yes" } else { "no" }.to_owned()]));
@@ -135,7 +139,13 @@ fn numbers(rules: &NumberRules) -> String {
 fn limits(limits: &Limits) -> String {
     let range = |[low, high]: [u32; 2]| format!("{low} to {high}");
     let facts = [
-        ("characters in a line", limits.line_length.map(|n| n.to_string())),
+        (
+            "characters in a line",
+            limits.line_length.map(|n| match limits.line_counts {
+                LineCounts::Everything => n.to_string(),
+                LineCounts::Code => format!("{n}, without blanks and comments"),
+            }),
+        ),
         ("M codes in a block", limits.m_codes_per_block.map(|n| n.to_string())),
         ("nesting of brackets", limits.bracket_depth.map(|n| n.to_string())),
         ("nesting of calls", limits.call_depth.map(|n| n.to_string())),
@@ -151,6 +161,26 @@ fn limits(limits: &Limits) -> String {
         let _ = writeln!(text, "\nSource: {source}.");
     }
     text
+}
+
+/// What the control answers to what rules find.
+fn alarms(control: &Control) -> String {
+    let rows: Vec<Vec<String>> = control
+        .alarms_of_rules()
+        .map(|(rule, of, alarm)| {
+            vec![
+                format!("[{rule}](../rules/{rule}.md)"),
+                markdown::codes(of.to_vec()),
+                alarm.number.clone().unwrap_or_default(),
+                alarm.text.clone(),
+                confidence_name(alarm.confidence).to_owned(),
+            ]
+        })
+        .collect();
+    if rows.is_empty() {
+        return String::new();
+    }
+    markdown::table(&["finding", "of", "alarm", "meaning", "confidence"], &rows)
 }
 
 fn groups(control: &Control) -> String {

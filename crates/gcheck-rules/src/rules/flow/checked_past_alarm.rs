@@ -4,7 +4,6 @@ use gcheck_engine::Fault;
 
 use crate::declare::declare_rule;
 use crate::facts::past_alarm::loses_way;
-use crate::facts::usage::is_called_from_elsewhere;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 use crate::{Remembers, remembers};
 
@@ -67,7 +66,7 @@ impl PathRule for CheckedPastAlarm {
         }
         // `M99 P…` of a program that is called from another file names a block there.
         let is_elsewhere = matches!(fault, Fault::NoSuchLabel(_))
-            && is_called_from_elsewhere(cx.survey)
+            && cx.survey.is_called_from_elsewhere()
             && cx.state().frames().len() <= 1;
         // What the machine's builder or user added is not in the file.
         let is_users =

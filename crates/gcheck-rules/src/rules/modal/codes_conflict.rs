@@ -66,6 +66,7 @@ fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)
             by.code, by.title, by.source
         ))
         .help("put the two codes in separate blocks")
+        .alarm(cx.alarm_of(META.id, &by.code))
         .at_most(limit(by.confidence))
 }
 

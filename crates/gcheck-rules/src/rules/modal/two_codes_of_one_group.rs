@@ -67,7 +67,11 @@ fn finding(cx: &BlockCx<'_>, first: (&Word, Code<'_>), second: (&Word, Code<'_>)
             (format!("`{b}`, the last one, counts"), Severity::Warning)
         }
     };
+    let alarm = cx.alarm_of(META.id, &first.1.entry().code);
+    // Two codes that raise different alarms raise that of the group.
+    let alarm = alarm.filter(|alarm| cx.alarm_of(META.id, &second.1.entry().code).as_ref() == Some(alarm));
     Finding::new(&META, cx.range(second.0), format!("`{a}` and `{b}` belong to one modal group"))
+        .alarm(alarm)
         .label(format!("{}, the same group", second.1.entry().title))
         .also(cx.range(first.0), first.1.entry().title.as_str())
         .note(format!("`{a}` and `{b}` both set {}{number}; {does}  [{}]", group.title, group.source))

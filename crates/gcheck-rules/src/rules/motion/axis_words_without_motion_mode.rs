@@ -74,6 +74,7 @@ impl PathRule for AxisWordsWithoutMotionMode {
                     format!("machine coordinates in a move that is neither `G0` nor `G1`{code}"),
                 )
                 .label("needs `G0` or `G1`")
+                .alarm(machine_alarm(cx))
                 .help("write `G0` or `G1` in this block");
             report.add(cx.resting_on(finding, Fact::Mode(Role::Motion), "the motion mode"));
             return;
@@ -98,6 +99,13 @@ impl PathRule for AxisWordsWithoutMotionMode {
         }
         report.add(finding);
     }
+}
+
+/// What the control answers to machine coordinates under another motion mode.
+fn machine_alarm(cx: &PathCx<'_>) -> Option<String> {
+    let code = cx.name_of_effect(Effect::MachineCoordinates)?;
+    let alarm = cx.control().alarm_of(META.id, &code)?;
+    Some(alarm.number.clone().unwrap_or_else(|| alarm.text.clone()))
 }
 
 #[cfg(test)]

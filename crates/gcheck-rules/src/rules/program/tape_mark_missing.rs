@@ -42,7 +42,9 @@ declare_rule! {
 
 fn check(cx: &FileCx<'_>, report: &mut Report<'_>) {
     let ([mark], Some(first)) = (cx.survey.tape_marks.as_slice(), &cx.survey.first_block) else { return };
-    if crate::facts::sections::is_tape_mark_line(cx, mark) {
+    // Where tape marks are refused, a second one does not help.
+    let are_read = !cx.control().syntax().tape_marks_refused;
+    if are_read && crate::facts::sections::is_tape_mark_line(cx, mark) {
         let opens = mark.start < first.start;
         report.add(finding(mark.clone(), opens).fix(pair(cx, opens)));
     }

@@ -40,7 +40,8 @@ declare_rule! {
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
     let syntax = cx.control().syntax();
-    if syntax.block_delete_levels && syntax.block_delete_inside
+    if !syntax.block_delete
+        || syntax.block_delete_levels && syntax.block_delete_inside
         || cx.block().flags.contains(BlockFlags::ERROR)
     {
         return;

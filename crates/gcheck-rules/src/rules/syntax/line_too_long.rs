@@ -1,6 +1,7 @@
 //! A line longer than the control reads.
 
-use gcheck_program::BlockFlags;
+use gcheck_controls::LineCounts;
+use gcheck_program::{BlockFlags, counted_characters, places_that_count};
 
 use crate::declare::declare_rule;
 use crate::{BlockCx, Finding, Report, Run};
@@ -9,7 +10,7 @@ declare_rule! {
     /// A line has more characters than the control reads.
     ///
     /// ## Why it matters
-    /// The control refuses the line or cuts it off, even if it is a comment.
+    /// The control refuses the line or cuts it off; on most controls even if it is a comment.
     ///
     /// ## Reported
     /// ```nc,reported,linuxcnc
@@ -18,6 +19,10 @@ declare_rule! {
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
     /// (a comment of one line)
+    /// ```
+    /// Some controls take blanks and comments out before they count.
+    /// ```nc,quiet,grbl
+    /// G1 X10.000 Y20.000 F500 (a comment that is longer than everything else in this line and means nothing to the control)
     /// ```
     /// A control without a known limit is not judged.
     /// ```nc,quiet,haas-mill
@@ -41,16 +46,26 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
 fn finding(cx: &BlockCx<'_>, limit: u32) -> Finding {
     let block = cx.block().range.clone();
     let text = cx.block_text();
-    let kept = text.char_indices().nth(limit as usize).map_or(text.len(), |(at, _)| at) as u32;
+    let counts = cx.control().limits().line_counts;
+    let kept = places_that_count(text, counts).nth(limit as usize).unwrap_or(text.len()) as u32;
+    let (of_which, help) = match counts {
+        LineCounts::Everything => {
+            ("comments included", "shorten the comment, or write the block in several lines")
+        }
+        LineCounts::Code => (
+            "blanks and comments not counted",
+            "write the block in several lines, or with fewer decimals than the machine resolves",
+        ),
+    };
     let source = cx.control().limits().source.as_deref().map(|s| format!("  [{s}]")).unwrap_or_default();
     Finding::new(
         &META,
         cx.in_file(block.start + kept..block.end),
-        format!("line has {} characters, the control reads {limit}", text.chars().count()),
+        format!("line has {} characters, the control reads {limit}", counted_characters(text, counts)),
     )
     .label("too much")
-    .note(format!("a line has at most {limit} characters on this control, comments included{source}"))
-    .help("shorten the comment, or write the block in several lines")
+    .note(format!("a line has at most {limit} characters on this control, {of_which}{source}"))
+    .help(help)
 }
 
 #[cfg(test)]

@@ -54,7 +54,9 @@ fn capitals(cx: &FileCx<'_>) -> Option<Fix> {
     cx.each_block(|block| {
         let flags = block.block().flags;
         // Printed text is not code.
-        let prints = block.statements().any(|statement| matches!(statement.kind, StatementKind::Print));
+        let prints = block
+            .statements()
+            .any(|statement| matches!(statement.kind, StatementKind::Print | StatementKind::Command));
         if edits.len() >= MOST_LETTERS
             || !flags.contains(BlockFlags::LOWER_CASE)
             || flags.contains(BlockFlags::ERROR)

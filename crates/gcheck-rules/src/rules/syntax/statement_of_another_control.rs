@@ -17,6 +17,9 @@ declare_rule! {
     /// #<depth>= 2.
     /// ```
     /// ```nc,reported,linuxcnc
+    /// $H
+    /// ```
+    /// ```nc,reported,linuxcnc
     /// IF [#1 GT 5] GOTO 20
     /// ```
     /// ## Not reported
@@ -64,6 +67,10 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError, form: ForeignForm) -> Finding 
         ForeignForm::PowerOperator => (
             format!("operator `{written}` does not exist on this control"),
             "multiply, or use `POW` if the control has it",
+        ),
+        ForeignForm::SystemCommand => (
+            format!("`{}` is a command to the firmware of another control", written.trim_end()),
+            "remove the line, or choose the control that the program is written for",
         ),
     };
     Finding::new(&META, cx.in_file(error.range.clone()), message)

@@ -102,7 +102,11 @@ fn finding(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, high: bool) -> 
     let text = cx.text(word);
     let side = if high { "large" } else { "small" };
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
+    let thing = facts
+        .code
+        .map_or_else(|| word.letter.to_string(), |code| format!("{} {}", code.entry().code, word.letter));
     Finding::new(&META, cx.range(word), format!("value too {side}{of}: `{text}`"))
+        .alarm(cx.alarm_of(META.id, &thing))
         .label(facts.is)
         .note(format!("`{}`{of} takes {}  [{}]", word.letter, range_of(facts), facts.source))
         .help("correct the value")

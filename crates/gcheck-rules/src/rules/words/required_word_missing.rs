@@ -89,6 +89,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, needed: &WordEntry, wi
             entry.code, entry.title, entry.source
         ))
         .help(format!("add `{letter}` to the block"))
+        .alarm(cx.alarm_of(META.id, &entry.code))
         .at_most(limit(confidence))
 }
 

@@ -63,11 +63,13 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     let Some(number) = number else {
         return finding
             .label("no control has a code of this form")
+            .alarm(word.number().and_then(|n| cx.alarm_of(META.id, &format!("{}{n}", word.letter))))
             .note("a code is a number from 0, with one decimal at most")
             .help("correct the number");
     };
     let control = cx.control();
     let finding = finding
+        .alarm(cx.alarm_of(META.id, &number.to_string()))
         .note(format!("{} has no `{number}`  [{}]", control.title(), list.source))
         .at_most(limit(if is_g { list.g_codes } else { list.m_codes }));
     let finding = if cx.environment.control_is_guessed {
@@ -77,17 +79,21 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     } else {
         finding
     };
+    let elsewhere = elsewhere(cx, number);
     if list.depends_on_setting(number) {
-        return finding
+        let finding = finding
             .label("not in the set of codes that is assumed")
             .note("another setting of the control chooses a set of codes that has it")
-            .help("check which set of codes the machine is set to")
+            .help("check which set of codes the machine is set to, and choose its control")
             .at_most(Severity::Info);
+        return match elsewhere.iter().find(|other| other.is_set && other.same_kind) {
+            Some(other) => finding.note(format!("on {}: {}", other.title, other.meaning)),
+            None => finding,
+        };
     }
-    let elsewhere = elsewhere(cx, number);
     match elsewhere.first() {
-        Some((title, meaning)) => finding
-            .label(format!("on {title}: {meaning}"))
+        Some(other) => finding
+            .label(format!("on {}: {}", other.title, other.meaning))
             .help("use the equivalent of this control, or choose the control that the program is written for")
             .note(format!("if it is a code of your shop, declare it under `[codes]`: `{number}`")),
         None => finding.label("no such code").help(format!(
@@ -96,19 +102,33 @@ fn finding(cx: &BlockCx<'_>, word: &Word) -> Finding {
     }
 }
 
-/// Controls that are known to have the code, with its meaning there.
-fn elsewhere(cx: &BlockCx<'_>, number: CodeNumber) -> Vec<(String, String)> {
+/// A control that is known to have the code.
+struct Elsewhere {
+    title: String,
+    /// What the code is there.
+    meaning: String,
+    /// Both are mills, or both lathes.
+    same_kind: bool,
+    /// Its codes are one of several sets, which a setting chooses.
+    is_set: bool,
+}
+
+/// Controls that are known to have the code, those of the same kind of machine first: they are better hints.
+fn elsewhere(cx: &BlockCx<'_>, number: CodeNumber) -> Vec<Elsewhere> {
     let others =
         names().iter().filter(|name| **name != cx.control().name()).filter_map(|name| load(name).ok());
     let known = others.filter_map(|control| {
         let entry = control.code(number)?.entry();
-        let meaning = (entry.confidence == Confidence::Manual).then(|| entry.title.clone())?;
-        Some((control.machine() != cx.control().machine(), control.title().to_owned(), meaning))
+        (entry.confidence == Confidence::Manual).then(|| Elsewhere {
+            title: control.title().to_owned(),
+            meaning: entry.title.clone(),
+            same_kind: control.machine() == cx.control().machine(),
+            is_set: !control.code_list().by_setting.is_empty(),
+        })
     });
     let mut known: Vec<_> = known.collect();
-    // A code of the same kind of machine is a better hint.
-    known.sort_by_key(|(other_machine, ..)| *other_machine);
-    known.into_iter().map(|(_, title, meaning)| (title, meaning)).collect()
+    known.sort_by_key(|other| !other.same_kind);
+    known
 }
 
 #[cfg(test)]
@@ -175,6 +195,19 @@ mod tests {
                   | ^^^ info[unknown-code] unknown code `G91`
             "#]],
         );
+    }
+
+    #[test]
+    fn the_control_with_the_other_set_is_named() {
+        let found = findings(&only(&RULE), "fanuc-lathe", "G91 G1 X1.\n", &World::default());
+        expect![[r#"
+            unknown code `G91`
+              here: not in the set of codes that is assumed
+              note: Fanuc 0i-T / 30i-T, turning centre, G code system A has no `G91`  [ABC-TABLE; general knowledge]
+              note: another setting of the control chooses a set of codes that has it
+              note: on Fanuc 0i-T / 30i-T, turning centre, G code system B: incremental distances
+              help: check which set of codes the machine is set to, and choose its control
+        "#]].assert_eq(&words(&found[0]));
     }
 
     #[test]

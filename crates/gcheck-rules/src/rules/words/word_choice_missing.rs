@@ -34,9 +34,13 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    for (word, code) in cx.codes().filter(|(_, code)| code.motion() != Motion::Arc) {
+    for (word, code) in cx.codes() {
         for items in &code.entry().one_of {
             let letters = items.iter().fold(LetterSet::EMPTY, |set, item| set.or(letters_of(item)));
+            // Another rule reports arcs without a centre.
+            if code.motion() == Motion::Arc && !letters.without(cx.control().axes()).is_empty() {
+                continue;
+            }
             if !cx.block().letters.intersects(letters) && cx.words_are_plain() {
                 report.add(finding(cx, word, code, letters));
             }
@@ -57,6 +61,7 @@ fn finding(cx: &BlockCx<'_>, word: &Word, code: Code<'_>, letters: LetterSet) ->
             entry.code, entry.title, entry.source
         ))
         .help(format!("add {missing} to the block"))
+        .alarm(cx.alarm_of(META.id, &entry.code))
         .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 

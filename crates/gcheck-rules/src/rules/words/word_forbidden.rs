@@ -51,6 +51,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, word: &Word) -> Finding {
             entry.code, entry.title, word.letter, entry.source
         ))
         .help("put the word in another block")
+        .alarm(cx.alarm_of(META.id, &entry.code))
         .at_most(limit(entry.confidence))
 }
 

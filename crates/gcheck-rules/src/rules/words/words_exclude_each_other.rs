@@ -57,6 +57,7 @@ fn finding(cx: &BlockCx<'_>, code: Code<'_>, first: &Word, second: &Word) -> Fin
             entry.code, entry.title, entry.source
         ))
         .help(format!("keep `{a}` or `{b}`"))
+        .alarm(cx.alarm_of(META.id, &entry.code))
         .at_most(limit(entry.choice_confidence.unwrap_or(entry.confidence)))
 }
 

@@ -1,0 +1,165 @@
+//! Where a control answers what it refuses with a number, the finding has this number.
+
+#![expect(clippy::unwrap_used, reason = "a test that meets the unexpected is to fail")]
+
+use gcheck_diagnostics::{Finding, Severity};
+use gcheck_lint::{Environment, Execution, Job, MachineFacts, NoPrograms, Selection, check};
+use gcheck_program::Dialect;
+use gcheck_rules::RULES;
+use gcheck_syntax::SourceText;
+
+fn findings(program: &str) -> Vec<Finding> {
+    let control = gcheck_controls::load("grbl").unwrap();
+    let dialect = Dialect::new(&control);
+    let machine = MachineFacts::default();
+    let environment = Environment {
+        dialect: &dialect,
+        machine: &machine,
+        programs: &NoPrograms,
+        control_is_guessed: false,
+    };
+    let source = SourceText::from(program);
+    let selection = Selection::recommended(RULES);
+    let job = Job {
+        source: &source,
+        environment,
+        selection: &selection,
+        suppressions: false,
+        execution: Execution::default(),
+    };
+    check(&job).findings
+}
+
+/// Rules and numbers of the errors, in the order of the text.
+fn errors(program: &str) -> Vec<String> {
+    let errors = findings(program).into_iter().filter(|finding| finding.severity == Severity::Error);
+    errors.map(|finding| format!("{} {}", finding.rule.id, finding.alarm.unwrap_or_default())).collect()
+}
+
+/// Each line of the table: a program after a header without mistakes, and the error that is found.
+const REFUSED: &[(&str, &str)] = &[
+    // A word is a letter and a number.
+    ("G0 X", "address-without-value error 2"),
+    ("5X1", "value-without-address error 1"),
+    ("G1 X1 F-100", "sign-not-accepted error 4"),
+    ("S-100 M3", "sign-not-accepted error 4"),
+    // Letters that are not read.
+    ("G0 A10", "unknown-address error 20"),
+    ("G1 X1 Q2 F100", "unknown-address error 20"),
+    ("T1 H1", "unknown-address error 20"),
+    // Codes that do not exist, with and without a decimal.
+    ("G81 X1 Z-1 R1 F100", "unknown-code error 20"),
+    ("G41 X1 F100", "unknown-code error 20"),
+    ("G64 P0.01", "unknown-code error 20"),
+    ("G90.1", "unknown-code error 20"),
+    ("G43.2", "unknown-code error 20"),
+    ("G92.3", "unknown-code error 20"),
+    ("G59.1", "unknown-code error 23"),
+    ("G17.1", "unknown-code error 23"),
+    ("G54.25", "unknown-code error 23"),
+    // Two codes of a group, one code twice.
+    ("G90 G91", "two-codes-of-one-group error 21"),
+    ("G0 G1 X1 F100", "two-codes-of-one-group error 21"),
+    ("M3 M5", "two-codes-of-one-group error 21"),
+    ("M8 M9", "two-codes-of-one-group error 21"),
+    ("G4 G53 P1", "two-codes-of-one-group error 21"),
+    ("G80 G0 X1", "codes-conflict error 21"),
+    ("G21 G21", "code-given-twice error 21"),
+    // Feed.
+    ("G93 G1 X1", "inverse-time-feed-missing error 22"),
+    ("G1 X1 F0", "feed-zero error 22"),
+    // Two codes that use axis words.
+    ("G92 G0 X0", "codes-conflict error 24"),
+    ("G28 G0 Z0", "codes-conflict error 24"),
+    ("G49 G0 X1", "codes-conflict error 24"),
+    ("G10 G92 L20 P1 X0", "two-codes-of-one-group error 24"),
+    // Words.
+    ("G0 X1 X2", "word-given-twice error 25"),
+    ("G2 I5 F100", "word-choice-missing error 26"),
+    ("G92", "word-choice-missing error 26"),
+    ("G38.2 F100", "word-choice-missing error 26"),
+    ("G10 L20 P1", "word-choice-missing error 26"),
+    ("N10000001 G0 X1", "sequence-number-too-high error 27"),
+    ("G4", "required-word-missing error 28"),
+    ("G10 L2 P7 X0", "number-out-of-range error 29"),
+    ("G2 X1 Y0 R1 F100\nG53 X2", "axis-words-without-motion-mode error 30"),
+    ("G80\nX1", "axis-words-without-motion-mode error 31"),
+    ("G2 X10 Y0 I4 F100", "arc-end-off-circle error 33"),
+    ("G2 X0 Y0 R5 F100", "full-circle-by-radius error 33"),
+    ("G2 X10 Y0 R4 F100", "arc-radius-too-small error 34"),
+    ("G2 X10 Y0 F100", "arc-without-centre error 35"),
+    ("G2 X10 Y0 R5 I5 F100", "words-exclude-each-other error 36"),
+    ("G0 X1 P5", "word-not-read error 36"),
+    ("G1 X1 I5 F100", "word-not-read error 36"),
+    ("G43.1", "required-word-missing error 37"),
+    ("G43.1 X5 Z1", "word-forbidden error 37"),
+    ("T256", "number-out-of-range error 38"),
+    (
+        "G1 X1000.123456 Y1000.123456 Z-1000.123456 F1000.123456 S10000.123456 N1234567 T200 M3 G90",
+        "line-too-long error 11",
+    ),
+];
+
+#[test]
+fn each_refusal_has_its_number() {
+    let mut wrong = Vec::new();
+    for (program, expected) in REFUSED {
+        let found = errors(&format!("G21 G90 G17 G54\nG0 X0 Y0 Z5\n{program}\nM30\n"));
+        if found != [*expected] {
+            wrong.push(format!("{program:?}: {found:?}, not {expected:?}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// What the source of the control reads as a G code, in tenths.
+const G_CODES: &[u32] = &[
+    0, 10, 20, 30, 40, 100, 170, 180, 190, 200, 210, 280, 281, 300, 301, 382, 383, 384, 385, 400, 431, 490,
+    530, 540, 550, 560, 570, 580, 590, 610, 800, 900, 910, 911, 920, 921, 930, 940,
+];
+
+/// Numbers whose decimals are judged on their own: another one than those above is an unknown code.
+const WITH_DECIMALS: &[u32] = &[28, 30, 38, 43, 49, 61, 90, 91, 92];
+
+/// What the control answers for a G code that it does not have.
+fn answer(tenths: u32) -> &'static str {
+    let (whole, decimal) = (tenths / 10, tenths % 10);
+    let is_read = G_CODES.iter().any(|code| code / 10 == whole);
+    if decimal != 0 && is_read && !WITH_DECIMALS.contains(&whole) { "error 23" } else { "error 20" }
+}
+
+#[test]
+fn every_code_that_the_control_does_not_have_is_refused_with_its_number() {
+    for tenths in 0..1_000 {
+        let code = if tenths % 10 == 0 {
+            format!("G{}", tenths / 10)
+        } else {
+            format!("G{}.{}", tenths / 10, tenths % 10)
+        };
+        let found: Vec<_> = findings(&format!("{code}\n"))
+            .into_iter()
+            .filter(|finding| finding.rule.id == "unknown-code")
+            .map(|finding| (finding.severity, finding.alarm))
+            .collect();
+        if G_CODES.contains(&tenths) {
+            assert_eq!(found, [], "{code} is a code");
+        } else {
+            assert_eq!(found, [(Severity::Error, Some(answer(tenths).to_owned()))], "{code}");
+        }
+    }
+}
+
+/// A sender may take an M code out before the control sees it: no error, and so no number.
+#[test]
+fn m_codes_that_the_control_does_not_have_are_warnings() {
+    let known = [0, 1, 2, 3, 4, 5, 7, 8, 9, 30, 56];
+    for number in 0..200 {
+        let found: Vec<_> = findings(&format!("M{number}\n"))
+            .into_iter()
+            .filter(|finding| finding.rule.id == "unknown-code")
+            .map(|finding| (finding.severity, finding.alarm))
+            .collect();
+        let expected = if known.contains(&number) { vec![] } else { vec![(Severity::Warning, None)] };
+        assert_eq!(found, expected, "M{number}");
+    }
+}
