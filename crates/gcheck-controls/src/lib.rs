@@ -38,9 +38,9 @@ pub use loader::{LoadError, fallback, load, names};
 pub use motion::{CornerRules, Halt, MotionRules, RapidRules, SpindleWaitRules, TapRules};
 pub use schema::{
     Access, AlarmEntry, Beside, BlockRules, CodeEntry, CodeList, Confidence, Ends, FormatCustoms,
-    FunctionEntry, Handling, Hint, LetterCase, LetterEntry, Limits, LineCounts, Machine, ModalGroup, Motion, Need,
-    NumberRules, OverrideSwitch, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed, VariableEntry,
-    VariableKind, WordEntry, WordKind,
+    FunctionEntry, Handling, Hint, LetterCase, LetterEntry, Limits, LineCounts, Machine, ModalGroup, Motion,
+    Need, NumberRules, OverrideSwitch, Reference, Semicolon, SettingEntry, SyntaxRules, Unpointed,
+    VariableEntry, VariableKind, WordEntry, WordKind,
 };
 pub use unsupported::{UnsupportedDialect, unsupported_dialect};
 pub use validate::problems;

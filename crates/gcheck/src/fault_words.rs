@@ -305,9 +305,11 @@ fn of_cycle(fault: CycleFault) -> Words {
             .why("there is no move after the one that leads to the outline"),
         CycleFault::StartOutside => Words::new("the start hole of the pocket lies outside its outline")
             .help("give the start hole with `X` and `Y`, inside the outline"),
-        CycleFault::ArcBelowTool { .. } => Words::new("the tool is larger than an inside arc of the pocket's outline")
-            .why("its centre cannot follow the wall there")
-            .help("take a smaller tool, or a larger radius in the outline"),
+        CycleFault::ArcBelowTool { .. } => {
+            Words::new("the tool is larger than an inside arc of the pocket's outline")
+                .why("its centre cannot follow the wall there")
+                .help("take a smaller tool, or a larger radius in the outline")
+        }
     }
 }
 

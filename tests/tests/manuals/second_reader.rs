@@ -37,7 +37,8 @@ fn table(name: &str) -> Vec<Row> {
 fn found(row: &Row) -> Vec<String> {
     let mut command = Command::new(env!("CARGO_BIN_EXE_gcheck-under-test"));
     command.args(["check", "--isolated", "--output-format", "json", "--control", &row["control"]]);
-    for key in row.get("settings").into_iter().flat_map(|keys| keys.split(';')).filter(|key| !key.is_empty()) {
+    for key in row.get("settings").into_iter().flat_map(|keys| keys.split(';')).filter(|key| !key.is_empty())
+    {
         command.args(["--config", key]);
     }
     let output = command.arg(folder().join(&row["file"])).output().unwrap();
@@ -45,7 +46,9 @@ fn found(row: &Row) -> Vec<String> {
     let findings = report["findings"].as_array().unwrap().iter();
     findings
         .filter(|finding| finding["severity"] != "info")
-        .map(|finding| format!("{} {}", product::severity_and_rule(finding), finding["range"]["start"]["line"]))
+        .map(|finding| {
+            format!("{} {}", product::severity_and_rule(finding), finding["range"]["start"]["line"])
+        })
         .collect()
 }
 
@@ -71,7 +74,8 @@ fn page() -> String {
     let (first, now) = (verdicts("first.tsv"), verdicts("verdicts.tsv"));
     let mut text = String::from(INTRODUCTION);
     for verdict in VERDICTS {
-        let count = |rows: &BTreeMap<String, Row>| rows.values().filter(|row| row["verdict"] == verdict).count();
+        let count =
+            |rows: &BTreeMap<String, Row>| rows.values().filter(|row| row["verdict"] == verdict).count();
         writeln!(text, "| {verdict} | {} | {} |", count(&first), count(&now)).unwrap();
     }
     text.push_str("\n| program | what the reader expects | line | at first | now |\n|---|---|---|---|---|\n");

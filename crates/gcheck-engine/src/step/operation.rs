@@ -11,8 +11,8 @@ use super::lathe::profile::ProfileBlocks;
 use super::{Count, Executor, Step};
 use crate::assumption::Assumption;
 use crate::cycles::{
-    CircularPocket, CycleError, GeneralPocket, ProfileSegment, Stroke, bolt_arc, bolt_circle, bolt_line, circular_pocket,
-    general_pocket,
+    CircularPocket, CycleError, GeneralPocket, ProfileSegment, Stroke, bolt_arc, bolt_circle, bolt_line,
+    circular_pocket, general_pocket,
 };
 use crate::event::{Clearing, Event, TravelKind};
 use crate::fault::{CycleFault, Fault};

@@ -62,7 +62,9 @@ fn has_centre_word_across(cx: &PathCx<'_>) -> bool {
         Some(Plane::Yz) => 'I',
         None => return false,
     };
-    cx.has_word(|word| word.letter == Letter::of(across) && word.number().is_some_and(|number| number.abs() > 0.0))
+    cx.has_word(|word| {
+        word.letter == Letter::of(across) && word.number().is_some_and(|number| number.abs() > 0.0)
+    })
 }
 
 #[cfg(test)]

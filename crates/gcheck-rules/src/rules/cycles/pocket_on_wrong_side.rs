@@ -1,11 +1,12 @@
 //! A pocket that is compensated to the outside of its outline.
 
 use gcheck_controls::Effect;
-use gcheck_engine::{Event, Role};
+use gcheck_engine::{Abstract, Domain, Event, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_code;
 use crate::facts::modes::resting_on_mode;
+use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
 declare_rule! {
@@ -68,8 +69,8 @@ impl PathRule for PocketOnWrongSide {
             _ => return,
         };
         // A negative size puts the tool on the other side.
-        let number = gcheck_engine::Domain::known(cx.state().d());
-        let tool = number.and_then(crate::facts::offset_schemes::whole);
+        let number = Abstract::known(cx.state().d());
+        let tool = number.and_then(whole);
         let is_negative = tool
             .and_then(|number| cx.state().tables().tool(number))
             .is_some_and(|tool| tool.diameter.0 < 0.0);
@@ -90,7 +91,7 @@ impl PathRule for PocketOnWrongSide {
             .finding(&META, range, format!("the tool goes outside the pocket (`{now}` with `{name}`)"))
             .label(format!("on the {side} of an outline that turns {turns}"))
             .also(cx.letter_range('P'), "the outline of this pocket")
-            .note(format!("the tool of `{name}` keeps to the inside of the outline  [HM17 p.316-317; {source}]"));
+            .note(format!("the tool of `{name}` keeps to the inside of the outline  [{source}]"));
         let finding = if is_negative {
             finding.help("compare the sign of the tool's diameter with the side")
         } else {
@@ -111,7 +112,9 @@ mod tests {
     const COUNTER_CLOCKWISE: &str = "M30\nO100\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n";
 
     fn pocket(side: &str, outline: &str) -> String {
-        format!("G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 {side} D1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG40 X0.\n{outline}")
+        format!(
+            "G20 G90 G54 G0 X0. Y0.\nZ.1\nG150 P100 {side} D1 X0. Y0. Z-.5 Q.25 R.1 I.2 F20.\nG40 X0.\n{outline}"
+        )
     }
 
     #[test]

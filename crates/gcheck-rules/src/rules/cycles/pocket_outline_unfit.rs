@@ -103,7 +103,11 @@ fn judge(cx: &PathCx<'_>, blocks: Range<u32>, code: Code<'_>, report: &mut Repor
         if let Some(word) = words.iter().find(|word| place.table.reads_variable(word)) {
             let letter = word.letter;
             let finding = cx
-                .finding(&META, range(word), format!("the pocket's outline has a macro variable (`{letter}`)"))
+                .finding(
+                    &META,
+                    range(word),
+                    format!("the pocket's outline has a macro variable (`{letter}`)"),
+                )
                 .label("the control takes no variables in an outline")
                 .help("write the outline with numbers")
                 .at_most(limit(code.entry().confidence));

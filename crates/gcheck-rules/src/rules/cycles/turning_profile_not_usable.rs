@@ -1,6 +1,6 @@
 //! A turning cycle whose profile cannot be used.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::Effect;
 use gcheck_engine::{At, Fault};
 
 use crate::declare::declare_rule;

@@ -68,9 +68,7 @@ impl PathRule for CutterVectorIncomplete {
             .note(format!(
                 "the control needs `I`, `J` and `K` to shift the path in the right direction  [{source}]"
             ))
-            .help(format!(
-                "write the direction in every block that moves, or end `{name}` with `G40` first"
-            ));
+            .help(format!("write the direction in every block that moves, or end `{name}` with `G40` first"));
         report.add(resting_on_mode(cx, finding, Role::Compensation));
     }
 }

@@ -64,8 +64,7 @@ impl PathRule for PocketArcBelowTool {
         let Some(code) = cycle_code(cx) else { return };
         let (name, entry) = (code.number(), code.entry());
         let inch = cx.state().units(cx.model) == Some(Units::Inch);
-        let shown =
-            |mm: f64| if inch { format!("{:.4} in", mm / 25.4) } else { format!("{mm:.3} mm") };
+        let shown = |mm: f64| if inch { format!("{:.4} in", mm / 25.4) } else { format!("{mm:.3} mm") };
         report.add(
             cx.finding(
                 &META,

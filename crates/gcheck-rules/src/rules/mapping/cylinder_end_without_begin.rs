@@ -76,10 +76,14 @@ impl PathRule for CylinderEndWithoutBegin {
             let name = cx.name_of_effect(Effect::CylinderMapping).unwrap_or_default();
             let range = cx.effect_range(is_mapping);
             report.add(
-                cx.finding(&META, range, format!("no cylindrical mapping is on that this could end (`{name}`)"))
-                    .label("the moves before it were straight")
-                    .also(sized, "sets the diameter alone: no `X`, `Y` or `Z`")
-                    .help(format!("name the axis to wrap where mapping is to begin: `{name} Y0. A0.`")),
+                cx.finding(
+                    &META,
+                    range,
+                    format!("no cylindrical mapping is on that this could end (`{name}`)"),
+                )
+                .label("the moves before it were straight")
+                .also(sized, "sets the diameter alone: no `X`, `Y` or `Z`")
+                .help(format!("name the axis to wrap where mapping is to begin: `{name} Y0. A0.`")),
             );
         }
     }

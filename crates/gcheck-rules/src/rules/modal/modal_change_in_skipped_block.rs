@@ -166,13 +166,19 @@ impl ModalChangeInSkippedBlock {
 
     fn still_wrapped(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         let moves = |unwrapped: &Unwrapped| cx.origin().letters.contains(unwrapped.linear.letter());
-        let Some(Unwrapped { linear, rotary, name, range }) = self.unwrapped.take_if(|it| moves(it)) else { return };
+        let Some(Unwrapped { linear, rotary, name, range }) = self.unwrapped.take_if(|it| moves(it)) else {
+            return;
+        };
         let (linear, rotary) = (linear.name(), rotary.name());
         report.add(
-            cx.finding(&META, range, format!("what follows depends on the block delete switch (`/`, `{name}`)"))
-                .label(format!("ends the mapping of {linear} only when the switch is off"))
-                .also(cx.range(), format!("moves {linear}, or turns {rotary} when that block is skipped"))
-                .help(format!("write `{name}` in a block without `/`")),
+            cx.finding(
+                &META,
+                range,
+                format!("what follows depends on the block delete switch (`/`, `{name}`)"),
+            )
+            .label(format!("ends the mapping of {linear} only when the switch is off"))
+            .also(cx.range(), format!("moves {linear}, or turns {rotary} when that block is skipped"))
+            .help(format!("write `{name}` in a block without `/`")),
         );
     }
 
