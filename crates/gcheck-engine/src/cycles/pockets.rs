@@ -164,9 +164,15 @@ fn check_arcs(wall: &[Cut], counter_clockwise: bool, tool_radius: f64) -> Result
     Ok(())
 }
 
-/// The pieces of an outline that is closed around its start hole, and its corners. The first piece that is given leads from
-/// the hole to the outline and is left out.
-fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<(Vec<Cut>, Vec<(f64, f64)>), CycleError> {
+/// The wall of a pocket: its pieces, and the corners of the polygon that they make.
+struct Wall {
+    cuts: Vec<Cut>,
+    corners: Vec<(f64, f64)>,
+}
+
+/// The wall of an outline that is closed around its start hole. The first piece that is given leads from the hole to the
+/// outline and is left out.
+fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<Wall, CycleError> {
     let cuts = cuts(start, outline)?;
     let wall = cuts.get(1..).unwrap_or_default();
     let (Some(first), Some(last)) = (wall.first(), wall.last()) else {
@@ -178,7 +184,7 @@ fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<(Vec<Cut>, Vec<
     }
     let corners = flattened(wall);
     if contains(&corners, (start.0.0, start.1.0)) {
-        Ok((wall.to_vec(), corners))
+        Ok(Wall { cuts: wall.to_vec(), corners })
     } else {
         Err(CycleFault::StartOutside.into())
     }
@@ -193,7 +199,7 @@ fn closed(start: (Mm, Mm), outline: &[ProfileSegment]) -> Result<(Vec<Cut>, Vec<
 /// smaller than the tool; a floor below `R`.
 pub fn general_pocket(outline: &[ProfileSegment], words: &GeneralPocket) -> Result<PocketPlan, CycleError> {
     known(&[words.start.0, words.start.1])?;
-    let (wall, corners) = closed(words.start, outline)?;
+    let Wall { cuts: wall, corners } = closed(words.start, outline)?;
     let counter_clockwise = area(&corners) > 0.0;
     check_arcs(&wall, counter_clockwise, words.tool_radius.0)?;
     known(&[words.r, words.bottom, words.layer, words.finish])?;

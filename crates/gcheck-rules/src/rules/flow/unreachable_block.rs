@@ -65,7 +65,7 @@ declare_rule! {
 
 #[derive(Default, Clone, PartialEq)]
 struct UnreachableBlock {
-    /// Where a path goes on depends on what nobody knows.
+    /// Where a path goes on depends on a value that is unknown.
     is_unsure: bool,
     /// The control does not find where the program goes on: corrected, the block may lead to any label.
     lost_way: bool,

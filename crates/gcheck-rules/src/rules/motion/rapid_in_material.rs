@@ -144,18 +144,18 @@ impl RapidInMaterial {
     /// The same as [`Self::tell`] for an arc in the XY plane, as chords.
     fn tell_arc(&mut self, cx: &PathCx<'_>, cuts: &Cuts, arc: &ArcMove, report: &mut Report<'_>) {
         let (Some([x0, y0, z0]), Some([x1, y1, z1])) = (point(&arc.from), point(&arc.to)) else { return };
-        let [cx_mm, cy_mm] = [arc.centre.0.0, arc.centre.1.0];
+        let [centre_x, centre_y] = [arc.centre.0.0, arc.centre.1.0];
         let is_flat = arc.plane == Plane::Xy && (z0 - z1).abs() <= LEVEL;
-        if !is_flat || ![cx_mm, cy_mm, arc.sweep].into_iter().all(f64::is_finite) {
+        if !is_flat || ![centre_x, centre_y, arc.sweep].into_iter().all(f64::is_finite) {
             return;
         }
         // More than a turn cuts the same circle again.
         let sweep = arc.sweep.clamp(-std::f64::consts::TAU, std::f64::consts::TAU);
-        let (radius, start) = ((x0 - cx_mm).hypot(y0 - cy_mm), (y0 - cy_mm).atan2(x0 - cx_mm));
+        let (radius, start) = ((x0 - centre_x).hypot(y0 - centre_y), (y0 - centre_y).atan2(x0 - centre_x));
         let mut from = [x0, y0, z0];
         for chord in 1..=CHORDS {
             let angle = start + sweep * f64::from(chord) / f64::from(CHORDS);
-            let end = [cx_mm + radius * angle.cos(), cy_mm + radius * angle.sin()];
+            let end = [centre_x + radius * angle.cos(), centre_y + radius * angle.sin()];
             let to = if chord == CHORDS { [x1, y1, z1] } else { [end[0], end[1], z0] };
             self.tell(cx, cuts, from, to, report);
             from = to;
