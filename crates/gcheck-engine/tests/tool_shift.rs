@@ -380,16 +380,16 @@ fn a_direction_is_the_same_in_inches() {
 }
 
 #[test]
-fn a_direction_that_is_not_there_leaves_the_axes_unknown() {
+fn without_a_direction_the_axes_of_the_block_are_unknown_and_the_others_stay() {
     let program = "G21 G90 G54 F100.\nG1 G141 D1 X0. Y0. Z0. I0.6 J0.8\nX1. I0.6\nX2.\nX3. I#500 J0. K0.\nG40\nG0 X0. Y0. Z0.\n";
     check(
         &machine(0.0, 10.0),
         program,
         &expect![[r#"
         0 0 0 -> 3 4 0
-        1 0 0 -> 4 ? ?
-        2 0 0 -> ? ? ?
-        3 0 0 -> ? 0 0
+        1 0 0 -> 4 4 0
+        2 0 0 -> ? 4 0
+        3 0 0 -> ? 4 0
         0 0 0 -> 0 0 0
         reads 0 0 0, stands 0 0 0
     "#]],
@@ -406,8 +406,8 @@ fn increments_count_from_the_programmed_point() {
         &expect![[r#"
         0 0 0 -> 5 0 0
         1 0 0 -> 6 0 0
-        2 0 0 -> 2 0 5
-        reads 2 0 0, stands 2 0 5
+        2 0 0 -> 2 0 0
+        reads 2 0 0, stands 2 0 0
     "#]],
     );
 }

@@ -100,7 +100,7 @@ fn words_of_a_cylinder() {
     check_words(
         &["G107", "Y0.", "A0.", "Q2.5"],
         &expect![[r#"
-        Y0. missing: 
+        Y0. missing: warning[cylinder-end-without-begin]
         Y0. twice: warning[word-given-twice]
         Y0. -1.: warning[cylinder-word-value-ignored]
         Y0. 0.: 

@@ -2,8 +2,8 @@
 //!
 //! Knows: which words give length, size and vector, which axes follow. Must not know: moves, offsets between work and machine.
 //!
-//! Both add to the programmed point what the control adds, in the axes of the work coordinates. A length along the tool moves
-//! the axes that the block names and no others: an axis that is left out stands still, though the tool has turned.
+//! Both add to the programmed point what the control adds, in the axes of the work coordinates, and move the axes that the
+//! block names and no others: an axis that is left out stays where it is, though the tool has turned or the vector is another.
 
 use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_geometry::{Arrangement, Kinematics, Mm, RotaryAxis};
@@ -166,9 +166,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if let Some(radius) = state.tool_shift.cutter
             && radius != 0.0
         {
-            // An axis that the block does not name is not shifted (Haas NGC mill manual 2017, p. 313).
-            for ((slot, part), axis) in shift.iter_mut().zip(self.vector(state)).zip(XYZ) {
-                *slot += if part == 0.0 || !self.words.has(axis.letter()) { 0.0 } else { radius * part };
+            for (slot, part) in shift.iter_mut().zip(self.vector(state)) {
+                *slot += if part == 0.0 { 0.0 } else { radius * part };
             }
         }
         shift
@@ -198,9 +197,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         parts.map(|part| part.unwrap_or(0.0))
     }
 
-    /// Axes that the block does not name stand still under a length along the tool.
+    /// Axes that the block does not name stay where they are (Haas NGC mill manual 2017, p. 313 and 326).
     pub(super) fn keep_unnamed(&self, to: &mut Position, state: &State<D>) {
-        if state.tool_shift.along.is_none() || *state.transform() != Transform::NONE {
+        if !state.tool_shift.is_on() || *state.transform() != Transform::NONE {
             return;
         }
         for axis in XYZ {

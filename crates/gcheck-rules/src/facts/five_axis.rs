@@ -363,7 +363,7 @@ mod tests {
                 X no number: error[unexpected-text]
                 X unknown: 
                 X computed: 
-                I missing: warning[cutter-vector-incomplete]
+                I missing: 
                 I doubled: warning[word-given-twice]
                 I negative: error[cutter-vector-not-unit]
                 I zero: 

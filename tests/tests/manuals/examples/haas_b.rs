@@ -1088,11 +1088,6 @@ const EXAMPLES: &[Example] = &[
                     Verdict::True,
                     "the page moves to Z0 of the work before it gives a length",
                 ),
-                Finding(
-                    "warning[cutter-vector-incomplete] 14",
-                    Verdict::False,
-                    "the block that begins it has no direction in the manual",
-                ),
             ],
             shows: &[Shows::Run(&[
                 "feed 0.0350 0.0600 0.2537",
@@ -1118,11 +1113,7 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &["tools.1.diameter=-0.02"],
         expected: Expected {
-            findings: &[Finding(
-                "warning[cutter-vector-incomplete] 14",
-                Verdict::False,
-                "the block that begins it has no direction in the manual",
-            )],
+            findings: &[],
             shows: &[Shows::Run(&["feed 5.0000 0.0100 0.0000 300"])],
             not_yet: &[],
         },

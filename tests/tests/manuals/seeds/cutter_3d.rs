@@ -66,7 +66,8 @@ lasting: By(&[
 run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. I0. J0. K1.\nG40\nM30\n").with(HALF), &["programmed point X2 Y0 Z0, axes at X2 Y0 Z0.25"]),
 ]),
 missing: By(&[
-run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. I0. J0. K1. F20.\nG40\nM30\n").with(HALF), &["programmed point X1 Y0 Z0, axes at X1 Y0 Z0.25"]),
+run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. I0. J0. K1. F20.\nG40\nM30\n").with(HALF), &["programmed point X1 Y0 Z0, axes at X1 Y0 Z0"]),
+rule("warning[cutter-vector-without-axis]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. I0. J0. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
 ]),
 extra: By(&[
 noticed("info", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20. Q2.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
@@ -183,7 +184,8 @@ legal(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. 
 ]),
 missing: By(&[
 rule("error[cutter-vector-without-size]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
-rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
+legal(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. F20.\nX2. Y0. Z0. I0. J0. K1.\nG40\nM30\n")),
+rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. F20.\nX2. Y0. Z0.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. F20.\nX2. Y0. Z0. I0. J0. K1.\nG40\nM30\n")),
 ]),
 extra: By(&[
 rule("error[refused-in-five-axis-mode]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG2 X2. Y1. R1.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG1 X2. Y1. Z0. I0. J0. K1.\nG40\nM30\n")),
@@ -213,7 +215,9 @@ lasting: By(&[
 rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. I0. J0. K1.\nG40\nM30\n")),
 ]),
 missing: By(&[
-rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. K1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. I0. J0. K1. F20.\nG40\nM30\n")),
+same(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. K1. F20.\nG40\nM30\n").with(HALF), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. I0. J0. K1. F20.\nG40\nM30\n").with(HALF)),
+legal(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. K1. F20.\nG40\nM30\n")),
+rule("error[cutter-vector-not-unit]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. K.8 F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. J.6 K.8 F20.\nG40\nM30\n")),
 ]),
 extra: By(&[
 rule("warning[word-given-twice]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. K-1. F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG40\nM30\n")),
@@ -229,7 +233,7 @@ rule("error[cutter-vector-not-unit]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900
 run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y1. Z1. I0. J-0.6 K0.8 F20.\nG40\nM30\n").with(HALF), &["axes at X1 Y0.85 Z1.2"]),
 ]),
 computed: By(&[
-rule("warning[cutter-vector-incomplete]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. J#1 K[0.8] F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. I0. J#1 K[0.8] F20.\nG40\nM30\n")),
+rule("error[cutter-vector-not-unit]", mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. J#1 F20.\nG40\nM30\n"), mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. J#1 K[0.8] F20.\nG40\nM30\n")),
 ]),
 lasting: By(&[
                 Proof::Rule {
@@ -245,7 +249,7 @@ lasting: By(&[
 missing: By(&[
                 Proof::Rule {
                     finding: "warning[cutter-vector-incomplete]",
-                    violates: mill("G90 G1 G141 D1 X1. Y0. Z0. I0.6 K0.8 F20.\nG40\nM30\n"),
+                    violates: mill("G90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nG0 X2. Y0. Z1.\nG40\nM30\n"),
                     conforms: mill(FORMS),
                 },
 ]),
@@ -303,7 +307,7 @@ range: No("no range"),
             says: "The whole amount counts, though a move is one of two or three axes.",
             literal: By(&[
 Proof::Run {
-                program: mill("G20 G90 G1 G141 D1 X1. Y1. Z1. I0. J0. K1. F20.\nX2. Y2. I0. J0.6 K0.8\nX3. I0. J0.6 K0.8\nG40\nM30\n")
+                program: mill("G20 G90 G1 G141 D1 X1. Y1. Z1. I0. J0. K1. F20.\nX2. Y2. Z1. I0. J0.6 K0.8\nX3. Y2. I0. J0.6 K0.8\nG40\nM30\n")
                     .with(HALF),
                 prints: &[
                     "programmed point X2 Y2 Z1, axes at X2 Y2.15 Z1.2",
@@ -312,13 +316,13 @@ Proof::Run {
             },
 ]),
 computed: By(&[
-run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. Y1. I0. J#1 K[#1+0.2]\nG40\nM30\n").with(HALF), &["programmed point X2 Y1 Z0, axes at X2 Y1.15 Z0.2"]),
+run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=0.6\nG1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. Y1. Z0. I0. J#1 K[#1+0.2]\nG40\nM30\n").with(HALF), &["programmed point X2 Y1 Z0, axes at X2 Y1.15 Z0.2"]),
 ]),
 lasting: By(&[
 run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. Z3. I0. J0. K1. F20.\nX2. I0. J0. K1.\nG40\nM30\n").with(HALF), &["axes at X2 Y0 Z3.25"]),
 ]),
 missing: By(&[
-run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. I0. J0.6 K0.8 F20.\nG40\nM30\n").with(HALF), &["axes at X1 Y0.15 Z0.2"]),
+run(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\nG1 G141 D1 X1. Y0. I0. J0.6 K0.8 F20.\nG40\nM30\n").with(HALF), &["axes at X1 Y0.15 Z0"]),
 ]),
 extra: No("no other word"),
 range: No("no range"),

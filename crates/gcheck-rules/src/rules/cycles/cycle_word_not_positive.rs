@@ -8,10 +8,10 @@ use crate::facts::cycles::{cycle_name, cycle_range, is_own_operation};
 use crate::{PathCx, PathRule, Report, Run, Watch, limit};
 
 declare_rule! {
-    /// A computed word of a canned cycle is zero or below, and the cycle needs a positive value: a peck, a number of
-    /// repeats.
+    /// A word of a canned cycle is zero or below, and the cycle needs a positive value: a number of repeats in a block
+    /// of positions.
     ///
-    /// `number-out-of-range` reports values that are written as numbers.
+    /// `number-out-of-range` and `computed-value-out-of-range` report words beside the code of the cycle.
     ///
     /// ## Why it matters
     /// The control stops with an alarm, or pecks forever at one depth.
@@ -20,14 +20,16 @@ declare_rule! {
     /// ```nc,reported,linuxcnc
     /// G21 G90 G0 X0 Y0 Z10
     /// #1 = 0
-    /// G83 X10 Z-20 R2 Q#1 F100
+    /// G81 X10 Z-20 R2 F100
+    /// X20 L#1
     /// M2
     /// ```
     /// ## Not reported
     /// ```nc,quiet,linuxcnc
     /// G21 G90 G0 X0 Y0 Z10
     /// #1 = 3
-    /// G83 X10 Z-20 R2 Q#1 F100
+    /// G81 X10 Z-20 R2 F100
+    /// X20 L#1
     /// M2
     /// ```
     rule "cycle-word-not-positive" in "cycles" {
@@ -90,10 +92,6 @@ mod tests {
             "linuxcnc",
             "G21 G90 G0 X0 Y0 Z10\nG83 X10 Z-20 R2 Q[1-1] F100\nG81 X10 Z-20 R2 L#1\nX5 L0\nM2\n",
             &expect![[r#"
-                2 | G83 X10 Z-20 R2 Q[1-1] F100
-                  |                 ^^^^^^ error[cycle-word-not-positive] `Q` of a canned cycle is not above zero (`G83`)
-                3 | G81 X10 Z-20 R2 L#1
-                  |                 ^^^ error[cycle-word-not-positive] `L` of a canned cycle is not above zero (`G81`)
                 4 | X5 L0
                   |    ^^ error[cycle-word-not-positive] `L` of a canned cycle is not above zero (`G81`)
             "#]],

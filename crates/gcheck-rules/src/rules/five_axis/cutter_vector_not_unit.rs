@@ -250,10 +250,12 @@ mod tests {
     }
 
     #[test]
-    fn a_part_that_is_left_out_may_only_make_it_longer() {
+    fn a_part_that_is_left_out_is_zero() {
         check(
             &["I0.6 J0.7", "I1.5", "K1.", "I0.8 K0.7"],
             &expect![[r#"
+                2 | X1. I0.6 J0.7
+                  |     ^^^^^^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 0.85, not 1 (`G141`)
                 3 | X1. I1.5
                   |     ^^^^ error[cutter-vector-not-unit] direction is not a unit vector: I² + J² + K² is 2.25, not 1 (`G141`)
                 5 | X1. I0.8 K0.7

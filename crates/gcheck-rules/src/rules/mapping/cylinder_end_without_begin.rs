@@ -2,6 +2,7 @@
 
 use gcheck_controls::{Effect, LetterSet};
 use gcheck_engine::{At, Wrapped};
+use gcheck_program::BlockFlags;
 
 use crate::declare::declare_rule;
 use crate::{PathCx, PathRule, Report, Run, Watch};
@@ -66,7 +67,8 @@ impl PathRule for CylinderEndWithoutBegin {
             return;
         }
         let letters = cx.origin().letters;
-        if letters.intersects(LINEAR) {
+        // What cannot be read may have named the axis.
+        if letters.intersects(LINEAR) || cx.origin().flags.contains(BlockFlags::ERROR) {
             self.sized = None;
         } else if letters.intersects(OF_CYLINDER) {
             self.sized = Some((cx.origin().at, cx.range()));

@@ -241,10 +241,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G141 D1 X0. Y0. Z0.\nG1 X1. Y1. Z1. I0. J-1. K0. F30.\nG40 G0 Z2.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 310, p. 311",
             "The first block may be `G141 D X Y Z` without a vector: it goes to its point.",
-            "the start block asks for no vector and no lead-in (`cutter-vector-incomplete` and `lead-in-too-short` are untrue there) and its position is the programmed one, not unknown",
+            "effect `compensation-vector`",
             &[
                 Legal {
                     program: cut!("G141 D1 X0. Y0. Z0.\nG1 X1. Y1. Z1. I0. J-1. K0. F30.\nG40 G0 Z2.\n")
@@ -310,26 +310,26 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed X5 Y0.01 Z0"],
             }],
         ),
-        gap(
+        held(
             "p. 313",
             "A part of the vector that is not written is 0: J-1. alone is enough.",
-            "`cutter-vector-incomplete` is untrue where the words given have the length 1",
+            "effect `compensation-vector`; rule `cutter-vector-not-unit`",
             &[Silent {
                 rule: "cutter-vector-incomplete",
                 program: cut!("G141 D1 X0. Y0. Z0. I0. J0. K1.\nG1 X5. Y0. J-1. F30.\nG40 G0 Z1.\n")
                     .with(&[TOOL]),
             }],
         ),
-        gap(
+        held(
             "p. 313",
             "An axis is shifted only where its own word stands in the block: Y for J.",
-            "without Y a J changes nothing, and the block is reported: the tool does not get its offset there",
+            "effect `compensation-vector`; rule `cutter-vector-without-axis`",
             &[
                 Makes {
                     program: cut!("G141 D1 X0. Y0. Z0. I0. J0. K1.\nG1 X5. I0. J-1. K0. F30.\nG40 G0 Z1.\n")
                         .with(&[TOOL]),
                     block: "G1 X5. I0. J-1. K0. F30.",
-                    events: &["feed X5 Z0 F30"],
+                    events: &["feed X5 F30"],
                 },
                 Rule {
                     finding: "warning[cutter-vector-without-axis]",
