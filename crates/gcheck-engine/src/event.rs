@@ -232,6 +232,8 @@ pub struct Clearing {
     pub seconds: Seconds,
     /// The outline turns counter-clockwise, so that its inside is on its left.
     pub counter_clockwise: bool,
+    /// The code of cutter compensation in effect; [`CodeIx::NONE`] where several may be.
+    pub compensation: CodeIx,
     /// Where the tool stands, work coordinates.
     pub at: Position,
 }

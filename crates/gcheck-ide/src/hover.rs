@@ -990,7 +990,7 @@ mod tests {
             "O1\nM98 P$02\nM30\nO2 (SLOT)\nM99\n",
             &expect![[r#"
             [P2]
-            **P** program to call (`M98`), unless a path in parentheses names the program, program number
+            **P** program to call (`M98`), unless a path in parentheses names the program, program number, from 0
 
             **O2** program, line 4 (SLOT): `O2 (SLOT)`
 

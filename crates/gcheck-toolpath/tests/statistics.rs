@@ -5,6 +5,7 @@ mod step_maker;
 use std::f64::consts::PI;
 
 use expect_test::expect;
+use gcheck_controls::CodeIx;
 use gcheck_engine::{
     Axis, BarLengths, Clearing, Cylinder, Event, FeedMode, Position, Travel, TravelKind, Units,
 };
@@ -149,6 +150,7 @@ fn pockets_are_estimates() {
         length: Mm(300.0),
         seconds: Seconds(30.0),
         counter_clockwise: true,
+        compensation: CodeIx::NONE,
         at: run.at,
     };
     run.event(Event::Cleared(clearing)).rapid(0.0, 0.0, 0.0);

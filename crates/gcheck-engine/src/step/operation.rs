@@ -126,6 +126,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             .as_ref()
             .and_then(|outline| outline.segments.as_ref())
             .map_or(Err(CycleError::Unknown), |segments| general_pocket(segments, &words));
+        let compensation = state.mode(Role::Compensation).only().unwrap_or(CodeIx::NONE);
         let mut strokes = Vec::new();
         let mut cleared = None;
         if let Ok(plan) = &plan {
@@ -139,6 +140,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 length,
                 seconds: length / words.feed,
                 counter_clockwise: plan.counter_clockwise,
+                compensation,
                 at: Position::UNKNOWN,
             });
             strokes.push(Stroke::Rapid(start.xyz()));

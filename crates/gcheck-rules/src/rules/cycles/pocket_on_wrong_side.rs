@@ -5,7 +5,6 @@ use gcheck_engine::{Abstract, Domain, Event, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::cycles::cycle_code;
-use crate::facts::modes::resting_on_mode;
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Watch};
 
@@ -63,9 +62,10 @@ impl PathRule for PocketOnWrongSide {
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
         let Event::Cleared(clearing) = event else { return };
         let counter_clockwise = clearing.counter_clockwise;
-        let (side, inside) = match cx.state().effect(Role::Compensation, cx.model) {
-            Some(Effect::CompensationLeft) => ("left", counter_clockwise),
-            Some(Effect::CompensationRight) => ("right", !counter_clockwise),
+        let Some(compensation) = cx.control().code_at(clearing.compensation) else { return };
+        let (side, inside) = match compensation.effect() {
+            Effect::CompensationLeft => ("left", counter_clockwise),
+            Effect::CompensationRight => ("right", !counter_clockwise),
             _ => return,
         };
         // A negative size puts the tool on the other side.
@@ -84,7 +84,7 @@ impl PathRule for PocketOnWrongSide {
         } else {
             ("clockwise", Effect::CompensationRight)
         };
-        let now = cx.code_name(Role::Compensation).unwrap_or_default();
+        let now = compensation.number();
         let other = cx.name_of_effect(opposite).unwrap_or_default();
         let range = cx.effect_range(|effect| Role::of(effect) == Some(Role::Compensation));
         let finding = cx
@@ -97,7 +97,7 @@ impl PathRule for PocketOnWrongSide {
         } else {
             finding.help(format!("write `{other}`, or turn the outline round"))
         };
-        report.add(resting_on_mode(cx, finding, Role::Compensation));
+        report.add(finding);
     }
 }
 
