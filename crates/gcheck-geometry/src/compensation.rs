@@ -169,6 +169,9 @@ pub struct CompensationConfig {
     pub sharp_limit: f64,
     /// Whether an entry not longer than the radius is an error.
     pub entry_exceeds_radius: bool,
+    /// Whether an inside arc of exactly the tool's radius is an error. Else the tool's centre stays where the arc has its
+    /// own (an example of the Haas mill manual of 2017, p. 255, leads in so).
+    pub arc_exceeds_radius: bool,
 }
 
 impl CompensationConfig {
@@ -179,6 +182,7 @@ impl CompensationConfig {
             bend_tolerance: 0.05,
             sharp_limit: FRAC_PI_2,
             entry_exceeds_radius: true,
+            arc_exceeds_radius: true,
         }
     }
 
@@ -189,6 +193,7 @@ impl CompensationConfig {
             bend_tolerance: 0.005,
             sharp_limit: FRAC_PI_2,
             entry_exceeds_radius: false,
+            arc_exceeds_radius: false,
         }
     }
 }

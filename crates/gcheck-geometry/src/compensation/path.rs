@@ -19,6 +19,9 @@ const ROUNDING_BEND: f64 = 0.05;
 /// turn more.
 const SWEEP_SLACK: f64 = 0.025;
 
+/// An inside arc that is larger or smaller than the tool by less (mm) fits it exactly; its offset is a circle of this radius.
+const FITS: f64 = 1e-6;
+
 /// A segment in the plane with its offset.
 #[derive(Clone, Copy, Debug)]
 struct Offset {
@@ -113,7 +116,8 @@ impl<M: Clone, E> Compensator<M, E> {
             if self.state.phase == Phase::Entering {
                 self.check_entry(to, true)?;
             }
-            if inside && radius <= tool_radius {
+            let least = if self.config.arc_exceeds_radius { tool_radius } else { tool_radius - FITS };
+            if inside && radius <= least {
                 return Err(CompensationError::ArcTooSmall { radius, tool_radius });
             }
         }
@@ -122,7 +126,7 @@ impl<M: Clone, E> Compensator<M, E> {
             segment: Segment::Arc { centre, ccw, turns: turns.max(1) },
             curve: Curve::Circle {
                 centre,
-                radius: if inside { radius - tool_radius } else { radius + tool_radius },
+                radius: if inside { (radius - tool_radius).max(FITS) } else { radius + tool_radius },
                 ccw,
             },
             start_tangent,

@@ -851,6 +851,27 @@ mod intersection {
     }
 
     #[test]
+    fn inside_an_arc_of_its_own_radius_the_tool_stays() {
+        let into_the_bore = [
+            Feed(5.0, -5.0),
+            Ccw([10.0, 0.0], [5.0, 0.0]),
+            Ccw([10.0, 0.0], [0.0, 0.0]),
+            Ccw([5.0, 5.0], [5.0, 0.0]),
+            Stop,
+        ];
+        sharp(
+            left(5.0),
+            &into_the_bore,
+            expect![[r#"
+                1 Feed 5.0000 0.0000 0.0000 (of 0)
+                2 ccw 5.0000 0.0000 0.0000 about 5.0000 0.0000 (of 1)
+                3 ccw 5.0000 0.0000 0.0000 about 0.0000 0.0000 (of 2)
+                4 ccw 5.0000 0.0000 0.0000 about 5.0000 0.0000 (of 3)
+            "#]],
+        );
+    }
+
+    #[test]
     fn gouges_are_found() {
         let channel = [Feed(10.0, 0.0), Feed(30.0, 0.0), Feed(30.0, 8.0), Feed(10.0, 8.0)];
         sharp(
