@@ -331,10 +331,10 @@ fn a_point_is_shifted_by_the_radius_along_its_vector() {
         program,
         &expect![[r#"
         1 2 3 -> 1 5 7
-        2 2 3 -> 7 2 3
-        2 2 10 -> 2 2 5
-        2 2 20 -> 2 2 20
-        reads 2 2 20, stands 2 2 20
+        2 2 3 -> 7 5 7
+        2 2 10 -> 7 5 5
+        7 5 20 -> 7 5 20
+        reads 7 5 20, stands 7 5 20
     "#]],
     );
 }

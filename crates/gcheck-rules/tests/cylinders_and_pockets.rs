@@ -48,7 +48,7 @@ const PLACES: [(&str, &str, &str); 4] = [
     ("in a subprogram", "M97 P900\nM30\nN900 ", "\nM99"),
 ];
 
-const OUTLINE: &str = "O9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n";
+const OUTLINE: &str = "O9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n";
 
 fn program(block: &str, (_, before, behind): (&str, &str, &str)) -> String {
     let head = "O1\nG20 G90 G94 G17 G54 G0 X0. Y0. A0.\nZ1. F10.\n";

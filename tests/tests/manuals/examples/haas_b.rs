@@ -1082,13 +1082,11 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &["tools.1.diameter=0.5"],
         expected: Expected {
-            findings: &[
-                Finding(
-                    "warning[tool-length-missing] 9",
-                    Verdict::True,
-                    "the page moves to Z0 of the work before it gives a length",
-                ),
-            ],
+            findings: &[Finding(
+                "warning[tool-length-missing] 9",
+                Verdict::True,
+                "the page moves to Z0 of the work before it gives a length",
+            )],
             shows: &[Shows::Run(&[
                 "feed 0.0350 0.0600 0.2537",
                 "feed 0.0575 0.0925 0.2792",

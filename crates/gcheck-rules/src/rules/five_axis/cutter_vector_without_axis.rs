@@ -63,11 +63,12 @@ impl PathRule for CutterVectorWithoutAxis {
         let Event::CutterVector(parts) = event else { return };
         let mode = cx.state().mode(Role::Compensation).only();
         let Some(code) = mode.filter(|code| is_along_vectors(cx.model.effect(*code))) else { return };
-        if cx.has_effect(is_along_vectors) {
+        let begins = cx.has_effect(is_along_vectors);
+        if begins {
             self.applied = [Some(0.0); 3];
         }
-        // A block without a direction has a finding of its own, or goes to its point.
-        let is_given = parts.iter().any(Option::is_some);
+        // A block without a direction has a finding of its own, unless it begins: then it goes to its point.
+        let is_given = begins || parts.iter().any(Option::is_some);
         let letters = cx.origin().letters;
         for ((slot, part), (letter, axis)) in self.applied.iter_mut().zip(parts).zip(COMPONENTS) {
             let part = part.unwrap_or(0.0);

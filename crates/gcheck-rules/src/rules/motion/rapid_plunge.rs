@@ -231,7 +231,7 @@ mod tests {
     fn a_narrower_step_of_a_shaft_lies_deeper() {
         let shaft = |radius: &str, z: &str| {
             format!(
-                "G20 G90 G54 G0 X0. Y0. Z1.\nG107 Y0. A0. R1.5\nG0 Z.1\nG1 Z-.05 F10.\nY4.\nG0 Z1.\nG107\nG107 Y0. A0. R{radius}\nG0 X3.\nZ{z}\nG1 Y4.\nG0 Z1.\nG107\nM30\n"
+                "G20 G90 G54 G0 X0. Y0. Z1.\nG107 Y0. A0. R1.5\nG0 Z.1\nG1 Z-.05 F10.\nY4.\nG0 Z1.\nY0.\nG107\nG107 Y0. A0. R{radius}\nG0 X3.\nZ{z}\nG1 Z-.4\nG0 Z1.\nG107\nM30\n"
             )
         };
         check_rule(&RULE, "haas-mill", &shaft("1.25", "-.15"), &expect![[""]]);
@@ -240,7 +240,7 @@ mod tests {
             "haas-mill",
             &shaft("1.25", "-.3"),
             &expect![[r#"
-                10 | Z-.3
+                11 | Z-.3
                    | ^^^^ warning[rapid-plunge] rapid move down into the part
             "#]],
         );
