@@ -65,8 +65,10 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
     };
     let shown: String = silent.into_iter().map(line).collect();
     expect![[r#"
-        3111 words
+        3328 words
         blank-inside-number: G Y
+        block-number-not-first: G
+        code-must-come-first: M
         decimal-point-on-integer: H
         dwell-unit-unsure: P
         dwell-very-short: P
@@ -86,8 +88,11 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         maybe-refused-in-five-axis-mode: G
         maybe-spindle-stopped-while-cutting: G M
         number-out-of-range: P Q
+        pocket-arc-below-tool: G M
+        pocket-on-wrong-side: G M
         pocket-outline-open: G M
         pocket-start-outside: G
+        polar-word-refused: @ ^
         rapid-between-cuts: G X Z
         sign-not-accepted: F
         thread-without-lead: G
@@ -97,6 +102,7 @@ fn a_mistake_is_found_whether_its_words_are_written_or_computed() {
         unknown-address: @ G ^
         unknown-code: G
         unreachable-block: G M
+        word-of-newer-version: $ M
         word-passed-over: G
     "#]]
     .assert_eq(&format!("{tried} words\n{shown}"));
