@@ -151,7 +151,9 @@ fn a_list_of_all_g_codes_is_short_on_the_wire() {
         assert!(rows.len() >= codes.min(90), "{control}: {} rows of {codes} codes", rows.len());
         session.edit("a.nc", 2, [4, 1, 4, 1], "9");
         let (narrow, _) = listed(&mut session, 4, 2);
-        assert!(narrow["items"].as_array().unwrap().iter().any(|row| row["label"] == "G98"), "{narrow}");
+        let last = all.codes().filter(|code| code.number().to_string().starts_with("G9")).last().unwrap();
+        let last = last.number().to_string();
+        assert!(narrow["items"].as_array().unwrap().iter().any(|row| row["label"] == *last), "{narrow}");
         assert_eq!(shown(&list["itemDefaults"]["editRange"]), "4:0-4:1");
         assert!(rows.iter().all(|row| row["documentation"].is_null()), "{list}");
         // An editor that knows nothing of short lists is sent the rows that fit best.
@@ -206,8 +208,8 @@ fn help_for_a_block_goes_when_it_is_complete_and_comes_when_it_is_asked_for() {
     };
     assert_eq!(help(&mut session, 5, 2), Value::Null, "the block has all its words");
     assert!(help(&mut session, 5, 1)["signatures"].is_array(), "it is asked for");
-    session.edit("a.nc", 2, [16, 0, 16, 30], "G81 X1. Z-5. ");
-    assert!(help(&mut session, 13, 2)["signatures"].is_array(), "R is missing");
+    session.edit("a.nc", 2, [16, 0, 16, 30], "G81 X1. R2.0 ");
+    assert!(help(&mut session, 13, 2)["signatures"].is_array(), "Z is missing");
 }
 
 #[test]

@@ -674,11 +674,10 @@ const EXAMPLES: &[Example] = &[
         hash: 0x88fb_88e3_a62b_1443,
         what: "a subroutine in another: invalid",
         around: ["", "M2\n"],
-        findings: &[Finding(
-            "error[subroutine-inside-subroutine] 2",
-            Verdict::True,
-            "the text calls it invalid",
-        )],
+        findings: &[
+            Finding("info[checked-past-alarm] 1", Verdict::True, "the check goes on past it"),
+            Finding("error[subroutine-inside-subroutine] 2", Verdict::True, "the text calls it invalid"),
+        ],
         both: Both::Refuse("Nested subroutine definition"),
     },
     Example {

@@ -92,7 +92,7 @@ same(mill("O1\nG20 G90 G54 G0 X0. Y0. Z0.\nS900 M3\n#1=1.5\nG1 G141 D#1 X1. Y0. 
 ]),
 lasting: By(&[
                 Proof::Run {
-                    program: mill("G20 G90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. I0. J0. K1.\nD2 X3. I0. J0. K1.\nG40\nM30\n")
+                    program: mill("G20 G90 G1 G141 D1 X1. Y0. Z0. I0. J0. K1. F20.\nX2. I0. J0. K1.\nD2 X3. Z0. I0. J0. K1.\nG40\nM30\n")
                         .with(&["tools.1.diameter=0.5", "tools.2.diameter=1.0"]),
                     prints: &["axes at X1 Y0 Z0.25", "axes at X2 Y0 Z0.25", "axes at X3 Y0 Z0.5"],
                 },

@@ -66,14 +66,14 @@ const SENTENCES: &[Sentence] = &[
             Explains { control: CONTROL, code: "G150", says: "Drill the start hole first" },
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1.\nG150 P9 G41 D1 X0. Y0. Z#1 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1.\nG150 P9 G41 D1 X0. Y0. Z#1 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("see the words"),
 missing: By(&[
-rule("warning[subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-noticed("info", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. A1.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("info", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. A1.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: No("see the words"),
 
@@ -84,36 +84,36 @@ range: No("see the words"),
             Assumes { program: on(CONTROL, POCKET), says: "the diameter of tool 2 is not known" },
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=1\nG150 P9 G41 D#1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 missing: By(&[
             Rule {
                 finding: "info[pocket-without-compensation]",
                 violates: pocket(
-                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
                 ),
                 conforms: pocket(
-                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                    "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
                 ),
             },
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 D2 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 D2 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1.5 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D-1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1.5 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D-1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
     Sentence {
         says: "G41 or G42 belongs to it and is cancelled by G40",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: No("no value"),
 lasting: No("see G150-2"),
@@ -121,15 +121,15 @@ missing: By(&[
 Rule {
             finding: "warning[compensation-left-on]",
             violates: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG0 X.1\nT2 M6\nG40\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG0 X.1\nT2 M6\nG40\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
             conforms: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nT2 M6\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nT2 M6\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
         },
 ]),
 extra: By(&[
-rule("error[two-codes-of-one-group]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 G42 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("error[two-codes-of-one-group]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 G42 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: No("no range"),
 
@@ -137,43 +137,43 @@ range: No("no range"),
     Sentence {
         says: "F is the feed",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[feed-zero]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[feed-zero]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nF10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nF10.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 missing: By(&[
 Rule {
             finding: "error[feed-missing]",
             violates: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2\nG40 X.1\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
             conforms: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X.1\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
         },
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. F20.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. F20.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
-rule("error[feed-zero]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F0.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[sign-not-accepted]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F-10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("error[feed-zero]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F0.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[sign-not-accepted]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F-10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
     Sentence {
         says: "I is the step in X, J the step in Y: exactly one of them",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[words-exclude-each-other]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 J#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[words-exclude-each-other]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 J#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -196,12 +196,12 @@ range: No("see G150-6"),
     Sentence {
         says: "I and J are positive",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J[#1*0.5] F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J[#1*0.5] F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("warning[maybe-computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nIF [#500 EQ 1] GOTO 10\n#1=0\nN10 G150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nIF [#500 EQ 1] GOTO 10\n#1=.3\nN10 G150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J[#1*0.5] F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 J[#1*0.5] F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("warning[maybe-computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nIF [#500 EQ 1] GOTO 10\n#1=0\nN10 G150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nIF [#500 EQ 1] GOTO 10\n#1=.3\nN10 G150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: No("see G150-5"),
@@ -223,13 +223,13 @@ range: By(&[
     Sentence {
         says: "A step above the tool's diameter leaves ridges",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
 ]),
 computed: By(&[
-rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.6\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
+rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.6\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.4\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
 ]),
 lasting: By(&[
-rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.6 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
+rule("warning[pocket-step-above-tool]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.6 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"]), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nD1\nG150 P9 G41 X0. Y0. Z-1. Q.2 R.1 I.4 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1.diameter=0.5"])),
 ]),
 missing: No("see G150-5"),
 extra: No("see G150-5"),
@@ -254,15 +254,15 @@ Rule {
             Explains { control: CONTROL, code: "G150", says: "The floor gets no finishing pass" },
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.01\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K#1 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 K.02 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 K.02 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 K.01 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
             Rule {
@@ -276,13 +276,13 @@ range: By(&[
     Sentence {
         says: "P names the program that holds the outline",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9.5\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("warning[computed-subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9.5\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("warning[computed-subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=8\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=9\nG150 P#1 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -297,21 +297,21 @@ missing: By(&[
                 ),
                 says: "what program 9 does is not known",
             },
-rule("warning[subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P8 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[subprogram-missing]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P8 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 P8 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 P8 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9.5 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9.5 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P-9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
     Sentence {
         says: "The outline is closed: its last move ends where its first one leads",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: No("see G150-11"),
 lasting: No("no word"),
@@ -322,7 +322,7 @@ Rule {
                 "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nM99\n",
             ),
             conforms: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
         },
 ]),
@@ -333,10 +333,10 @@ range: No("no range"),
     Sentence {
         says: "The outline holds straight moves and arcs in X and Y, no cycle and no tool change, and ends with M99",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-rule("warning[pocket-outline-unfit]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\n#2=1.\nG1 Y#2\nX#2\nY[0-#2]\nX[0-#2]\nY#2\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[pocket-outline-unfit]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\n#2=1.\nG1 Y#2\nX#2\nY[0-#2]\nX[0-#2]\nY#2\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("no word"),
 missing: By(&[
@@ -361,7 +361,7 @@ extra: By(&[
                 violates: pocket("G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nT3 M6\nM99\n"),
                 conforms: pocket("G150 P9 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nM99\n"),
             },
-rule("warning[pocket-outline-unfit]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nZ-2.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[pocket-outline-unfit]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nZ-2.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: No("no range"),
 
@@ -369,7 +369,7 @@ range: No("no range"),
     Sentence {
         says: "An outline has at most so many moves: 40 in the older books",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: No("no word"),
 lasting: No("no word"),
@@ -410,9 +410,9 @@ Rule {
             },
 ]),
 computed: By(&[
-same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q[#1-#1] R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q[#1+#1] R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+same(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q#1 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+rule("error[computed-value-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q[#1-#1] R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.2\nG150 P9 G41 D1 X0. Y0. Z-1. Q[#1+#1] R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
@@ -423,7 +423,7 @@ missing: By(&[
             },
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 Q.3 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 Q.3 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
             Rule {
@@ -431,33 +431,33 @@ range: By(&[
                 violates: pocket("G150 P9 X0. Y0. Z-1. Q0. R.1 I.2 F10.\nM30\n"),
                 conforms: pocket("G150 P9 X0. Y0. Z-1. Q1. R.1 I.2 F10.\nM30\n"),
             },
-rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q-.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("error[number-out-of-range]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q-.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
     Sentence {
         says: "R is the level of rapid moves, above the floor",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
-rule("warning[cycle-r-below-bottom]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-2.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R#1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.1\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R#1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[cycle-r-below-bottom]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-2.\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R#1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.1\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R#1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: No("not lasting"),
 missing: By(&[
-rule("warning[lasting-word-never-given]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[lasting-word-never-given]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 R.2 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 R.2 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
 Rule {
             finding: "warning[cycle-r-below-bottom]",
             violates: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
             conforms: pocket(
-                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "G20 G54 G90 G0 X0. Y0.\nG150 P9 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
         },
 ]),
@@ -468,44 +468,44 @@ Rule {
         literal: By(&[
 Legal {
             program: pocket(
-                "O1\nG20 G54 G90 G0 X0. Y0.\nM3\nG150 P9 G41 D1 S3000 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n",
+                "O1\nG20 G54 G90 G0 X0. Y0.\nM3\nG150 P9 G41 D1 S3000 X0. Y0. Z-.5 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n",
             ),
         },
 ]),
 computed: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=3000\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S#1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: By(&[
-run(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), &["3000 rpm"]),
+run(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), &["3000 rpm"]),
 ]),
 missing: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000 S2000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000 S2000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
-noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S-3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S-3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. S3000\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },
     Sentence {
         says: "X and Y name the start hole, which lies inside the outline",
         literal: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 computed: By(&[
 rule("error[pocket-start-outside]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=2.\nG150 P9 G41 D1 X#1 Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=0.5\nG150 P9 G41 D1 X#1 Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 X0. Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
 ]),
 lasting: By(&[
-legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+legal(pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 missing: By(&[
-noticed("info", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG0 X5.\nG150 P9 G41 D1 Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("info", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG0 X5.\nG150 P9 G41 D1 Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. X.5 Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. X.5 Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
 Rule {
@@ -540,7 +540,7 @@ Rule {
             },
 ]),
 computed: By(&[
-Proof::Stats { program: pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1.\nG150 P9 G41 D1 X0. Y0. Z#1 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1={ length = 4.0, diameter = 0.375 }"]), prints: &["of cutting are an estimate"] },
+Proof::Stats { program: pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\n#1=-1.\nG150 P9 G41 D1 X0. Y0. Z#1 Q.2 R.1 I.2 F10.\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n").with(&["machine.units=\"inch\"", "tools.1={ length = 4.0, diameter = 0.375 }"]), prints: &["of cutting are an estimate"] },
 ]),
 lasting: No("no word"),
 missing: By(&[
@@ -568,11 +568,11 @@ missing: By(&[
 run(pocket("O1\nG21 G54 G90 G0 X0. Y0.\nG91 G150 P9 X20. Z-5. Q2. R1. I2. F100.\nG90 G0 Y5.\nM30\nO9\nG1 Y9.\nX9.\nM99\n"), &["rapid 20.0000 5.0000"]),
 ]),
 extra: By(&[
-rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1 L2\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+rule("warning[word-given-twice]", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1 L2\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 range: By(&[
-noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1.5\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
-noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L-1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX1.\nY-1.\nX-1.\nY1.\nX0.\nM99\n")),
+noticed("error", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1.5\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
+noticed("warning", pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L-1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n"), pocket("O1\nG20 G90 G54 G0 X0. Y0.\nS900 M3\nG150 P9 G41 D1 X0. Y0. Z-1. Q.2 R.1 I.2 F10. L1\nG40 X0. Y0.\nM30\nO9\nG1 Y1.\nX-1.\nY-1.\nX1.\nY1.\nX0.\nM99\n")),
 ]),
 
     },

@@ -133,9 +133,12 @@ mod tests {
     fn the_radius_of_an_arc_is_no_plane_of_a_cycle() {
         check_rule(
             &RULE,
-            "fanuc-mill",
-            "G21 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
-            &expect![""],
+            "haas-mill",
+            "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
+            &expect![[r#"
+                5 | G81 Z-0.5 F5.
+                  | ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
+            "#]],
         );
     }
 

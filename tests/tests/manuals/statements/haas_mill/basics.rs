@@ -314,10 +314,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("warning[unreachable-block]", "O1\nM30\nG4 P1.\nM30\n", "O1\nG4 P1.\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 128, 132",
             "A cycle with L in G91 repeats, each time by the distance that X and Y name; without R, feeding begins where Z is.",
-            "`R` of cycles may be left out: feeding begins at the level where the tool is; no finding `lasting-word-never-given`, and the run drills",
+            "need of `R` in canned cycles",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90 X0. Y0.\nZ.1\nG99 G91 G81 F8. X1.25 Z-.3 L3\nG80\nM30\n",

@@ -387,7 +387,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         held(
             "p. 245",
             "Z, R and F are required for every canned cycle.",
-            "needs of words; rules `cycle-word-missing`, `lasting-word-never-given`, `feed-missing`",
+            "needs of words; rules `cycle-word-missing`, `feed-missing`",
             &[
                 Rule {
                     finding: "error[cycle-word-missing]",
@@ -395,7 +395,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     conforms: cut!("G81 Z-.5 R.1 F5.\n"),
                 },
                 Rule {
-                    finding: "warning[lasting-word-never-given]",
+                    finding: "warning[cycle-word-missing]",
                     violates: cut!("G81 Z-.5 F5.\n"),
                     conforms: cut!("G81 Z-.5 R.1 F5.\n"),
                 },

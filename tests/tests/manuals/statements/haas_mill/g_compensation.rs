@@ -336,7 +336,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     violates: cut!("G141 D1 X0. Y0. Z0. I0. J0. K1.\nG1 X5. I0. J-1. K0. F30.\nG40 G0 Z1.\n")
                         .with(&[TOOL]),
                     conforms: cut!(
-                        "G141 D1 X0. Y0. Z0. I0. J0. K1.\nG1 X5. Y0. I0. J-1. K0. F30.\nG40 G0 Z1.\n"
+                        "G141 D1 X0. Y0. Z0. I0. J0. K1.\nG1 X5. Y0. Z0. I0. J-1. K0. F30.\nG40 G0 Z1.\n"
                     )
                     .with(&[TOOL]),
                 },

@@ -124,10 +124,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             )],
         ),
-        gap(
+        held(
             "p. 233",
             "In G91 the Z of a cycle is a distance, and R may be left out.",
-            "as in the chapter on basics: no R means the level where the tool is; Z#26 with a positive value is then a depth above it, which the manual's example has",
+            "need of `R` in canned cycles",
             &[reports(
                 "O1\nG20 G90 G54 G0 X1. Y1. Z.05\nS1000 M3\nG65 P9010 X.5 Y.25 Z-.05 F10. T3\nM30\nO09010\nF#9\nWHILE [#20 GT 0] DO1\nG91 G81 Z#26\n#20=#20-1\nIF [#20 EQ 0] GOTO5\nG0 X#24 Y#25\nN5 END1\nM99\n",
                 &[],
