@@ -194,7 +194,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let counted = if rules.rise_to_r { (Some(*given_r), Some(*given_z)) } else { (retract, bottom) };
         if let Some(level) = counted.0 {
             words.r = if relative || rules.r_is_distance { words.initial + level } else { level };
-        } else if words.word('R', words.r).is_none() && self.starts_without_r(relative, state) {
+        } else if words.word('R', words.r).is_none() && self.starts_without_r(state) {
             words.r = words.initial;
         }
         if let Some(level) = counted.1 {
@@ -207,7 +207,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             words.give(depth.letter());
         }
         state.cycle = words;
-        if words.word('R', words.r).is_none() && !self.starts_without_r(relative, state) {
+        if words.word('R', words.r).is_none() && !self.starts_without_r(state) {
             return Err(Fault::Cycle(CycleFault::Missing(Letter::of('R'))));
         }
         if words.word(depth.name(), words.z).is_none() && effect != Effect::CycleCancel {
@@ -216,12 +216,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    /// Without `R` the cycle in effect begins at the level of the tool; where `R` is needed under a condition, in increments
-    /// only (Haas NGC mill manual 2017, p. 128, 233 and 245).
-    fn starts_without_r(&self, relative: bool, state: &State<D>) -> bool {
+    /// Without `R` the cycle in effect begins at the level of the tool, as in examples of the Haas NGC mill manual of 2017
+    /// (p. 128, 130 and 233), though p. 245 asks for the word.
+    fn starts_without_r(&self, state: &State<D>) -> bool {
         let cycle = state.active_cycle(self.model).and_then(|ix| self.model.control().code_at(ix));
         let word = cycle.and_then(|code| code.entry().words.iter().find(|word| word.letter == "R"));
-        word.is_some_and(|word| word.need == Need::Optional || relative && word.need == Need::Conditional)
+        word.is_some_and(|word| matches!(word.need, Need::Optional | Need::Conditional))
     }
 
     /// Does the block name an axis beside the one of depth, in whatever way?

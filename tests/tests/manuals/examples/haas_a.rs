@@ -129,7 +129,10 @@ const EXAMPLES: &[Example] = &[
         files: &[],
         config: &[],
         expected: Expected {
-            findings: &[],
+            findings: &[
+                Finding("info[cycle-word-missing] 15", Verdict::True, "p. 245 asks for R"),
+                Finding("info[cycle-word-missing] 33", Verdict::True, "p. 245 asks for R"),
+            ],
             shows: &[Shows::Run(&[
                 "feed 1.2500 0.0000 -0.2000",
                 "feed 2.5000 0.0000 -0.2000",

@@ -6,7 +6,7 @@ use gcheck_engine::{CycleFault, Event, Fault};
 use crate::declare::declare_rule;
 use crate::facts::cycles::{Series, cycle_code, is_cycle, is_operation};
 use crate::facts::usage::may_be_called;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch, limit};
+use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -63,7 +63,15 @@ impl PathRule for CycleWordMissing {
         let pecks = matches!(code.effect(), Effect::CyclePeck | Effect::CycleChipBreak);
         let is_fault = cx.model.semantics().cycles.rise_to_r;
         if pecks && !is_fault && !cx.origin().letters.intersects(LetterSet::of("QIJK")) {
-            self.tell(cx, code, Letter::of('Q'), report);
+            self.tell(cx, code, Letter::of('Q'), Severity::Error, report);
+        }
+        let is_written = |effect: Effect| cx.codes().iter().any(|ix| cx.model.effect(*ix) == effect);
+        let is_incremental = is_written(Effect::Incremental)
+            || cx.state().is_incremental(cx.model) == Some(true) && !is_written(Effect::Absolute);
+        // Where it is no fault, feeding begins at the level of the tool.
+        let r = Letter::of('R');
+        if is_cycle(code.effect()) && !is_incremental && !cx.origin().letters.contains(r) {
+            self.tell(cx, code, r, Severity::Info, report);
         }
     }
 
@@ -74,13 +82,20 @@ impl PathRule for CycleWordMissing {
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
         let Fault::Cycle(CycleFault::Missing(letter)) = *fault else { return };
         if let Some(code) = cycle_code(cx) {
-            self.tell(cx, code, letter, report);
+            self.tell(cx, code, letter, Severity::Error, report);
         }
     }
 }
 
 impl CycleWordMissing {
-    fn tell(&self, cx: &PathCx<'_>, code: Code<'_>, letter: Letter, report: &mut Report<'_>) {
+    fn tell(
+        &self,
+        cx: &PathCx<'_>,
+        code: Code<'_>,
+        letter: Letter,
+        severity: Severity,
+        report: &mut Report<'_>,
+    ) {
         // Other rules report a word of an earlier cycle, and one that no block of the file has; some controls do
         // without it.
         let word = code.entry().words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
@@ -91,8 +106,11 @@ impl CycleWordMissing {
                     missing.letter == letter && cx.model.effect(missing.code) == code.effect()
                 });
         // A letter of an arc or a call elsewhere in the text does not belong to the cycle.
-        let needed = word.is_some_and(|word| {
-            word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text
+        let needed = word.is_some_and(|word| match word.need {
+            Need::Conditional => true,
+            // What is a fault of the control is told there.
+            Need::Modal => severity == Severity::Error && begins && !told_by_text,
+            _ => false,
         });
         let stands = cx.origin().letters.contains(letter);
         let was_given = is_cycle(code.effect())
@@ -117,7 +135,7 @@ impl CycleWordMissing {
                     entry.title, entry.source
                 ))
                 .help(format!("give `{letter}` in the block that begins the cycle"))
-                .at_most(limit(confidence)),
+                .at_most(severity.min(limit(confidence))),
         );
     }
 }
@@ -137,7 +155,7 @@ mod tests {
             "G20 G90 T1 M6\nG0 G54 X0. Y0. S900 M3\nG43 H1 Z1.\nG2 X1. R0.5 F9.\nG81 Z-0.5 F5.\nX3.\nG80\nM30\n",
             &expect![[r#"
                 5 | G81 Z-0.5 F5.
-                  | ^^^ warning[cycle-word-missing] canned cycle without `R` (`G81`)
+                  | ^^^ info[cycle-word-missing] canned cycle without `R` (`G81`)
             "#]],
         );
     }

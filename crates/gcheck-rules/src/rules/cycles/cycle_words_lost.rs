@@ -137,7 +137,7 @@ mod tests {
                 6 | G83 Z-20. R2.
                   | ^^^ warning[cycle-words-lost] canned cycle without `Q`, which ended with an earlier one
                 9 | G82 X5.
-                  | ^^^ warning[cycle-words-lost] canned cycle without `R`, which ended with an earlier one
+                  | ^^^ warning[cycle-words-lost] canned cycle without `Z`, which ended with an earlier one
             "#]],
         );
     }

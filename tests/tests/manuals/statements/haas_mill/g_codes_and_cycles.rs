@@ -395,7 +395,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     conforms: cut!("G81 Z-.5 R.1 F5.\n"),
                 },
                 Rule {
-                    finding: "warning[cycle-word-missing]",
+                    finding: "info[cycle-word-missing]",
                     violates: cut!("G81 Z-.5 F5.\n"),
                     conforms: cut!("G81 Z-.5 R.1 F5.\n"),
                 },
