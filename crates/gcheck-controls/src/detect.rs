@@ -17,6 +17,8 @@ pub struct Evidence {
     pub codes: Vec<String>,
     /// Forms of syntax the program uses, by the names that [`crate::Hint::form`] lists.
     pub forms: Vec<String>,
+    /// How the name of its file ends, without the dot, in lower case; `None` where it has no name.
+    pub extension: Option<String>,
     /// It is of a dialect that no control here reads.
     pub unsupported: Option<&'static UnsupportedDialect>,
 }
@@ -26,7 +28,7 @@ pub struct Evidence {
 pub struct Guess {
     /// The control's name.
     pub control: String,
-    /// The piece of the program that counted most, as written: a comment's text, a code or a form.
+    /// The piece of the program that counted most, as written: a comment's text, a code, a form, or the end of its name.
     pub because: String,
 }
 
@@ -60,7 +62,10 @@ fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
             }
             (None, Some(code), _) => evidence.codes.iter().find(|c| *c == code).cloned(),
             (None, None, Some(form)) => evidence.forms.iter().find(|f| *f == form).cloned(),
-            (None, None, None) => None,
+            (None, None, None) => {
+                let same = hint.extension.is_some() && hint.extension == evidence.extension;
+                hint.extension.as_ref().filter(|_| same).map(|extension| format!(".{extension}"))
+            }
         };
         if let Some(found) = found {
             points += hint.weight;
@@ -73,12 +78,15 @@ fn score(control: &str, hints: &[Hint], evidence: &Evidence) -> Option<Score> {
     Some(Score { guess: Guess { control: control.to_owned(), because: best.1? }, points, against })
 }
 
-/// The control that the evidence speaks for, or `None` when it speaks for none or for two alike.
+/// Fewer points than these are too little to name a control: comments after `;` or words in lower case alone.
+const ENOUGH_POINTS: i32 = 3;
+
+/// The control that the evidence speaks for, or `None` when it says too little, or the same of two.
 pub fn guess(evidence: &Evidence) -> Option<Guess> {
     let scores = scores(evidence);
     match scores.as_slice() {
         [first, second, ..] if first.points == second.points => None,
-        [first, ..] if first.points > 0 => Some(first.guess.clone()),
+        [first, ..] if first.points >= ENOUGH_POINTS => Some(first.guess.clone()),
         _ => None,
     }
 }

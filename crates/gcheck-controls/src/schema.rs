@@ -384,6 +384,9 @@ pub struct Hint {
     /// `turning-system-b` and `turning-system-c` (turning words and `G95`, without codes that only system A of lathes has).
     #[serde(default)]
     pub form: Option<String>,
+    /// How the name of the file ends, without the dot, in lower case: `ngc`.
+    #[serde(default)]
+    pub extension: Option<String>,
     /// Points for this control.
     pub weight: i32,
 }

@@ -38,6 +38,7 @@ pub fn collect_evidence(text: &str) -> Evidence {
         comments: scan.comments,
         codes: scan.codes.iter().map(ToString::to_string).collect(),
         forms: scan.forms.iter().map(|form| (*form).to_owned()).collect(),
+        extension: None,
         unsupported: gcheck_controls::unsupported_dialect(text),
     }
 }

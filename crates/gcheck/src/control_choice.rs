@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use gcheck_controls::{Evidence, Guess};
 use gcheck_lint::Selection;
 use gcheck_report::{ControlChoice, ControlSource};
 use gcheck_syntax::SourceText;
@@ -32,10 +33,16 @@ pub(crate) fn choose(
         let because = file.map(paths::shown_from_here);
         return Ok(choice(name, ControlSource::Configuration, because));
     }
-    if let Some(guess) = gcheck_controls::guess(&gcheck_program::collect_evidence(source.text())) {
+    if let Some(guess) = detected(path, source.text()) {
         return Ok(choice(&guess.control, ControlSource::Detected, Some(guess.because)));
     }
     Ok(choice(gcheck_controls::fallback(), ControlSource::Default, None))
+}
+
+/// The control that a program and the end of its name speak for.
+pub(crate) fn detected(path: &Path, text: &str) -> Option<Guess> {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    gcheck_controls::guess(&Evidence { extension, ..gcheck_program::collect_evidence(text) })
 }
 
 /// Of a program whose control nobody chose, and whose dialect no control here reads, only the rule that says so is run.

@@ -43,7 +43,7 @@ fn detected() -> Result<BTreeMap<String, usize>, Problem> {
     let step = found.files.len().div_ceil(LOOKED_AT).max(1);
     for path in found.files.iter().step_by(step) {
         let Ok(source) = reading::file(path) else { continue };
-        if let Some(guess) = gcheck_controls::guess(&gcheck_program::collect_evidence(source.text())) {
+        if let Some(guess) = control_choice::detected(path, source.text()) {
             *counts.entry(guess.control).or_default() += 1;
         }
     }

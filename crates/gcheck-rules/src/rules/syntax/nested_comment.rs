@@ -54,7 +54,7 @@ fn finding(cx: &BlockCx<'_>, error: &SyntaxError) -> Finding {
     .label("comments do not nest")
     .help("write the inner parentheses as `[ ]`, or remove them")
     .fix(brackets(comment, range.start, tail.is_empty()))
-    .at_most(if refused || code { Severity::Error } else { Severity::Warning });
+    .at_most(if refused || code { Severity::Error } else { Severity::Info });
     let finding = if refused {
         finding.note("the control refuses a block with `(` inside a comment")
     } else {
