@@ -572,6 +572,9 @@ pub struct WordEntry {
     /// The values that it may have, where the control takes single ones: `[0, 1, 2, 10, 11, 20]`.
     #[serde(default)]
     pub values: Vec<f64>,
+    /// For integers: the control refuses a number that is not whole, instead of rounding it.
+    #[serde(default)]
+    pub whole: bool,
     /// What holds of it beside other words of the block, by their values.
     #[serde(default)]
     pub beside: Vec<Beside>,
@@ -781,6 +784,9 @@ pub struct LetterEntry {
     /// Largest value.
     #[serde(default)]
     pub max: Option<f64>,
+    /// For integers: the control refuses a number that is not whole, instead of rounding it.
+    #[serde(default)]
+    pub whole: bool,
     /// May be more than once in a block (`G`, `M`, arguments).
     #[serde(default)]
     pub repeatable: bool,

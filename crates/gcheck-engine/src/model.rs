@@ -105,7 +105,7 @@ impl Role {
             | E::CycleBoreDwellManual
             | E::CycleBoreDwell
             | E::CycleFineBore
-            | E::CycleAlongTool
+            | E::CycleAlongTool(_)
             | E::CycleCancel => Self::Cycle,
             E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
             E::Absolute | E::Incremental => Self::Distance,
@@ -201,7 +201,7 @@ pub struct Model<'c> {
     /// The code that ends canned cycles.
     pub(crate) cycle_cancel: CodeIx,
     /// Canned cycles and motion are one modal group, so that a cycle replaces the motion mode.
-    pub(crate) cycles_are_motion: bool,
+    pub cycles_are_motion: bool,
 }
 
 impl<'c> Model<'c> {

@@ -3,6 +3,7 @@
 //! Knows: the order inside a block, statements, and which effect handler a code calls. Must not know: which domain it runs in,
 //! how paths are explored.
 
+mod along_tool;
 mod arc;
 pub(crate) mod bar;
 pub(crate) mod compensation;

@@ -319,8 +319,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let target = state.from_machine(&machine, self.model);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
-        // Axes that the block does not name stay where they are, known or not.
+        // Axes that the block does not name stay where they are, known or not; after compensation they go to their place.
         let mut to = *state.actual();
+        if !state.compensation.left.is_no() && self.refuses_incomplete() {
+            self.leave_compensation(false, state)?;
+            to = self.axes_of(state.position(), state);
+        }
         for axis in Axis::ALL {
             let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
             if named.contains(axis.letter()) || rotated {

@@ -6,14 +6,14 @@ use gcheck_controls::{DwellWord, Effect, Letter};
 use gcheck_geometry::Seconds;
 
 use super::{Count, Executor, Step};
-use crate::event::{Event, FeedMode, Spindle};
+use crate::event::{Coolant, Event, FeedMode, Spindle};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Position;
 use crate::state::{Loaded, State, ToolData};
-use crate::value::Domain;
+use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -105,6 +105,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M19`.
     pub(super) fn orient(&mut self, state: &mut State<D>) -> Step {
         let to_p = self.model.semantics().orients_to_p;
+        if self.refuses_incomplete() && !self.words.has(Letter::of('R')) {
+            // Without an angle the interpreter does nothing (observed).
+            return Ok(());
+        }
         let angle = self.words.number(Letter::of('R'));
         let angle = angle.or_else(|| if to_p { self.raw('P', state) } else { None }).unwrap_or(0.0);
         let way = match self.count(Letter::of('P'))? {
@@ -209,12 +213,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.change_stops_spindle {
             self.spindle(Spindle::Stopped, state)?;
         }
+        let mist = state.coolant.mist;
+        if rules.change_stops_coolant {
+            self.all_coolant_off(state);
+        }
         #[expect(
             clippy::cast_sign_loss,
             reason = "a tool number is a count: negative ones were refused at `T`"
         )]
         let number = D::known(state.selected()).map(|t| t.max(0.0) as u32);
         self.put_tool(number, state);
+        if rules.change_stops_coolant && mist != Truth::False {
+            self.coolant(Coolant::Mist, true, state);
+            state.coolant.mist = mist;
+        }
         if rules.change_cancels_length {
             self.cancel_length(state);
         }
@@ -292,6 +304,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let index = self.index(Letter::of(if analog { 'E' } else { 'P' }))?;
         let what = match self.count(Letter::of('L'))? {
             Some(Count::Known(what @ 0..=4)) => what as u8,
+            // The interpreter passes over a way to wait that it does not have (observed).
+            Some(Count::Known(_)) if self.refuses_incomplete() => return Ok(()),
             Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('L'))),
             _ => 0,
         };

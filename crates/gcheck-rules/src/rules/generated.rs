@@ -79,6 +79,8 @@ pub(crate) mod five_axis {
     pub(crate) mod cutter_vector_not_unit;
     pub(crate) mod cutter_vector_without_axis;
     pub(crate) mod cutter_vector_without_size;
+    pub(crate) mod dynamic_offset_approach_in_one_block;
+    pub(crate) mod dynamic_offset_without_position;
     pub(crate) mod five_axis_axis_left_out;
     pub(crate) mod five_axis_feed_per_minute;
     pub(crate) mod five_axis_length_in_incremental;
@@ -87,7 +89,11 @@ pub(crate) mod five_axis {
     pub(crate) mod five_axis_zero_not_upright;
     pub(crate) mod maybe_five_axis_length_in_incremental;
     pub(crate) mod maybe_refused_in_five_axis_mode;
+    pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
+    pub(crate) mod rotary_motion_under_dynamic_offset;
+    pub(crate) mod tilt_modes_conflict;
+    pub(crate) mod tool_direction_unknown;
 }
 
 pub(crate) mod flow {
@@ -166,6 +172,7 @@ pub(crate) mod modal {
     pub(crate) mod code_must_stand_alone;
     pub(crate) mod codes_conflict;
     pub(crate) mod distance_mode_not_stated;
+    pub(crate) mod feed_before_units;
     pub(crate) mod incremental_into_subprogram;
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
@@ -447,6 +454,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::cutter_vector_not_unit::RULE,
     &five_axis::cutter_vector_without_axis::RULE,
     &five_axis::cutter_vector_without_size::RULE,
+    &five_axis::dynamic_offset_approach_in_one_block::RULE,
+    &five_axis::dynamic_offset_without_position::RULE,
     &five_axis::five_axis_axis_left_out::RULE,
     &five_axis::five_axis_feed_per_minute::RULE,
     &five_axis::five_axis_length_in_incremental::RULE,
@@ -455,7 +464,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::five_axis_zero_not_upright::RULE,
     &five_axis::maybe_five_axis_length_in_incremental::RULE,
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
+    &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
+    &five_axis::rotary_motion_under_dynamic_offset::RULE,
+    &five_axis::tilt_modes_conflict::RULE,
+    &five_axis::tool_direction_unknown::RULE,
     &flow::alarm_reached::RULE,
     &flow::analysis_incomplete::RULE,
     &flow::calls_nested_too_deep::RULE,
@@ -519,6 +532,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
     &modal::distance_mode_not_stated::RULE,
+    &modal::feed_before_units::RULE,
     &modal::incremental_into_subprogram::RULE,
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,

@@ -91,8 +91,12 @@ impl CycleWordMissing {
                     missing.letter == letter && cx.model.effect(missing.code) == code.effect()
                 });
         // A letter of an arc or a call elsewhere in the text does not belong to the cycle.
+        let is_depth = cx.control().letter(letter).is_some_and(|entry| entry.axis);
         let needed = word.is_some_and(|word| {
-            word.need == Need::Conditional || word.need == Need::Modal && begins && !told_by_text
+            // The plane decides which axis has the depth.
+            word.need == Need::Conditional
+                || word.need == Need::Modal && begins && !told_by_text
+                || word.need == Need::Optional && is_depth
         });
         let stands = cx.origin().letters.contains(letter);
         let was_given = is_cycle(code.effect())

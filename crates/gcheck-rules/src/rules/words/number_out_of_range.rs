@@ -59,7 +59,7 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
             report.add(finding(cx, word, &facts, high));
         } else if is_count(facts.kind) && value.fract() != 0.0 {
             if !told && cx.words_are_plain() && has_meaning(cx, word, &facts) {
-                report.add(fraction(cx, word, &facts));
+                report.add(fraction(cx, word, &facts, value));
             }
         } else if !facts.values.is_empty() && !is_among(value, &facts) && !is_sign && cx.words_are_plain() {
             report.add(unlisted(cx, word, &facts));
@@ -77,7 +77,10 @@ fn is_count(kind: WordKind) -> bool {
     matches!(kind, WordKind::Integer | WordKind::Program | WordKind::Label)
 }
 
-fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+/// Decimals that controls leave away where a number counts.
+const NEARLY_WHOLE: f64 = 1e-4;
+
+fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) -> Finding {
     let text = cx.text(word);
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
     let finding = Finding::new(&META, cx.range(word), format!("value is not a whole number{of}: `{text}`"))
@@ -86,7 +89,12 @@ fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .help("correct the value")
         .at_most(limit(facts.confidence));
     // A control may round a count; the number of a program it cannot.
-    if facts.kind == WordKind::Program { finding } else { finding.at_most(Severity::Warning) }
+    let is_refused = facts.whole && (value - value.round()).abs() > NEARLY_WHOLE;
+    if facts.kind == WordKind::Program || is_refused {
+        finding
+    } else {
+        finding.at_most(Severity::Warning)
+    }
 }
 
 fn unlisted(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
@@ -154,7 +162,7 @@ mod tests {
             "G43 H7.5\nG43 H7.0\nG10 L2 P#1 X1.\n",
             &expect![[r#"
                 1 | G43 H7.5
-                  |     ^^^^ warning[number-out-of-range] value is not a whole number for `G43`: `H7.5`
+                  |     ^^^^ error[number-out-of-range] value is not a whole number for `G43`: `H7.5`
             "#]],
         );
         check_rule(

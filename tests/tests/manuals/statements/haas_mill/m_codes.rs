@@ -87,10 +87,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Legal { program: first_tool!("M0\nS1000 M3\nM8\nG1 Z-1. F10.\n") },
             ],
         ),
-        gap(
+        held(
             "p. 348",
             "M00 stops the spindle and the coolant.",
-            "a cut after M00 without a new M03 or M04: `spindle-stopped-while-cutting` (warning); the run shows the spindle stop and the coolant off",
+            "rule `spindle-stopped-while-cutting`",
             &[
                 Rule {
                     finding: "warning[spindle-stopped-while-cutting]",
@@ -110,10 +110,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effect `optional-stop`",
             &[Legal { program: first_tool!("M1\nS1000 M3\nM8\nG1 Z-1. F10.\n") }],
         ),
-        gap(
+        held(
             "p. 348",
             "So with M01 in that case.",
-            "a cut after M01 without a new M03: `maybe` with the condition that optional stop is on: warning",
+            "rule `maybe-spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[maybe-spindle-stopped-while-cutting]",
                 violates: first_tool!("M1\nG1 Z-1. F10.\n"),
@@ -160,10 +160,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 348",
             "A spindle that no code starts does not turn.",
-            "a cut in a program that never starts the spindle (no M03, M04, no cycle that starts it): warning; silent so far",
+            "rule `spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: mill(
@@ -216,20 +216,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: first_tool!("T2 M6\nG43 H2 Z.1\nS500 M3\nG1 Z-1. F10.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 349",
             "M06 stops the coolant, through the spindle too.",
-            "the run shows the coolant off at M06, and a tool that cuts without a new M08 is dry (`tool-cuts-dry`)",
+            "`change-stops-coolant`",
             &[Makes {
                 program: first_tool!("T2 M6\nG43 H2 Z.1\nS500 M3\nG1 Z-1. F10.\n"),
                 block: "T2 M6",
                 events: &["spindle stop", "coolant flood-off", "tool 2"],
             }],
         ),
-        gap(
+        held(
             "p. 349",
             "Shower coolant (M07) starts again after a tool change.",
-            "with M07 on, M06 switches it off and on again",
+            "`change-stops-coolant`",
             &[Makes {
                 program: first_tool!("M7\nT2 M6\nG43 H2 Z.1\n"),
                 block: "T2 M6",
@@ -349,12 +349,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 350",
             "M19 leaves the spindle standing.",
-            "a cut after M19 without a new M03 or M04: warning, as after M05; silent so far",
+            "rule `spindle-stopped-while-cutting`: an info, as a tool that is held may broach",
             &[Rule {
-                finding: "warning[spindle-stopped-while-cutting]",
+                finding: "info[spindle-stopped-while-cutting]",
                 violates: cut!("M19\nG1 X1. F10.\n"),
                 conforms: cut!("M19\nM3\nG1 X1. F10.\n"),
             }],
@@ -399,10 +399,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 352",
             "M30 turns off coolant through the spindle as well.",
-            "the run shows it at M30",
+            "codes that the end brings back",
             &[Makes {
                 program: short!("M88\nS100 M3\nM30\n"),
                 block: "M30",
@@ -519,10 +519,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Makes { program: cut!("M88\nM3\nM89\n"), block: "M89", events: &["coolant through-off"] },
             ],
         ),
-        gap(
+        held(
             "p. 356",
             "M89 stops the spindle and does not start it again.",
-            "a cut after M89 without a new M03: `spindle-stopped-while-cutting` (warning); silent so far",
+            "`through-off-stops-spindle`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: cut!("M88\nS1000 M3\nG1 X1. F10.\nM89\nX2.\n"),

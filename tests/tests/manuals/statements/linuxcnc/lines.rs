@@ -103,11 +103,11 @@ const STATEMENTS: &[Statement] = &[
         "`run` and `check` refuse it (error: sign not accepted)",
         &[refused("error[sign-not-accepted]", "N+5 G0 X1\nM2\n", "N5 G0 X1\nM2\n")],
     ),
-    gap(
+    held(
         "#cha:overview-of-g-code-programming",
         "A block number after other words is refused",
-        "`check` reports it (error), as `run` refuses it",
-        &[refused("error[number-not-first]", "G0 N10 X1\nM2\n", "N10 G0 X1\nM2\n")],
+        "rule `block-number-not-first`",
+        &[refused("error[block-number-not-first]", "G0 N10 X1\nM2\n", "N10 G0 X1\nM2\n")],
     ),
     gap(
         "#cha:overview-of-g-code-programming",

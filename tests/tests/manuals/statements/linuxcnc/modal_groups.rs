@@ -173,23 +173,23 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90\nG0 X1 Y0\nG91 G0 @1^45\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:polar-coordinates",
         "@ alone at the origin is refused (interpreter 2.9)",
-        "`check` reports it where the position is known (error), as `run` refuses it",
+        "rule `needed-word-missing`",
         &[refused(
-            "error[polar-without-angle]",
+            "error[needed-word-missing]",
             "G17 G21 G90\nG0 X0 Y0\nG0 @1\nM2\n",
             "G17 G21 G90\nG0 X1 Y0\nG0 @2\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:polar-coordinates",
         "Polar words and X or Y in one block are refused",
-        "`check` reports them (error), as `run` refuses them",
+        "rule `polar-word-refused`",
         &[
-            refused("error[words-exclude-each-other]", "G0 @1^5 X1\nM2\n", "G0 @1^5 Z1\nM2\n"),
-            refused("error[words-exclude-each-other]", "G0 @1^5 Y1\nM2\n", "G0 @1^5 Z1\nM2\n"),
+            refused("error[polar-word-refused]", "G0 @1^5 X1\nM2\n", "G0 @1^5 Z1\nM2\n"),
+            refused("error[polar-word-refused]", "G0 @1^5 Y1\nM2\n", "G0 @1^5 Z1\nM2\n"),
         ],
     ),
     gap(

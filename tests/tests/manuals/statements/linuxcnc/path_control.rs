@@ -111,11 +111,11 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g61",
         "G61 reads no P (interpreter 2.9)",
-        "`check` reports a P that no code of the block reads (error), as `run` refuses it",
-        &[refused("error[word-not-read]", "G61 P0.1\nM2\n", "G61\nM2\n")],
+        "rule `word-passed-over`",
+        &[refused("error[word-passed-over]", "G61 P0.1\nM2\n", "G61\nM2\n")],
     ),
     held(
         "#gcode:g64",

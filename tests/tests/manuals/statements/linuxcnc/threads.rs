@@ -112,10 +112,10 @@ const STATEMENTS: &[Statement] = &[
             "S100 M3\nF10\nG33 Z-2 K1\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "G33 while the spindle does not turn is refused",
-        "`check` reports it as an error where the spindle's state is known from the program (`M5`, or never started after `M2`'s state), and keeps the warning elsewhere",
+        "rule `spindle-stopped-while-cutting`",
         &[refused(
             "error[spindle-stopped-while-cutting]",
             "S100 M3\nM5\nG33 Z-2 K0.125\nM2\n",
@@ -204,10 +204,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33.1",
         "G33.1 while the spindle does not turn is refused",
-        "an error in `check` where the program itself stopped the spindle",
+        "rule `spindle-stopped-while-cutting`",
         &[refused(
             "error[spindle-stopped-while-cutting]",
             "S100 M3\nM5\nG33.1 Z-2 K0.125\nM2\n",
@@ -429,12 +429,12 @@ const STATEMENTS: &[Statement] = &[
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g76",
         "H must be whole (interpreter 2.9)",
-        "`check` reports an H or L that is not whole (error), as `run` refuses it",
+        "`whole` of `H` and `L`",
         &[refused(
-            "error[decimal-point-on-integer]",
+            "error[number-out-of-range]",
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 H1.5\nM2\n",
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 H1\nM2\n",
         )],
