@@ -308,6 +308,8 @@ pub enum Effect {
     LiveToolOff,
     ToolChange,
     SetToolNumber,
+    /// The changer turns to `T`, and no tool is changed (`M39`).
+    TurnCarousel,
     MistOn,
     FloodOn,
     ThroughCoolantOn,
@@ -324,6 +326,8 @@ pub enum Effect {
     OutputOn,
     OutputOff,
     WaitForInput,
+    /// The operator's answer comes into variable `P` (`M109`).
+    AskOperator,
     AnalogOutputWithMove,
     AnalogOutput,
     ChuckClamp,
@@ -384,6 +388,21 @@ pub struct Semantics {
     pub helix: HelixRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
+    /// Outputs that variables show: variable number of output 0.
+    #[serde(default)]
+    pub output_variables: Option<u32>,
+    /// Settings that variables show: variable number of setting 0.
+    #[serde(default)]
+    pub setting_variables: Option<u32>,
+    /// Variables that are one with another, so many numbers higher: first and last number, and the distance.
+    #[serde(default)]
+    pub twin_variables: Option<[u32; 3]>,
+    /// The setting by which coolant codes are refused (`off`) or passed over (`ignore`).
+    #[serde(default)]
+    pub coolant_setting: Option<String>,
+    /// The setting under which increments (`G91`) hold for their own block only.
+    #[serde(default)]
+    pub increments_of_block_setting: Option<String>,
     /// Where a setting may demand that `H` is the number of the tool in the spindle.
     #[serde(default)]
     pub length_agreement: Option<LengthAgreement>,
@@ -756,6 +775,8 @@ pub enum MessageComment {
     Text,
     /// Its text with the values of its parameters, six decimals each.
     Values,
+    /// Its text, and the program stops for good before the rest of the block.
+    Abort,
 }
 
 /// How a dwell word counts.

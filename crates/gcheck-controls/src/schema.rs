@@ -469,6 +469,9 @@ pub struct CodeEntry {
     /// Words the code reads.
     #[serde(default)]
     pub words: Vec<WordEntry>,
+    /// The control accepts the code, and no page says what it does.
+    #[serde(default)]
+    pub undefined: bool,
     /// True when the code may be followed by words not listed (macro calls, aliases, printing).
     #[serde(default)]
     pub any_words: bool,
@@ -572,6 +575,9 @@ pub struct WordEntry {
     /// The values that it may have, where the control takes single ones: `[0, 1, 2, 10, 11, 20]`.
     #[serde(default)]
     pub values: Vec<f64>,
+    /// Numbers between the bounds that name nothing: first and last of each row.
+    #[serde(default)]
+    pub gaps: Vec<[f64; 2]>,
     /// For integers: the control refuses a number that is not whole, instead of rounding it.
     #[serde(default)]
     pub whole: bool,
@@ -784,6 +790,9 @@ pub struct LetterEntry {
     /// Largest value.
     #[serde(default)]
     pub max: Option<f64>,
+    /// Numbers between the bounds that name nothing: first and last of each row.
+    #[serde(default)]
+    pub gaps: Vec<[f64; 2]>,
     /// For integers: the control refuses a number that is not whole, instead of rounding it.
     #[serde(default)]
     pub whole: bool,

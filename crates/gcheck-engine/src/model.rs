@@ -382,6 +382,11 @@ impl<'c> Model<'c> {
         found.map_or(CodeIx::NONE, |code| self.control.code_ix(code.number()))
     }
 
+    /// The setting that decides how numbers of an address without decimal point count, where it is one of its own.
+    pub(crate) fn scale_setting(&self, letter: Letter) -> Option<&'c str> {
+        self.control.letter(letter)?.scale_setting.as_deref()
+    }
+
     /// What a number without a decimal point on this address counts, if scaling applies to it.
     pub(crate) fn scaled(&self, letter: Letter) -> Option<WordKind> {
         self.scaled.get(letter.index()).copied().flatten()

@@ -342,6 +342,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
+            E::AskOperator => self.ask_operator(state)?,
             E::ChuckClamp => self.chuck(true, state),
             E::ChuckUnclamp => self.chuck(false, state),
             // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
@@ -438,6 +439,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
+        let setting = self.model.semantics().coolant_setting.as_deref();
+        if setting.and_then(|number| self.machine.settings.get(number)).is_some_and(|value| value == "ignore") {
+            return;
+        }
         let truth = if on { Truth::True } else { Truth::False };
         match kind {
             Coolant::Mist => state.coolant.mist = truth,

@@ -100,7 +100,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    fn has_code(&self, effect: Effect) -> bool {
+    pub(super) fn has_code(&self, effect: Effect) -> bool {
         self.words.codes().iter().any(|code| self.model.effect(*code) == effect)
     }
 

@@ -283,6 +283,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let index = self.index(Letter::of('P'))?;
         let on = matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
         let with_move = matches!(effect, Effect::OutputOnWithMove | Effect::OutputOffWithMove);
+        if let Some(first) = self.model.semantics().output_variables {
+            state.variables.set(first.saturating_add(index), D::number(f64::from(u8::from(on))));
+        }
         self.emit(state, Event::Output { index, value: f64::from(u8::from(on)), analog: false, with_move });
         Ok(())
     }
@@ -317,6 +320,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('Q')));
         }
         self.emit(state, Event::WaitInput { index, analog, what, timeout: Seconds(timeout) });
+        Ok(())
+    }
+
+    /// `M109`: what the operator answers is not known.
+    pub(super) fn ask_operator(&mut self, state: &mut State<D>) -> Step {
+        let number = match self.count(Letter::of('P'))? {
+            Some(Count::Known(number)) => number,
+            Some(Count::Unknown) => {
+                state.variables.forget();
+                return Ok(());
+            }
+            None => return Ok(()),
+        };
+        state.variables.set(number, D::unknown());
+        if let Some([first, last, by]) = self.model.semantics().twin_variables {
+            let twin = if (first..=last).contains(&number) { number + by } else { number.saturating_sub(by) };
+            if (first..=last).contains(&number) || (first..=last).contains(&twin) {
+                state.variables.set(twin, D::unknown());
+            }
+        }
         Ok(())
     }
 

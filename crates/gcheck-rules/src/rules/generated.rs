@@ -65,6 +65,7 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_outline_unfit;
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
+    pub(crate) mod tap_moves_sideways;
     pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
     pub(crate) mod thread_numbers_contradict;
@@ -113,6 +114,7 @@ pub(crate) mod flow {
 
 pub(crate) mod machine {
     pub(crate) mod axis_not_on_machine;
+    pub(crate) mod coolant_locked;
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
     pub(crate) mod data_starved;
@@ -273,6 +275,7 @@ pub(crate) mod program {
 pub(crate) mod spindle {
     pub(crate) mod maybe_spindle_stopped_while_cutting;
     pub(crate) mod speed_missing;
+    pub(crate) mod spindle_left_on;
     pub(crate) mod spindle_stopped_while_cutting;
     pub(crate) mod surface_speed_without_limit;
     pub(crate) mod tap_in_wrong_direction;
@@ -374,6 +377,7 @@ pub(crate) mod words {
     pub(crate) mod sign_not_accepted;
     pub(crate) mod too_many_digits;
     pub(crate) mod undeclared_m_code;
+    pub(crate) mod undefined_code;
     pub(crate) mod unknown_address;
     pub(crate) mod unknown_code;
     pub(crate) mod word_choice_missing;
@@ -443,6 +447,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::pocket_outline_unfit::RULE,
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
+    &cycles::tap_moves_sideways::RULE,
     &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
@@ -482,6 +487,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::axis_not_on_machine::RULE,
+    &machine::coolant_locked::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
     &machine::data_starved::RULE,
@@ -618,6 +624,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::wrong_control_suspicion::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::speed_missing::RULE,
+    &spindle::spindle_left_on::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
     &spindle::tap_in_wrong_direction::RULE,
@@ -704,6 +711,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::sign_not_accepted::RULE,
     &words::too_many_digits::RULE,
     &words::undeclared_m_code::RULE,
+    &words::undefined_code::RULE,
     &words::unknown_address::RULE,
     &words::unknown_code::RULE,
     &words::word_choice_missing::RULE,

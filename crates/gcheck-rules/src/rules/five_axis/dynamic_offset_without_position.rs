@@ -1,10 +1,9 @@
 //! A cut under the dynamic work offset before X, Y and Z were given in it.
 
 use gcheck_controls::{Effect, LetterSet};
-use gcheck_engine::{At, Event, Fact, Role};
+use gcheck_engine::{At, Event, Fact, Role, TravelKind};
 
 use crate::declare::declare_rule;
-use crate::facts::cutting::is_cut;
 use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
 use crate::{Remembers, remembers};
 
@@ -50,6 +49,8 @@ struct DynamicOffsetWithoutPosition {
     on: Option<At>,
     /// Axes that were given since.
     given: Given,
+    /// It went somewhere at feed.
+    has_fed: bool,
     /// It cut already, or was reported.
     is_done: bool,
 }
@@ -75,18 +76,24 @@ impl PathRule for DynamicOffsetWithoutPosition {
             return;
         }
         if self.on != set_by {
-            *self = Self { on: set_by, given: [false; 3], is_done: false };
+            *self = Self { on: set_by, ..Self::default() };
         }
         let in_machine = cx.has_effect(|effect| effect == Effect::MachineCoordinates);
         if self.is_done || in_machine {
             return;
         }
-        if is_cut(cx, event) {
-            self.is_done = true;
-            self.tell(cx, report);
-        }
         for (given, letter) in self.given.iter_mut().zip(["X", "Y", "Z"]) {
             *given |= cx.origin().letters.intersects(LetterSet::of(letter));
+        }
+        let is_feed = match event {
+            Event::Travel(travel) => travel.kind == TravelKind::Feed,
+            _ => true,
+        };
+        // The way to the first place, and down there, may be at feed as well.
+        let [_, _, has_depth] = self.given;
+        if is_feed && (has_depth || std::mem::replace(&mut self.has_fed, true)) {
+            self.is_done = true;
+            self.tell(cx, report);
         }
     }
 }
@@ -124,7 +131,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G90 G54 G0 X0. Y0. B90. C0. S900 M3\nG43 H1 Z5.\nG254\nX1.\nZ2.\nG1 Z0. F20.\nX2.\nG255\nG254\nX1. Y1.\nZ2.\nG1 Z0.\nG255\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | G1 Z0. F20.
+                  | ^^^^^^^^^^^ warning[dynamic-offset-without-position] cut under the dynamic work offset without `Y` (`G254`)
+            "#]],
         );
     }
 }

@@ -112,7 +112,12 @@ mod tests {
             "haas-mill",
             "G90 G54 G0 X0. Y0. B90. C0.\nG43 H1 Z5.\nG254\nX1. Y0.\nZ2.\nG1 Z0. B85. F20.\nZ1. B80.\nG255\nG254\nX1. Y0.\nZ2.\n\
              G0 C5.\nG255\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                6 | G1 Z0. B85. F20.
+                  |        ^^^^ warning[rotary-motion-under-dynamic-offset] `B` turns while the dynamic work offset is on (`G254`)
+                12 | G0 C5.
+                   |    ^^^ warning[rotary-motion-under-dynamic-offset] `C` turns while the dynamic work offset is on (`G254`)
+            "#]],
         );
     }
 

@@ -146,9 +146,9 @@ mod tests {
             "#5602=1\n#0=2\n",
             &expect![[r#"
                 1 | #5602=1
-                  | ^^^^^ warning[variable-unlisted] variable `#5602` does not exist on this control
+                  | ^^^^^ error[variable-unlisted] variable `#5602` does not exist on this control
                 2 | #0=2
-                  | ^^ warning[variable-unlisted] variable `#0` does not exist on this control
+                  | ^^ error[variable-unlisted] variable `#0` does not exist on this control
             "#]],
         );
         check_rule(&RULE, "fanuc-mill", "#98000=1\n", &expect![[""]]);

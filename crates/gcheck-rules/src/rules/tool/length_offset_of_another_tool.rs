@@ -6,7 +6,7 @@ use gcheck_engine::{Abstract, Domain, Event, Fact, Role};
 use crate::declare::declare_rule;
 use crate::facts::boundary::is_before;
 use crate::facts::offset_schemes::{Pairs, whole};
-use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Watch, limit};
+use crate::{FinishCx, PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -163,6 +163,7 @@ fn tell_disagreement(cx: &PathCx<'_>, report: &mut Report<'_>) {
     }
     let message = format!("tool {tool} takes length offset {offset} (`H{offset}`, `T{tool}`)");
     let range = cx.word_range(|word| word.letter.ascii() == b'H');
+    let most = if cx.environment.control_is_guessed { Severity::Warning } else { Severity::Error };
     report.add(
         cx.finding(&META, range, message)
             .alarm(Some(agreement.alarm.clone()))
@@ -173,7 +174,7 @@ fn tell_disagreement(cx: &PathCx<'_>, report: &mut Report<'_>) {
                 cx.model.semantics().source
             ))
             .help(format!("use `H{tool}`"))
-            .at_most(limit(cx.model.semantics().confidence)),
+            .at_most(most),
     );
 }
 

@@ -278,10 +278,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             }],
         ),
-        gap(
+        held(
             "p. 322 to 333",
             "A position in X, Y, Z, A and B is programmed before the cycle.",
-            "a cycle along the tool before a position of all five axes: its direction is unknown: warning",
+            "rule `tool-direction-unknown`",
             &[Rule {
                 finding: "warning[tool-direction-unknown]",
                 violates: mill(
@@ -397,18 +397,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 338",
             "G234 and G254 do not go together.",
-            "`forbids` of G234 and G254 is not judged: one while the other is on: error",
+            "rule `tilt-modes-conflict`",
             &[
                 Rule {
-                    finding: "error[codes-conflict]",
+                    finding: "error[tilt-modes-conflict]",
                     violates: tilted_table!("G254\nG234 H1 Z1.09\nG1 X-.5 F40.\nG49\nG255\n"),
                     conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\n"),
                 },
                 Rule {
-                    finding: "error[codes-conflict]",
+                    finding: "error[tilt-modes-conflict]",
                     violates: tilted_table!("G234 H1 Z1.09\nG254\nG1 X-.5 F40.\nG255\nG49\n"),
                     conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\n"),
                 },
@@ -430,20 +430,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MZ-1",
             }],
         ),
-        gap(
+        held(
             "p. 338",
             "A tool change ignores G234, so that it is ended before.",
-            "`tool-tilt-left-on` speaks at M06 (held); G28 and G29 with G234 on are not judged: info",
+            "rules `tool-tilt-left-on`, `reference-return-under-tilt`",
             &[Rule {
                 finding: "info[reference-return-under-tilt]",
                 violates: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG28 G91 Z0.\nG90 G49\n"),
                 conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\nG28 G91 Z0.\nG90\n"),
             }],
         ),
-        gap(
+        held(
             "p. 338",
             "G234 needs a work offset in effect.",
-            "G234 in a program that never chose one: warning as `work-offset-never-chosen`, by name",
+            "rule `work-offset-never-chosen`",
             &[Rule {
                 finding: "warning[work-offset-never-chosen]",
                 violates: mill(
@@ -475,40 +475,40 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 339",
             "After G254 X, Y and Z are programmed before a cut, even where the tool stands already.",
-            "a cut after G254 without a position of X, Y and Z: warning",
+            "rule `dynamic-offset-without-position`",
             &[Rule {
                 finding: "warning[dynamic-offset-without-position]",
                 violates: turned_table!("G254\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339",
             "X and Y stand in one block, Z in the next.",
-            "the three in one block after G254: info",
+            "rule `dynamic-offset-approach-in-one-block`",
             &[Rule {
                 finding: "info[dynamic-offset-approach-in-one-block]",
                 violates: turned_table!("G254\nX1. Y0. Z2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339, p. 342",
             "G255 comes before any rotary motion.",
-            "A, B or C turned while G254 is on: warning",
+            "rule `rotary-motion-under-dynamic-offset`",
             &[Rule {
                 finding: "warning[rotary-motion-under-dynamic-offset]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nB0. C0.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\nG53 Z0.\nB0. C0.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339, p. 342",
             "G254 is not for cutting with rotary axes.",
-            "a feed that turns a rotary axis under G254: warning",
+            "rule `rotary-motion-under-dynamic-offset`",
             &[Rule {
                 finding: "warning[rotary-motion-under-dynamic-offset]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. B85. F20.\nG0 Z2.\nG255\n"),
@@ -527,10 +527,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     .with(&["offsets.G54={X=0.0,Y=0.0,Z=0.0,B=0.0,C=0.0}"]),
             }],
         ),
-        gap(
+        held(
             "p. 342",
             "A work offset is in effect before G254.",
-            "G254 in a program that never chose one: warning",
+            "rule `work-offset-never-chosen`",
             &[Rule {
                 finding: "warning[work-offset-never-chosen]",
                 violates: mill(
@@ -539,10 +539,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 342",
             "G28 and G29 are not to be used while G254 is on.",
-            "info at G28 or G29 under G254",
+            "rule `reference-return-under-tilt`",
             &[Rule {
                 finding: "info[reference-return-under-tilt]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG28 G91 Z0.\nG90 G255\n"),

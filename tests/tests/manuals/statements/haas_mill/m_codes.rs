@@ -83,7 +83,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "M00 stops the program; it goes on with the next block.",
             "effect `stop`",
             &[
-                Makes { program: cut!("M0\nG1 X1. F10.\n"), block: "M0", events: &["stop program"] },
+                Makes { program: cut!("M0\nG1 X1. F10.\n"), block: "M0", events: &["spindle stop", "coolant flood-off", "stop program"] },
                 Legal { program: first_tool!("M0\nS1000 M3\nM8\nG1 Z-1. F10.\n") },
             ],
         ),
@@ -432,10 +432,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "no effect of `M39`",
             &[Makes { program: cut!("T3\nM39\n"), block: "M39", events: &[] }],
         ),
-        gap(
+        held(
             "p. 354",
             "The T of M39 is a pocket, not a tool that is called.",
-            "`tool-called-not-changed` (info) is untrue for T before or with M39",
+            "effect `turn-carousel`",
             &[Silent { rule: "tool-called-not-changed", program: cut!("M39 T3\n") }],
         ),
         held(
@@ -516,7 +516,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effects `through-coolant-on`, `through-coolant-off`",
             &[
                 Makes { program: cut!("M88\nM3\nM89\n"), block: "M88", events: &["coolant through-on"] },
-                Makes { program: cut!("M88\nM3\nM89\n"), block: "M89", events: &["coolant through-off"] },
+                Makes { program: cut!("M88\nM3\nM89\n"), block: "M89", events: &["spindle stop", "coolant through-off"] },
             ],
         ),
         held(
@@ -767,10 +767,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 361",
             "Numbers between the two ranges are no variables of M109.",
-            "P550 to P10499 are refused: error",
+            "`gaps` of `P`",
             &[
                 Rule {
                     finding: "error[number-out-of-range]",
@@ -784,10 +784,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 361",
             "The operator's answer comes into the variable while the program waits in a loop.",
-            "M109 makes its variable (500 and 10500 are one) unknown: a loop that waits for it is no `endless-loop`, and what follows is reached",
+            "effect `ask-operator`",
             &[
                 Silent {
                     rule: "endless-loop",

@@ -861,10 +861,10 @@ const STATEMENTS: &[Statement] = &[
             stops("G17 G21 G90\nF100\nG0 Z5\nG86 X1 Z-5 R1 P1\nG80\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#gcode:g87",
         "G87 and G88 are not implemented: they are accepted, and what they do is undefined",
-        "`check` warns of G87 and G88 on this control: their motion is undefined by the documentation",
+        "rule `undefined-code`",
         &[
             rule(
                 "warning[undefined-code]",

@@ -243,10 +243,10 @@ const STATEMENTS: &[Statement] = &[
         "comments",
         &[runs("(LOGOPEN,/dev/null)\n(LOG,#1)\n(LOGCLOSE)\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000"])],
     ),
-    gap(
+    held(
         "#cha:overview-of-g-code-programming",
         "(ABORT, …) shows a message and stops the program",
-        "`run` stops there with the text as an alarm of the program's own, `check` treats it as the end of that path (`alarm-reached` where every path comes to it)",
+        "`message-comments`, rule `alarm-reached`",
         &[
             stops("G0 X1\n(ABORT,stop)\nG0 X2\nM2\n"),
             rule(

@@ -290,10 +290,10 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90 G54\nT1 M6 G43\nS100 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F10\nX9\nG0 Z5 M5\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:order-of-execution",
         "F acts before the units of its block change: `G20 F10` after millimetres is 10 mm a minute",
-        "`check` warns of F in a block that changes the units: the feed is 25.4 times another than it seems",
+        "rule `feed-before-units`",
         &[
             rule(
                 "warning[feed-before-units]",
@@ -303,7 +303,7 @@ const STATEMENTS: &[Statement] = &[
             Proof::Says {
                 program: ngc("G17 G20 G90\nF10\nG1 X1\nG21 G1 X2 F100\nM2\n"),
                 finding: "warning[feed-before-units]",
-                words: "G20",
+                words: "G21",
             },
         ],
     ),

@@ -164,12 +164,12 @@ const STATEMENTS: &[Statement] = &[
             refused("error[number-out-of-range]", "M19 R5 Q0\nM2\n", "M19 R5 Q1\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#mcode:m19",
         "P must be whole (interpreter 2.9), and $ one of the machine's spindles",
-        "`check` reports P1.5 (error) and `$1` (warning), as `run` refuses them",
+        "rule `number-out-of-range`",
         &[
-            refused("error[decimal-point-on-integer]", "M19 R5 P1.5\nM2\n", "M19 R5 P1\nM2\n"),
+            refused("error[number-out-of-range]", "M19 R5 P1.5\nM2\n", "M19 R5 P1\nM2\n"),
             refused("warning[number-out-of-range]", "M19 R5 $1\nM2\n", "M19 R5 $0\nM2\n"),
         ],
     ),

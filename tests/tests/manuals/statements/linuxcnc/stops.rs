@@ -153,10 +153,10 @@ const STATEMENTS: &[Statement] = &[
             },
         ],
     ),
-    gap(
+    held(
         "#gcode:file-requirements",
         "An end by `%` leaves spindle, coolant and modes as they are",
-        "`check` warns that the spindle turns, or coolant runs, on when the program ends by `%` instead of M2",
+        "rule `spindle-left-on`",
         &[
             runs(
                 "%\nS100 M3\nM8\nG0 X1\n%\n",

@@ -45,10 +45,10 @@ const STATEMENTS: &[Statement] = &[
             &["START_SPEED_FEED_SYNC(0.125000, 0)", "STRAIGHT_FEED(1.0000, 0.0000, -2.0000"],
         )],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "A negative K: the interpreter (2.9) hands it on as it is",
-        "`run` prints the negative feed a turn as the interpreter does; `check` reports a lead of zero or less (warning): the thread has no pitch",
+        "effect of `G33`, range of `K`",
         &[
             runs("S100 M3\nG33 Z-2 K-0.125\nM2\n", &["START_SPEED_FEED_SYNC(-0.125000, 0)"]),
             rule(
@@ -73,10 +73,10 @@ const STATEMENTS: &[Statement] = &[
             stops("S100 M3\nG33 Z-2 K1 $1\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "A spindle that the machine does not have is refused (interpreter 2.9)",
-        "`check` reports a `$` beyond the spindles of setting `SPINDLES` (error when the setting is told, warning when it is the default), as `run` refuses it",
+        "rule `number-out-of-range`",
         &[refused(
             "warning[number-out-of-range]",
             "S100 M3\nG33 Z-2 K1 $1\nM2\n",
@@ -169,10 +169,10 @@ const STATEMENTS: &[Statement] = &[
             runs("S100 M3\nG33.1 Z-0.75 K1 I0.5\nM2\n", &["RIGID_TAP("]),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33.1",
         "With X or Y of another place the tap goes there while it turns: a slanted, synchronized move, which the manual warns of",
-        "`run` makes the move (it refuses it today: \"two codes of this block cannot be together\"); `check` warns of X or Y that differ from the present place",
+        "effect of `G33.1`, rule `tap-moves-sideways`",
         &[
             runs("S100 M3\nG0 X0 Y0 Z5\nG33.1 X10 Z-10 K1\nM2\n", &["RIGID_TAP(10.0000, 0.0000, -10.0000)"]),
             runs(
@@ -563,10 +563,10 @@ const STATEMENTS: &[Statement] = &[
             prints: &["no tool 0:04.2 0:04.1 0:00.0 11 10 0.1/rev 100 m/min"],
         }],
     ),
-    gap(
+    held(
         "#gcode:g96-g97",
         "$ names the spindle",
-        "`check` reports a spindle that the machine does not have (warning by default), as `run` refuses it",
+        "rule `number-out-of-range`",
         &[
             runs("G96 S100 $0\nG97 S100 $0\nM2\n", &["SET_SPINDLE_SPEED(0, 100.0000)"]),
             refused("warning[number-out-of-range]", "G96 S100 $1\nM2\n", "G96 S100 $0\nM2\n"),

@@ -244,10 +244,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g49",
         "After G49 a Z of work coordinates takes the spindle nose where the tip was meant: the tool runs into the part by its length",
-        "`check` warns of Z moved in work coordinates after `G49` cancelled the length of a tool that worked, in the same block or a later one (`length-cancelled-before-cut` is silent when no cut follows)",
+        "rule `length-cancelled-before-cut`",
         &[
             rule(
                 "warning[length-cancelled-before-cut]",

@@ -298,8 +298,8 @@ const STATEMENTS: &[Statement] = &[
         "A wait without Q, or with Q0, is refused",
         "`beside` of `Q`",
         &[
-            refused("error[needed-word-missing]", "M66 P0 L3\nM2\n", "M66 P0 L3 Q1\nM2\n"),
-            refused("error[number-out-of-range]", "M66 P0 L3 Q0\nM2\n", "M66 P0 L3 Q1\nM2\n"),
+            refused("error[required-word-missing]", "M66 P0 L3\nM2\n", "M66 P0 L3 Q1\nM2\n"),
+            refused("error[word-unfit-for-another]", "M66 P0 L3 Q0\nM2\n", "M66 P0 L3 Q1\nM2\n"),
         ],
     ),
     held(
