@@ -575,6 +575,9 @@ pub struct WordEntry {
     /// The values that it may have, where the control takes single ones: `[0, 1, 2, 10, 11, 20]`.
     #[serde(default)]
     pub values: Vec<f64>,
+    /// The control accepts the word, and it should not be given.
+    #[serde(default)]
+    pub unwanted: bool,
     /// Numbers between the bounds that name nothing: first and last of each row.
     #[serde(default)]
     pub gaps: Vec<[f64; 2]>,

@@ -1230,7 +1230,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// Under a setting, increments hold for their own block only.
     fn end_increments_of_block(&mut self, state: &mut State<D>) {
         let Some(setting) = self.model.semantics().increments_of_block_setting.as_deref() else { return };
-        let is_on = self.machine.settings.get(setting).is_some_and(|value| matches!(value.as_str(), "on" | "true"));
+        let is_on =
+            self.machine.settings.get(setting).is_some_and(|value| matches!(value.as_str(), "on" | "true"));
         if is_on && self.has_code(Effect::Incremental) {
             let absolute = self.model.code_with(Effect::Absolute);
             state.set_mode(Role::Distance, absolute);

@@ -59,7 +59,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     fn hole_along_tool(&mut self, stroke: AlongTool, state: &State<D>) -> Hole {
         let facts = self.facts_of_hole(stroke.upright(), state);
         let depth = state.cycle().e;
-        Hole { plane: Plane::Xy, initial: Mm::ZERO, r: Mm::ZERO, bottom: Mm(-depth), return_to_r: true, ..facts }
+        Hole {
+            plane: Plane::Xy,
+            initial: Mm::ZERO,
+            r: Mm::ZERO,
+            bottom: Mm(-depth),
+            return_to_r: true,
+            ..facts
+        }
     }
 
     /// One hole. The tool comes back to where it began, whatever is known of the way.

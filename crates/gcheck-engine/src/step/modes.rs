@@ -317,7 +317,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::FloodOn => self.coolant(Coolant::Flood, true, state),
             E::ThroughCoolantOn => self.coolant(Coolant::Through, true, state),
             E::ThroughCoolantOff => {
-                if self.model.semantics().through_off_stops_spindle && state.spindle() != Some(Spindle::Stopped) {
+                if self.model.semantics().through_off_stops_spindle
+                    && state.spindle() != Some(Spindle::Stopped)
+                {
                     self.spindle(Spindle::Stopped, state)?;
                 }
                 self.coolant(Coolant::Through, false, state);
@@ -440,7 +442,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
         let setting = self.model.semantics().coolant_setting.as_deref();
-        if setting.and_then(|number| self.machine.settings.get(number)).is_some_and(|value| value == "ignore") {
+        if setting.and_then(|number| self.machine.settings.get(number)).is_some_and(|value| value == "ignore")
+        {
             return;
         }
         let truth = if on { Truth::True } else { Truth::False };
@@ -473,7 +476,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         if optional && !self.options.optional_stop {
             let lock = semantics.optional_stop_lock.as_deref();
-            let is_locked = lock.and_then(|number| self.setting(number)).is_some_and(|value| matches!(value, "on" | "true"));
+            let is_locked = lock
+                .and_then(|number| self.setting(number))
+                .is_some_and(|value| matches!(value, "on" | "true"));
             if self.lenient && !is_locked && state.spindle() != Some(Spindle::Stopped) {
                 state.spindle.way = Flat::Unknown;
             }

@@ -208,6 +208,7 @@ pub(crate) mod motion {
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
+    pub(crate) mod output_without_move;
     pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
@@ -348,6 +349,7 @@ pub(crate) mod tool {
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
+    pub(crate) mod offset_words_beside_motion;
     pub(crate) mod tool_call_in_comment;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_at_part;
@@ -380,6 +382,7 @@ pub(crate) mod words {
     pub(crate) mod undefined_code;
     pub(crate) mod unknown_address;
     pub(crate) mod unknown_code;
+    pub(crate) mod unwanted_word;
     pub(crate) mod word_choice_missing;
     pub(crate) mod word_forbidden;
     pub(crate) mod word_given_twice;
@@ -569,6 +572,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
+    &motion::output_without_move::RULE,
     &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
@@ -685,6 +689,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,
+    &tool::offset_words_beside_motion::RULE,
     &tool::tool_call_in_comment::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_at_part::RULE,
@@ -714,6 +719,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::undefined_code::RULE,
     &words::unknown_address::RULE,
     &words::unknown_code::RULE,
+    &words::unwanted_word::RULE,
     &words::word_choice_missing::RULE,
     &words::word_forbidden::RULE,
     &words::word_given_twice::RULE,

@@ -46,9 +46,13 @@ impl PathRule for TapMovesSideways {
         let Some(axis) = [Axis::X, Axis::Y].into_iter().find(moves) else { return };
         let name = axis.name();
         report.add(
-            cx.finding(&META, cx.letter_range(name), format!("the tap moves along `{name}` while it cuts its thread"))
-                .label("another place than that of the tool")
-                .help(format!("go to this `{name}` at rapid first, then tap straight down")),
+            cx.finding(
+                &META,
+                cx.letter_range(name),
+                format!("the tap moves along `{name}` while it cuts its thread"),
+            )
+            .label("another place than that of the tool")
+            .help(format!("go to this `{name}` at rapid first, then tap straight down")),
         );
     }
 }

@@ -70,7 +70,11 @@ impl PathRule for DynamicOffsetApproach {
         let letters = cx.origin().letters;
         let is_down_and_sideways =
             letters.intersects(LetterSet::of("Z")) && letters.intersects(LetterSet::of("XY"));
-        let Some(code) = cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| is_down_and_sideways) else { return };
+        let Some(code) =
+            cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| is_down_and_sideways)
+        else {
+            return;
+        };
         let name = code.number();
         let finding = cx
             .finding(&META, cx.range(), format!("down and sideways in one block after `{name}`"))

@@ -100,10 +100,19 @@ impl PathRule for DynamicOffsetWithoutPosition {
 
 impl DynamicOffsetWithoutPosition {
     fn tell(&self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let missing: Vec<&str> =
-            self.given.iter().zip(["`X`", "`Y`", "`Z`"]).filter(|(given, _)| !**given).map(|(_, name)| name).collect();
+        let missing: Vec<&str> = self
+            .given
+            .iter()
+            .zip(["`X`", "`Y`", "`Z`"])
+            .filter(|(given, _)| !**given)
+            .map(|(_, name)| name)
+            .collect();
         let role = Role::DynamicOffset;
-        let Some(code) = cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| !missing.is_empty()) else { return };
+        let Some(code) =
+            cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| !missing.is_empty())
+        else {
+            return;
+        };
         let (name, missing) = (code.number(), missing.join(", "));
         let finding = cx
             .finding(&META, cx.range(), format!("cut under the dynamic work offset without {missing} (`{name}`)"))

@@ -75,7 +75,11 @@ impl PathRule for ReferenceReturnUnderTilt {
         for (role, on, off) in TILTS {
             let ends_here = cx.has_effect(|effect| effect == off);
             let set_by = cx.trace().set_by(Fact::Mode(role));
-            if ends_here || cx.state().effect(role, cx.model) != Some(on) || set_by.is_none() || self.told == set_by {
+            if ends_here
+                || cx.state().effect(role, cx.model) != Some(on)
+                || set_by.is_none()
+                || self.told == set_by
+            {
                 continue;
             }
             self.told = set_by;
@@ -85,7 +89,11 @@ impl PathRule for ReferenceReturnUnderTilt {
             let finding = cx
                 .finding(&META, cx.effect_range(returns), format!("reference return while `{name}` is on"))
                 .label("not to be used together")
-                .note(format!("`{name}` ({}) ends before a return  [{}]", code.entry().title, code.entry().source))
+                .note(format!(
+                    "`{name}` ({}) ends before a return  [{}]",
+                    code.entry().title,
+                    code.entry().source
+                ))
                 .help(format!("end it with `{off}` first, or retract with `G53`"));
             report.add(cx.resting_on(finding, Fact::Mode(role), &format!("`{name}`")));
         }

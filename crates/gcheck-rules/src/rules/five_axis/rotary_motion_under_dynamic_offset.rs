@@ -81,7 +81,7 @@ impl PathRule for RotaryMotionUnderDynamicOffset {
         }
         self.told = set_by;
         let Some(code) = cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)) else { return };
-        
+
         let off = cx.name_of_effect(Effect::DynamicOffsetOff).unwrap_or_default();
         let (name, letter) = (code.number(), axis.name());
         let range = cx.letter_range(letter);

@@ -67,12 +67,15 @@ impl PathRule for TiltModesConflict {
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
         for (role, on, off) in TILTS {
-            let stays_on = cx.state().effect(role, cx.model) == Some(on) && !cx.has_effect(|effect| effect == off);
-            let is_other = |effect: Effect| effect != on && TILTS.iter().any(|(_, other, _)| *other == effect);
+            let stays_on =
+                cx.state().effect(role, cx.model) == Some(on) && !cx.has_effect(|effect| effect == off);
+            let is_other =
+                |effect: Effect| effect != on && TILTS.iter().any(|(_, other, _)| *other == effect);
             let own = cx.codes().iter().copied().find(|ix| is_other(cx.model.effect(*ix)));
-            let (Some(mode), Some(code)) =
-                (cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| stays_on), own.and_then(|ix| cx.code_of(ix)))
-            else {
+            let (Some(mode), Some(code)) = (
+                cx.state().mode(role).only().and_then(|ix| cx.code_of(ix)).filter(|_| stays_on),
+                own.and_then(|ix| cx.code_of(ix)),
+            ) else {
                 continue;
             };
             let at = cx.origin().at;
@@ -85,7 +88,11 @@ impl PathRule for TiltModesConflict {
             let finding = cx
                 .finding(&META, cx.effect_range(is_other), format!("`{name}` while `{other}` is on"))
                 .label(format!("refused beside `{other}`"))
-                .note(format!("`{name}` ({}) does not go with `{other}`  [{}]", code.entry().title, code.entry().source))
+                .note(format!(
+                    "`{name}` ({}) does not go with `{other}`  [{}]",
+                    code.entry().title,
+                    code.entry().source
+                ))
                 .help(format!("end `{other}` with `{off}` before `{name}`"))
                 .at_most(limit(code.entry().confidence));
             let finding =

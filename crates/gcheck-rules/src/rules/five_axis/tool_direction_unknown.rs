@@ -85,8 +85,12 @@ impl PathRule for ToolDirectionUnknown {
         if is_known || cx.is_called_only() || cx.is_after_unknown_program() {
             return;
         }
-        let Some(code) =
-            cx.codes().iter().copied().find(|ix| is_along_tool(cx.model.effect(*ix))).and_then(|ix| cx.code_of(ix))
+        let Some(code) = cx
+            .codes()
+            .iter()
+            .copied()
+            .find(|ix| is_along_tool(cx.model.effect(*ix)))
+            .and_then(|ix| cx.code_of(ix))
         else {
             return;
         };

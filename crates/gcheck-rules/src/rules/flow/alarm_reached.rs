@@ -118,9 +118,8 @@ impl PathRule for AlarmReached {
 fn abort_of(cx: &PathCx<'_>, comment: &str) -> Option<(String, String)> {
     let (word, text) = comment.split_once(',')?;
     let mut comments = cx.model.semantics().message_comments.iter();
-    let (name, _) = comments.find(|(name, kind)| {
-        **kind == MessageComment::Abort && word.trim().eq_ignore_ascii_case(name)
-    })?;
+    let (name, _) = comments
+        .find(|(name, kind)| **kind == MessageComment::Abort && word.trim().eq_ignore_ascii_case(name))?;
     Some((name.clone(), text.trim().to_owned()))
 }
 

@@ -48,7 +48,10 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         report.add(
             Finding::new(&META, cx.range(word), format!("coolant code while coolant is locked (`{name}`)"))
                 .label("the control stops here")
-                .note(format!("setting {number} is off: `{name}` ({}) is refused  [{}]", entry.title, semantics.source))
+                .note(format!(
+                    "setting {number} is off: `{name}` ({}) is refused  [{}]",
+                    entry.title, semantics.source
+                ))
                 .help("remove the code, or set the setting to normal on the machine and in the configuration")
                 .at_most(limit(entry.confidence)),
         );
@@ -78,14 +81,20 @@ mod tests {
     fn each_code_is_marked() {
         let mut world = World::default();
         world.machine.settings.insert("32".to_owned(), "off".to_owned());
-        check_rule_in(&RULE, "haas-mill", "M8\nG0 X1. M88\nM9\nM30\n", &world, &expect![[r#"
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "M8\nG0 X1. M88\nM9\nM30\n",
+            &world,
+            &expect![[r#"
             1 | M8
               | ^^ error[coolant-locked] coolant code while coolant is locked (`M8`)
             2 | G0 X1. M88
               |        ^^^ error[coolant-locked] coolant code while coolant is locked (`M88`)
             3 | M9
               | ^^ error[coolant-locked] coolant code while coolant is locked (`M9`)
-        "#]]);
+        "#]],
+        );
     }
 
     #[test]

@@ -66,7 +66,11 @@ impl PathRule for FeedBeforeUnits {
         let name = cx.name_of(code);
         let unit = if old == Units::Inch { "inches" } else { "millimetres" };
         let finding = cx
-            .finding(&META, cx.letter_range('F'), format!("`F` counts in {unit}: `{name}` of its block acts after it"))
+            .finding(
+                &META,
+                cx.letter_range('F'),
+                format!("`F` counts in {unit}: `{name}` of its block acts after it"),
+            )
             .label("25.4 times another feed than it seems")
             .note(format!("the control reads the feed of a block before its units  [{}]", semantics.source))
             .help(format!("put `{name}` into a block before this one, or give `F` in the next block"))

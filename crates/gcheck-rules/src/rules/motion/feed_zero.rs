@@ -116,6 +116,19 @@ mod tests {
     }
 
     #[test]
+    fn a_slowest_move_of_inverse_time() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G93\nG1 X1 F0\nG1 X2 F2\nM2\n",
+            &expect![[r#"
+                2 | G1 X1 F0
+                  |       ^^ warning[feed-zero] inverse time feed of zero (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
     fn a_feed_that_nobody_gave_is_judged_by_another_rule() {
         check_rule(&RULE, "linuxcnc", "G1 X1\nG95 G1 X2\nM2\n", &expect![[""]]);
     }

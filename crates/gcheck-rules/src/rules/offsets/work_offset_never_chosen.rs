@@ -65,7 +65,9 @@ impl PathRule for WorkOffsetNeverChosen {
         if self.is_done || !cx.has_effect(needs_offset) || cx.is_called_only() {
             return;
         }
-        let Some(name) = unchosen_work_offset(cx).filter(|_| !cx.file_uses(chooses_work_offset)) else { return };
+        let Some(name) = unchosen_work_offset(cx).filter(|_| !cx.file_uses(chooses_work_offset)) else {
+            return;
+        };
         self.is_done = true;
         report.add(
             cx.finding(

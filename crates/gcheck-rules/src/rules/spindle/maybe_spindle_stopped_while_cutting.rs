@@ -91,7 +91,11 @@ impl PathRule for MaybeSpindleStopped {
         if let Some(stop) = self.stopped_by {
             let name = cx.name_of_effect(Effect::OptionalStop).unwrap_or_default();
             let finding = cx
-                .finding(&META, cx.range(), format!("cut after an optional stop, which stops the spindle (`{name}`)"))
+                .finding(
+                    &META,
+                    cx.range(),
+                    format!("cut after an optional stop, which stops the spindle (`{name}`)"),
+                )
                 .label("the spindle does not turn here if the operator has optional stop on")
                 .help("start the spindle again with `S` and `M3` or `M4` after the stop");
             let finding = match cx.range_of(stop) {

@@ -136,18 +136,15 @@ impl PathRule for SpindleStoppedWhileCutting {
         // A strict control refuses the block, which is reported as a fault.
         let is_refused =
             by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
-        if !stands
-            || is_refused
-            || !needs_turns && !is_cut(cx, event)
-            || cx.is_called_only()
-        {
+        if !stands || is_refused || !needs_turns && !is_cut(cx, event) || cx.is_called_only() {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
         let is_ever_started = cx.file_uses(starts_spindle);
         // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen. The
-        // length of a tool and a depth to cut at are those of a mill.
-        let has_length = cx.file_uses(|effect| effect == Effect::LengthPlus);
+        // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
+        // a switch for the spindle.
+        let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
         if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() && !has_length {
             return;
         }

@@ -71,8 +71,8 @@ fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
     let written = cx.slice(missing.range.clone());
     // Where the end of every program forgets the word, nothing from before this one can give it.
     let row = cx.control().lasting_in(letter, &entry.group);
-    let is_refused = cx.control().semantics().strict
-        && row.is_some_and(|row| row.until.contains(&LastingEnd::ProgramEnd));
+    let is_refused =
+        cx.control().semantics().strict && row.is_some_and(|row| row.until.contains(&LastingEnd::ProgramEnd));
     let finding = Finding::new(
         &META,
         missing.range.clone(),

@@ -59,7 +59,7 @@ impl PathRule for NeededWordMissing {
         }
         let entry = code.entry();
         let word = entry.words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
-        let Some(word) = word else { return };
+        let Some(word) = word.filter(|word| !codes.is_empty() || word.need != Need::Optional) else { return };
         if word.kind == WordKind::Program && has_comment(cx) {
             return;
         }

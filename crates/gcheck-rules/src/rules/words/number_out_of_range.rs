@@ -36,12 +36,16 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let is_bound =
-        |w: &WordEntry| w.min.is_some() || w.max.is_some() || w.above.is_some() || !w.gaps.is_empty() || is_count(w.kind);
+    let is_bound = |w: &WordEntry| {
+        w.min.is_some() || w.max.is_some() || w.above.is_some() || !w.gaps.is_empty() || is_count(w.kind)
+    };
     let has_bounds = |code: Code<'_>| code.entry().words.iter().any(is_bound);
     let has_gap = |word: &Word| cx.control().letter(word.letter).is_some_and(|entry| !entry.gaps.is_empty());
     let may_be_in_gap = cx.words().iter().any(|word| has_gap(word) || word.letter == Letter::DOLLAR);
-    if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE) && !may_be_in_gap && !cx.codes().any(|(_, code)| has_bounds(code)) {
+    if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE)
+        && !may_be_in_gap
+        && !cx.codes().any(|(_, code)| has_bounds(code))
+    {
         return;
     }
     // Where a block has a point on a whole number, another rule reports every such word.
@@ -96,11 +100,7 @@ fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) ->
         .at_most(limit(facts.confidence));
     // A control may round a count; the number of a program it cannot.
     let is_refused = facts.whole && (value - value.round()).abs() > NEARLY_WHOLE;
-    if facts.kind == WordKind::Program || is_refused {
-        finding
-    } else {
-        finding.at_most(Severity::Warning)
-    }
+    if facts.kind == WordKind::Program || is_refused { finding } else { finding.at_most(Severity::Warning) }
 }
 
 /// Does the word name a spindle that a machine has only when its configuration says so?
@@ -113,7 +113,10 @@ fn no_spindle(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
     let text = cx.text(word);
     Finding::new(&META, cx.range(word), format!("the machine has no such spindle: `{text}`"))
         .label(facts.is)
-        .note(format!("without a configuration that gives it more, a machine has spindle 0 alone  [{}]", facts.source))
+        .note(format!(
+            "without a configuration that gives it more, a machine has spindle 0 alone  [{}]",
+            facts.source
+        ))
         .help("give the number of a spindle that the machine has")
         .at_most(Severity::Warning)
 }

@@ -40,7 +40,10 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         report.add(
             Finding::new(&META, cx.range(word), format!("what `{name}` does is not defined"))
                 .label(entry.title.as_str())
-                .note(format!("`{name}` ({}) is accepted without a defined motion  [{}]", entry.title, entry.source))
+                .note(format!(
+                    "`{name}` ({}) is accepted without a defined motion  [{}]",
+                    entry.title, entry.source
+                ))
                 .help("write the moves out, or use another cycle")
                 .at_most(limit(entry.confidence)),
         );

@@ -563,7 +563,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "p. 342",
             "M00 and M01 do not end G254, M02 and M30 do.",
             "`at-end`",
-            &[Legal { program: turned_table!("G254\nX1. Y0.\nZ2.\nM1\nG1 Z0. F20.\nG0 Z2.\n") }],
+            &[Legal { program: turned_table!("G254\nX1. Y0.\nZ2.\nM1\nS1000 M3\nG1 Z0. F20.\nG0 Z2.\n") }],
         ),
         held(
             "p. 342",

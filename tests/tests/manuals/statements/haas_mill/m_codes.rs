@@ -83,7 +83,11 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "M00 stops the program; it goes on with the next block.",
             "effect `stop`",
             &[
-                Makes { program: cut!("M0\nG1 X1. F10.\n"), block: "M0", events: &["spindle stop", "coolant flood-off", "stop program"] },
+                Makes {
+                    program: cut!("M0\nG1 X1. F10.\n"),
+                    block: "M0",
+                    events: &["spindle stop", "coolant flood-off", "stop program"],
+                },
                 Legal { program: first_tool!("M0\nS1000 M3\nM8\nG1 Z-1. F10.\n") },
             ],
         ),
@@ -516,7 +520,11 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effects `through-coolant-on`, `through-coolant-off`",
             &[
                 Makes { program: cut!("M88\nM3\nM89\n"), block: "M88", events: &["coolant through-on"] },
-                Makes { program: cut!("M88\nM3\nM89\n"), block: "M89", events: &["spindle stop", "coolant through-off"] },
+                Makes {
+                    program: cut!("M88\nM3\nM89\n"),
+                    block: "M89",
+                    events: &["spindle stop", "coolant through-off"],
+                },
             ],
         ),
         held(
@@ -707,12 +715,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Run { program: short!("M98 (USB0/O00001.nc)\nX1.\nM30\n"), prints: &["rapid 1.0000", "end"] },
             ],
         ),
-        gap(
+        held(
             "p. 359",
             "M98 needs P or a path.",
-            "M98 alone: error; silent so far",
+            "rule `needed-word-missing`",
             &[Rule {
-                finding: "error[required-word-missing]",
+                finding: "error[needed-word-missing]",
                 violates: short!("M98\nM30\n"),
                 conforms: short!("M98 P777\nM30\nO777\nM99\n"),
             }],

@@ -276,11 +276,7 @@ const STATEMENTS: &[Statement] = &[
         "P and L of M98 must be whole",
         "`whole` of `P` and `L`",
         &[
-            refused(
-                "error[number-out-of-range]",
-                "M98 P100.5\nM2\nO100\nM99\n",
-                "M98 P100\nM2\nO100\nM99\n",
-            ),
+            refused("error[number-out-of-range]", "M98 P100.5\nM2\nO100\nM99\n", "M98 P100\nM2\nO100\nM99\n"),
             refused(
                 "error[number-out-of-range]",
                 "M98 P100 L1.5\nM2\nO100\nM99\n",

@@ -577,12 +577,12 @@ const STATEMENTS: &[Statement] = &[
         "Surface speed follows changes of the tool's X offset",
         "where the work offset and the tool's X offset are told, X of `stats` has them; the spindle's rise in speed along a facing cut is averaged",
     ),
-    gap(
+    held(
         "#gcode:g76",
         "X and Y do not belong to G76",
-        "`check` reports them (warning): the interpreter goes there at rapid from the end of the thread, through the work",
+        "rule `unwanted-word`",
         &[rule(
-            "warning[thread-cycle-leaves-its-line]",
+            "warning[unwanted-word]",
             "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 X5 Z-10 I-2 J0.3 K0.6\nM2\n",
             "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K0.6\nM2\n",
         )],

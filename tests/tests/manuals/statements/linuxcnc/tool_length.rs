@@ -144,12 +144,12 @@ const STATEMENTS: &[Statement] = &[
         "effect `length-from-block`",
         &[runs("G43.1 Z0.25 G0 X1\nM2\n", &["USE_TOOL_LENGTH_OFFSET(1.0000, 0.0000, 0.2500"])],
     ),
-    gap(
+    held(
         "#gcode:g43.1",
         "An axis word beside G43.1 that was meant as a move changes the tool's offset along that axis",
-        "`check` reports a motion code, or an axis other than those of the tool, in the block of G43.1 (warning: the documentation refuses it)",
+        "rule `offset-words-beside-motion`",
         &[rule(
-            "warning[codes-conflict]",
+            "warning[offset-words-beside-motion]",
             "G21 G90\nG43.1 Z0.25 G0 X1\nM2\n",
             "G21 G90\nG43.1 Z0.25\nG0 X1\nM2\n",
         )],

@@ -243,10 +243,10 @@ const STATEMENTS: &[Statement] = &[
             runs("M62 P-1\nG0 X1\nM2\n", &["SET_MOTION_OUTPUT_BIT(-1)"]),
         ],
     ),
-    gap(
+    held(
         "#mcode:m62-m65",
         "Without a move after it, what M62, M63 and M67 queued never happens",
-        "`check` warns of M62, M63 or M67 that no move follows before the end",
+        "rule `output-without-move`",
         &[
             rule(
                 "warning[output-without-move]",
