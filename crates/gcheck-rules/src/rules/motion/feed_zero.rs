@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Fault, FeedMode};
+use gcheck_engine::{At, Event, Fault, FeedMode};
 
 use crate::declare::declare_rule;
 use crate::facts::feed::zero_feed_given;
@@ -38,7 +38,7 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS.union(Watch::BLOCKS), make: || Box::new(FeedZero::default()) },
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::CUTS), make: || Box::new(FeedZero::default()) },
     }
 }
 
@@ -55,11 +55,11 @@ impl PathRule for FeedZero {
         Remembers::All(self)
     }
 
-    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         // A control with a slowest move of inverse time makes that of a feed of zero.
         let takes_zero = cx.model.semantics().least_inverse_feed > 0.0
             && cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
-        if !takes_zero || cx.known_number('F') != Some(0.0) || !cx.names_axes() {
+        if !takes_zero || cx.known_number('F') != Some(0.0) {
             return;
         }
         if self.told.insert(cx.origin().at) {
