@@ -455,6 +455,7 @@ pub(crate) struct CodesFile {
 /// One G or M code.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one in data")]
 pub struct CodeEntry {
     /// Canonical spelling without leading zeros: `G1`, `G54.1`, `M6`.
     pub code: String,
@@ -540,6 +541,7 @@ pub struct CodeEntry {
 /// A word as one code reads it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one in data")]
 pub struct WordEntry {
     /// The address, upper case; `,R` and `,C` for corner words.
     pub letter: String,

@@ -341,10 +341,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         block: &Block,
         state: &mut State<D>,
     ) -> Outcome<D> {
-        if block.flags.contains(BlockFlags::COMMENT) {
-            if self.message_comment(state) {
-                return Outcome::End(Ending::Alarm(0));
-            }
+        if block.flags.contains(BlockFlags::COMMENT) && self.message_comment(state) {
+            return Outcome::End(Ending::Alarm(0));
         }
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {

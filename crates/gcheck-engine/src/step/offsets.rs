@@ -439,10 +439,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Axes that the machine does not have.
     fn check_named_axes(&self) -> Step {
-        let Some(axes) = &self.machine.axes else { return Ok(()) };
-        let mut absent = self.model.axes.iter().filter(|axis| !axes.contains(axis));
-        match absent.find(|axis| self.words.has(axis.letter())) {
-            Some(axis) => Err(Fault::NoSuchAxis(axis.letter())),
+        let Some(own) = &self.machine.axes else { return Ok(()) };
+        let mut absent = self.model.axes.iter().filter(|axis| !own.contains(axis)).map(|axis| axis.letter());
+        match absent.find(|letter| self.words.has(*letter)) {
+            Some(letter) => Err(Fault::NoSuchAxis(letter)),
             None => Ok(()),
         }
     }

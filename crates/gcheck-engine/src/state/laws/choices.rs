@@ -286,7 +286,6 @@ made! {
         spindle: c.make(),
         mist: c.make(),
         flood: c.make(),
-        through: c.make(),
         length: c.make(),
         feed_override: c.make(),
         speed_override: c.make(),
