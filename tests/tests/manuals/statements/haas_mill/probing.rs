@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked. Left out: lights and sounds
 //! of the probes, batteries and wiring, templates of the visual programming system, the remote jog handle (pages 170–175).
 
-use super::mill::{gap, held, legal, not_modelled, reports, rule, run, variables};
+use super::mill::{held, legal, not_modelled, reports, rule, run, variables};
 use crate::proof::Proof;
 use crate::statements::statement::{Chapter, prove};
 

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked. Left out: how tools are
 //! loaded, moved and recovered (pages 101–105, 107), and saving tables: work at the machine, which no program sees.
 
-use super::mill::{explains, gap, held, legal, moves, not_modelled, reports, rule, run, variables};
+use super::mill::{explains, held, legal, moves, not_modelled, reports, rule, run, variables};
 use crate::statements::statement::{Chapter, prove};
 
 pub(crate) const CHAPTER: Chapter = Chapter {

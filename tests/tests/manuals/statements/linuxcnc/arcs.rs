@@ -5,7 +5,7 @@
 //! Left out: advice on drawing and computing arcs, how the refusal's message is read.
 
 use super::super::statement::{Chapter, Statement, prove};
-use super::row::{explains, gap, held, legal, ngc, refused, runs, unmodelled};
+use super::row::{explains, held, legal, ngc, refused, runs, unmodelled};
 use crate::proof::Proof;
 
 pub(super) const CHAPTER: Chapter =

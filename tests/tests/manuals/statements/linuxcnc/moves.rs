@@ -5,7 +5,7 @@
 //! Left out: the table of codes (each code has its own rows), the figures on the velocity of rapid moves.
 
 use super::super::statement::{Chapter, Statement, prove};
-use super::row::{gap, held, legal, ngc, refused, rule, runs, unmodelled};
+use super::row::{held, legal, ngc, refused, rule, runs, unmodelled};
 use crate::proof::Proof;
 
 pub(super) const CHAPTER: Chapter = Chapter {
