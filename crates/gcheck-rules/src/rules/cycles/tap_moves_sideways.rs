@@ -36,7 +36,7 @@ declare_rule! {
 
 struct TapMovesSideways;
 
-/// Millimetres: less than this is no way.
+/// Millimetres: a shorter way counts as none.
 const NOTHING: f64 = 1e-6;
 
 impl PathRule for TapMovesSideways {
