@@ -378,6 +378,7 @@ impl Control {
                     None => "Declared in the configuration.".to_owned(),
                 },
                 words: Vec::new(),
+                undefined: false,
                 any_words: true,
                 one_of: Vec::new(),
                 not_together: Vec::new(),

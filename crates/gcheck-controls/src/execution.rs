@@ -65,6 +65,39 @@ pub enum LastingEnd {
     ProgramEnd,
 }
 
+/// Which stroke a cycle along the tool makes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "the names are those of the cycles along an axis, in `Effect`")]
+pub enum AlongTool {
+    Drill,
+    DrillDwell,
+    Peck,
+    ChipBreak,
+    Tap,
+    LeftTap,
+    BoreFeedOut,
+    BoreStop,
+    BoreDwell,
+}
+
+impl AlongTool {
+    /// The cycle along an axis that makes the same stroke.
+    pub const fn upright(self) -> Effect {
+        match self {
+            Self::Drill => Effect::CycleDrill,
+            Self::DrillDwell => Effect::CycleDrillDwell,
+            Self::Peck => Effect::CyclePeck,
+            Self::ChipBreak => Effect::CycleChipBreak,
+            Self::Tap => Effect::CycleTap,
+            Self::LeftTap => Effect::CycleLeftTap,
+            Self::BoreFeedOut => Effect::CycleBoreFeedOut,
+            Self::BoreStop => Effect::CycleBoreStop,
+            Self::BoreDwell => Effect::CycleBoreDwell,
+        }
+    }
+}
+
 /// What a code does to the machine's state. A code without an effect changes nothing that the engine follows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -129,7 +162,7 @@ pub enum Effect {
     CycleBoreDwell,
     CycleFineBore,
     /// Along the tool at any angle, depth in `E`.
-    CycleAlongTool,
+    CycleAlongTool(AlongTool),
     CycleCancel,
 
     // Turning.
@@ -275,6 +308,8 @@ pub enum Effect {
     LiveToolOff,
     ToolChange,
     SetToolNumber,
+    /// The changer turns to `T`, and no tool is changed (`M39`).
+    TurnCarousel,
     MistOn,
     FloodOn,
     ThroughCoolantOn,
@@ -291,6 +326,8 @@ pub enum Effect {
     OutputOn,
     OutputOff,
     WaitForInput,
+    /// The operator's answer comes into variable `P` (`M109`).
+    AskOperator,
     AnalogOutputWithMove,
     AnalogOutput,
     ChuckClamp,
@@ -351,6 +388,33 @@ pub struct Semantics {
     pub helix: HelixRules,
     /// A new feed mode forgets the feed.
     pub feed_mode_clears_feed: bool,
+    /// Outputs that variables show: variable number of output 0.
+    #[serde(default)]
+    pub output_variables: Option<u32>,
+    /// Settings that variables show: variable number of setting 0.
+    #[serde(default)]
+    pub setting_variables: Option<u32>,
+    /// Variables that are one with another, so many numbers higher: first and last number, and the distance.
+    #[serde(default)]
+    pub twin_variables: Option<[u32; 3]>,
+    /// The setting by which coolant codes are refused (`off`) or passed over (`ignore`).
+    #[serde(default)]
+    pub coolant_setting: Option<String>,
+    /// The setting under which increments (`G91`) hold for their own block only.
+    #[serde(default)]
+    pub increments_of_block_setting: Option<String>,
+    /// Where a setting may demand that `H` is the number of the tool in the spindle.
+    #[serde(default)]
+    pub length_agreement: Option<LengthAgreement>,
+    /// A stop of the program (`M0`), and an optional one that is carried out, stops the spindle and all coolant.
+    #[serde(default)]
+    pub stop_switches_off: bool,
+    /// The setting under which optional stops are never carried out.
+    #[serde(default)]
+    pub optional_stop_lock: Option<String>,
+    /// The code that ends coolant through the spindle stops the spindle.
+    #[serde(default)]
+    pub through_off_stops_spindle: bool,
     /// `P` of a code that orients the spindle is the angle in degrees; else it is the way there, and the angle is `R`.
     #[serde(default)]
     pub orients_to_p: bool,
@@ -413,6 +477,16 @@ pub struct Semantics {
     pub source: String,
     /// How sure it is.
     pub confidence: Confidence,
+}
+
+/// A setting under which the control refuses the length of another tool than the one in the spindle; zero is allowed.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LengthAgreement {
+    /// The setting, `on` or `off`.
+    pub setting: String,
+    /// The alarm that the control raises.
+    pub alarm: String,
 }
 
 /// The fastest feed of a probing move, in the units of the program a minute.
@@ -668,6 +742,15 @@ pub struct ToolRules {
     /// A tool change cancels tool length compensation.
     #[serde(default)]
     pub change_cancels_length: bool,
+    /// `D0` means the tool in the spindle; else it is no size.
+    #[serde(default)]
+    pub zero_is_loaded: bool,
+    /// The number of a length or size is that of a tool, and the manual asks for the tool in the spindle.
+    #[serde(default)]
+    pub offsets_of_tools: bool,
+    /// A tool change switches all coolant off; mist that was on comes on again after it.
+    #[serde(default)]
+    pub change_stops_coolant: bool,
     /// The axes stay where they are at a tool change: the next tool swings in at the place where the last one was. Else
     /// the change takes them to a place of its own, or the builder decides.
     #[serde(default)]
@@ -692,6 +775,8 @@ pub enum MessageComment {
     Text,
     /// Its text with the values of its parameters, six decimals each.
     Values,
+    /// Its text, and the program stops for good before the rest of the block.
+    Abort,
 }
 
 /// How a dwell word counts.

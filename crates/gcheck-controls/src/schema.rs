@@ -458,6 +458,7 @@ pub(crate) struct CodesFile {
 /// One G or M code.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one in data")]
 pub struct CodeEntry {
     /// Canonical spelling without leading zeros: `G1`, `G54.1`, `M6`.
     pub code: String,
@@ -472,6 +473,9 @@ pub struct CodeEntry {
     /// Words the code reads.
     #[serde(default)]
     pub words: Vec<WordEntry>,
+    /// The control accepts the code, and no page says what it does.
+    #[serde(default)]
+    pub undefined: bool,
     /// True when the code may be followed by words not listed (macro calls, aliases, printing).
     #[serde(default)]
     pub any_words: bool,
@@ -540,6 +544,7 @@ pub struct CodeEntry {
 /// A word as one code reads it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(clippy::struct_excessive_bools, reason = "independent yes/no facts, named one by one in data")]
 pub struct WordEntry {
     /// The address, upper case; `,R` and `,C` for corner words.
     pub letter: String,
@@ -575,6 +580,15 @@ pub struct WordEntry {
     /// The values that it may have, where the control takes single ones: `[0, 1, 2, 10, 11, 20]`.
     #[serde(default)]
     pub values: Vec<f64>,
+    /// The control accepts the word, and it should not be given.
+    #[serde(default)]
+    pub unwanted: bool,
+    /// Numbers between the bounds that name nothing: first and last of each row.
+    #[serde(default)]
+    pub gaps: Vec<[f64; 2]>,
+    /// For integers: the control refuses a number that is not whole, instead of rounding it.
+    #[serde(default)]
+    pub whole: bool,
     /// What holds of it beside other words of the block, by their values.
     #[serde(default)]
     pub beside: Vec<Beside>,
@@ -784,6 +798,12 @@ pub struct LetterEntry {
     /// Largest value.
     #[serde(default)]
     pub max: Option<f64>,
+    /// Numbers between the bounds that name nothing: first and last of each row.
+    #[serde(default)]
+    pub gaps: Vec<[f64; 2]>,
+    /// For integers: the control refuses a number that is not whole, instead of rounding it.
+    #[serde(default)]
+    pub whole: bool,
     /// May be more than once in a block (`G`, `M`, arguments).
     #[serde(default)]
     pub repeatable: bool,

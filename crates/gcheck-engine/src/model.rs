@@ -105,7 +105,7 @@ impl Role {
             | E::CycleBoreDwellManual
             | E::CycleBoreDwell
             | E::CycleFineBore
-            | E::CycleAlongTool
+            | E::CycleAlongTool(_)
             | E::CycleCancel => Self::Cycle,
             E::PlaneXy | E::PlaneZx | E::PlaneYz | E::PlaneSecondary => Self::Plane,
             E::Absolute | E::Incremental => Self::Distance,
@@ -201,7 +201,7 @@ pub struct Model<'c> {
     /// The code that ends canned cycles.
     pub(crate) cycle_cancel: CodeIx,
     /// Canned cycles and motion are one modal group, so that a cycle replaces the motion mode.
-    pub(crate) cycles_are_motion: bool,
+    pub cycles_are_motion: bool,
 }
 
 impl<'c> Model<'c> {
@@ -380,6 +380,11 @@ impl<'c> Model<'c> {
     pub(crate) fn code_with(&self, effect: Effect) -> CodeIx {
         let found = self.control.codes().find(|code| code.effect() == effect);
         found.map_or(CodeIx::NONE, |code| self.control.code_ix(code.number()))
+    }
+
+    /// The setting that decides how numbers of an address without decimal point count, where it is one of its own.
+    pub(crate) fn scale_setting(&self, letter: Letter) -> Option<&'c str> {
+        self.control.letter(letter)?.scale_setting.as_deref()
     }
 
     /// What a number without a decimal point on this address counts, if scaling applies to it.

@@ -3,6 +3,7 @@
 //! Knows: the order inside a block, statements, and which effect handler a code calls. Must not know: which domain it runs in,
 //! how paths are explored.
 
+mod along_tool;
 mod arc;
 pub(crate) mod bar;
 pub(crate) mod compensation;
@@ -340,8 +341,8 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         block: &Block,
         state: &mut State<D>,
     ) -> Outcome<D> {
-        if block.flags.contains(BlockFlags::COMMENT) {
-            self.message_comment(state);
+        if block.flags.contains(BlockFlags::COMMENT) && self.message_comment(state) {
+            return Outcome::End(Ending::Alarm(0));
         }
         if block.flags.contains(BlockFlags::STATEMENT) {
             match self.statements(place, table, block, state) {
@@ -369,6 +370,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             self.read_words(place, table, words, state)?;
             let executed = self.execute(place, words, state);
             self.settle_tool_shift(state);
+            self.end_increments_of_block(state);
             executed?;
         }
         if !self.pending.is_empty() {
@@ -466,7 +468,7 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     let number = if pointed || number == 0.0 || self.is_count(word.letter, words) {
                         number
                     } else {
-                        let units = match self.unpointed {
+                        let units = match self.unpointed_of(word.letter) {
                             Unpointed::LeastIncrement => {
                                 *units.get_or_insert_with(|| self.units_of_block(words, state))
                             }
@@ -551,7 +553,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
     /// A number without decimal point, as the control counts it.
     fn scale(&mut self, letter: Letter, number: f64, units: Option<Units>) -> f64 {
         let Some(kind) = self.model.scaled(letter) else { return number };
-        match self.unpointed {
+        if let Some(factor) = self.factor_of_setting(letter) {
+            return number * factor;
+        }
+        match self.unpointed_of(letter) {
             Unpointed::AsWritten => number,
             Unpointed::LeastIncrement => {
                 let numbers = self.model.control().numbers();
@@ -571,6 +576,21 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 number
             }
         }
+    }
+
+    /// How a number of an address without decimal point counts: some addresses follow another setting, or none.
+    fn unpointed_of(&self, letter: Letter) -> Unpointed {
+        match self.model.scale_setting(letter) {
+            None => self.unpointed,
+            Some(_) => self.model.unpointed(),
+        }
+    }
+
+    /// What a setting of the address's own makes of a number without decimal point: `.01` of it, or the number itself.
+    fn factor_of_setting(&self, letter: Letter) -> Option<f64> {
+        let setting = self.model.scale_setting(letter)?;
+        let value = self.machine.settings.get(setting.rsplit(' ').next()?)?;
+        if value == "integer" { Some(1.0) } else { value.parse().ok() }
     }
 
     /// The units in which a block's numbers count: those that it names itself, wherever they stand in it.
@@ -892,6 +912,9 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 value
             });
         }
+        if let Some(value) = self.setting_of_variable(number) {
+            return Ok(D::number(value));
+        }
         let value = state.variables.get(number);
         self.tell_vacant(number, &value, state);
         Ok(value)
@@ -938,6 +961,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
 
     /// Does reading a parameter give a value? `None` where nobody knows.
     fn has_name(&mut self, name: NameId, state: &State<D>) -> Option<bool> {
+        let text = self.program.name_text(name);
+        let is_of_machine = ["_ini[", "_hal["].iter().any(|head| text.starts_with(head));
+        if is_of_machine && !self.machine.parameters.contains_key(&*text) {
+            // The machine may have it.
+            return None;
+        }
         let local = state.calls.own_locals().and_then(|locals| locals.named(name));
         let set = local.or_else(|| state.variables.named(name));
         match set.map_or(Truth::False, |variable| variable.written) {
@@ -1193,6 +1222,29 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                 if writable { Ok(()) } else { Err(Fault::ReadOnlyVariable(number)) }
             }
             Assignee::Anywhere => Ok(()),
+        }
+    }
+
+    /// Under a setting, increments hold for their own block only.
+    fn end_increments_of_block(&mut self, state: &mut State<D>) {
+        let Some(setting) = self.model.semantics().increments_of_block_setting.as_deref() else { return };
+        let is_on =
+            self.machine.settings.get(setting).is_some_and(|value| matches!(value.as_str(), "on" | "true"));
+        if is_on && self.has_code(Effect::Incremental) {
+            let absolute = self.model.code_with(Effect::Absolute);
+            state.set_mode(Role::Distance, absolute);
+            self.emit(state, Event::Modal(absolute));
+        }
+    }
+
+    /// The value of a setting that a variable shows, where it is told or has a default. A switch is 1 or 0.
+    fn setting_of_variable(&self, number: u32) -> Option<f64> {
+        let setting = number.checked_sub(self.model.semantics().setting_variables?)?;
+        let value = self.machine.setting(self.model.control(), &setting.to_string())?;
+        match value {
+            "on" | "true" => Some(1.0),
+            "off" | "false" => Some(0.0),
+            other => other.parse().ok(),
         }
     }
 

@@ -45,6 +45,10 @@ pub struct WordFacts<'a> {
     pub above: Option<f64>,
     /// The values that it may have; empty where the bounds say all.
     pub values: &'a [f64],
+    /// Numbers between the bounds that it may not have either.
+    pub gaps: &'a [[f64; 2]],
+    /// A number that is not whole is refused, not rounded.
+    pub whole: bool,
     /// A minus sign is accepted.
     pub negative: bool,
     /// The code that reads the word; `None` when the general entry of the address applies.
@@ -196,6 +200,8 @@ fn of_code<'a>(code: Code<'a>, entry: &'a WordEntry, general: Option<&'a LetterE
         max: entry.max,
         above: entry.above,
         values: &entry.values,
+        gaps: &entry.gaps,
+        whole: entry.whole,
         negative: general.is_none_or(|g| g.negative),
         code: Some(code),
         confidence,
@@ -212,6 +218,8 @@ fn of_letter(entry: &LetterEntry) -> WordFacts<'_> {
         max: entry.max,
         above: None,
         values: &[],
+        gaps: &entry.gaps,
+        whole: entry.whole,
         negative: entry.negative,
         code: None,
         confidence: entry.confidence,

@@ -60,7 +60,8 @@ impl World<'_> {
                 orientation: 0,
             };
             world.machine.axes = Some(LetterSet::of("XYZA"));
-            let settings = || BTreeMap::from([("34".to_owned(), "0".to_owned())]);
+            let setting = |number: &str, value: &str| (number.to_owned(), value.to_owned());
+            let settings = || BTreeMap::from([setting("34", "0"), setting("32", "off")]);
             world.machine.settings = settings();
             world.machine.engine = Machine {
                 axes: Some(vec![Axis::X, Axis::Y, Axis::Z, Axis::A]),

@@ -212,7 +212,7 @@ impl Trace {
             },
             Event::FeedRate(_) => Fact::Feed,
             Event::SpindleSpeed(_) => Fact::Speed,
-            Event::Spindle(_) => Fact::Spindle,
+            Event::Spindle(_) | Event::OrientSpindle { .. } => Fact::Spindle,
             Event::ToolChange(_) | Event::SetToolNumber(_) => Fact::Tool,
             Event::SelectTool(_) => Fact::Selected,
             Event::LengthOffset(_) => Fact::Length,

@@ -64,19 +64,22 @@ lattice! {
     pub(crate) struct CoolantState {
         pub(crate) mist: Truth,
         pub(crate) flood: Truth,
+        /// Through the spindle.
+        pub(crate) through: Truth,
     }
 }
 
 impl CoolantState {
     /// Whether it flows.
     pub(crate) fn all(on: Truth) -> Self {
-        Self { mist: on, flood: on }
+        Self { mist: on, flood: on, through: on }
     }
 
     /// It may flow or not.
     pub(crate) fn forget(&mut self) {
-        let Self { mist, flood } = self;
+        let Self { mist, flood, through } = self;
         *mist = Truth::Unknown;
         *flood = Truth::Unknown;
+        *through = Truth::Unknown;
     }
 }

@@ -186,8 +186,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
         }
         if number == 0.0 {
-            return Ok((0.0, 0));
+            // Where left out means the tool in the spindle, so does zero.
+            let tool = D::known(state.tool()).filter(|_| self.model.semantics().tools.zero_is_loaded);
+            let Some(tool) = tool.filter(|tool| *tool > 0.0) else { return Ok((0.0, 0)) };
+            if tables.is_complete() {
+                let tool = state.tool.loaded.data;
+                return Ok(self.oriented(tool.diameter.0 / 2.0, &tool, state));
+            }
+            return self.radius_of_offset(tool, state);
         }
+        self.radius_of_offset(number, state)
+    }
+
+    /// The radius that an offset's number stands for.
+    fn radius_of_offset(&mut self, number: f64, state: &State<D>) -> Step<(f64, u8)> {
+        let tables = state.tables();
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
         match tables.tool(number) {

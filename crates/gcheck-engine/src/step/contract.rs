@@ -167,7 +167,8 @@ impl CodeContract {
             if word.need == Need::Required && !late.contains(letter) {
                 contract.required.insert(letter);
             }
-            if !late_values.contains(letter) {
+            let is_range_sure = word.range_confidence != Some(Confidence::Assumed);
+            if is_range_sure && !late_values.contains(letter) {
                 contract.ranges.extend(ValueRange::new(letter, word.kind, [word.min, word.max, word.above]));
             }
         }

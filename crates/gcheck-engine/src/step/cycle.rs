@@ -13,7 +13,7 @@ use crate::fault::{CycleFault, Fault};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
-use crate::state::State;
+use crate::state::{CycleWords, State};
 use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
@@ -35,14 +35,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let Some(plane) = plane else { return self.lose_cycle(state) };
         let ([first, second, depth], _) = plane_axes(plane);
         let has_point = self.words.has(first.letter()) || self.words.has(second.letter());
+        let has_point = has_point || self.words.present().intersects(super::POLAR);
         // A turn of the work brings another hole, and so do increments that have their own addresses.
         let has_point = has_point || !self.refuses_incomplete() && self.names_other_axis(depth);
         let has_words = has_point || self.names_axis(depth) || self.words.present().intersects(super::POLAR);
-        if effect == Effect::CycleAlongTool {
-            return self.lose_cycle(state);
-        }
-        let words = self.cycle_words(effect, depth, state);
-        if let Err(fault) = words {
+        if !matches!(effect, Effect::CycleAlongTool(_))
+            && let Err(fault) = self.cycle_words(effect, depth, state)
+        {
             self.skip_to_hole([first, second], state)?;
             return Err(fault);
         }
@@ -55,6 +54,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         };
         if repeats == 0 && self.refuses_incomplete() {
             return Err(Fault::Cycle(CycleFault::ZeroRepeats));
+        }
+        if let Effect::CycleAlongTool(stroke) = effect {
+            return self.cycle_along_tool(code, stroke, repeats, state);
         }
         if rules.needs_axis && !has_words && !names_code {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
@@ -122,13 +124,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
     }
 
-    /// Keeps the words of the block that stay in effect.
-    pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
+    /// The words of the series, with those of the block that stay in effect and are no levels.
+    pub(super) fn lasting_cycle_words(&mut self, state: &State<D>) -> CycleWords {
         let unit = self.unit(state);
         let rules = &self.model.semantics().cycles;
-        // Of a tap `J` is a number, not a length: how many times faster it comes out.
-        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
-        let times_out = rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw('J', state));
         let mut words = *state.cycle();
         // On strict controls -1 stands for no number.
         let none = |value: f64| self.refuses_incomplete() && (value + 1.0).abs() < f64::EPSILON;
@@ -155,10 +154,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
         }
         put('E', &mut words.e, unit);
-        if let Some(times) = times_out {
-            let [_, j, _] = &mut words.ijk;
-            *j = times;
-        }
         if let Some(p) = self.words.number(Letter::of('P')).filter(|p| !none(*p)) {
             let milliseconds = match self.model.semantics().dwell.get("P") {
                 Some(DwellWord::Milliseconds) => true,
@@ -167,6 +162,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             };
             words.p = if milliseconds { p / 1000.0 } else { p };
             words.last_dwell = Some(words.p);
+        }
+        words
+    }
+
+    /// Keeps the words of the block that stay in effect.
+    pub(super) fn cycle_words(&mut self, effect: Effect, depth: Axis, state: &mut State<D>) -> Step {
+        let rules = &self.model.semantics().cycles;
+        // Of a tap `J` is a number, not a length: how many times faster it comes out.
+        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let times_out = rules.tap_out_setting.as_ref().filter(|_| taps).and_then(|_| self.raw('J', state));
+        let mut words = self.lasting_cycle_words(state);
+        if let Some(times) = times_out {
+            let [_, j, _] = &mut words.ijk;
+            *j = times;
         }
         if !words.has_begun() {
             words.begin(state.position().raw(depth));
@@ -231,7 +240,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     /// Absolute or incremental is not known, and so are the levels.
-    fn unknown_levels(&mut self, mut words: crate::state::CycleWords, state: &mut State<D>) -> Step {
+    fn unknown_levels(&mut self, mut words: CycleWords, state: &mut State<D>) -> Step {
         (words.r, words.z) = (f64::NAN, f64::NAN);
         state.cycle = words;
         Ok(())
@@ -284,6 +293,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             let to = (target.raw(first), target.raw(second));
             return self.holes_around(effect, plane, here, to, most, state);
         }
+        if present.intersects(super::POLAR) {
+            let points = self.polar_holes(&target, most, state);
+            return self.drill(effect, plane, points.into_iter(), state);
+        }
         let turned = [Axis::A, Axis::B, Axis::C].map(|axis| (axis, way(axis)));
         let turned = turned.into_iter().filter(|(axis, (from, step))| {
             *step != 0.0 || from.to_bits() != state.position().raw(*axis).to_bits()
@@ -312,6 +325,28 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
+    /// Holes by `@` and `^`: at one place, or each so much farther from the origin and around it than the one before.
+    fn polar_holes(&self, target: &Position, count: u32, state: &State<D>) -> Vec<(f64, f64)> {
+        let to = (target.raw(Axis::X), target.raw(Axis::Y));
+        if state.is_incremental(self.model) == Some(false) {
+            return (0..count).map(|_| to).collect();
+        }
+        let here = state.position();
+        let (mut radius, mut angle) = (
+            here.raw(Axis::X).hypot(here.raw(Axis::Y)),
+            here.raw(Axis::Y).atan2(here.raw(Axis::X)).to_degrees(),
+        );
+        let farther = self.words.number(Letter::AT).map_or(0.0, |by| by * self.unit(state));
+        let around = self.words.number(Letter::CARET).unwrap_or(0.0);
+        let mut holes = Vec::new();
+        for _ in 0..count {
+            (radius, angle) = (radius + farther, angle + around);
+            let (sin, cos) = angle.to_radians().sin_cos();
+            holes.push((radius * cos, radius * sin));
+        }
+        holes
+    }
+
     /// Holes at increments of a polar angle: each is turned about the origin as the first one is from where the tool stands.
     fn holes_around(
         &mut self,
@@ -338,43 +373,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         points: impl ExactSizeIterator<Item = (f64, f64)>,
         state: &mut State<D>,
     ) -> Step {
-        let incremental = state.is_incremental(self.model);
         let rules = &self.model.semantics().cycles;
-        let words = *state.cycle();
-        let [i, j, k] = words.ijk;
-        let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
-        let return_to_r = state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR);
-        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
-        let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.word('P', words.p) };
-        let units = state.units(self.model).unwrap_or(Units::Mm);
-        let (clearance, above_r) = self.settings_of_pecks(effect, state);
-        let tap_out = if taps { self.tap_out(words.word('J', j)) } else { 1.0 };
-        let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
-        let (peck, ijk) = self.shift_of_bore(effect, words.word('Q', words.q).map(Mm), shift);
+        let facts = self.facts_of_hole(effect, state);
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
         for (turn, at) in points.enumerate() {
-            let facts = Hole {
-                plane,
-                at: (Mm(at.0), Mm(at.1)),
-                initial: Mm(words.initial),
-                r: Mm(r),
-                bottom: Mm(bottom),
-                dwell: dwell.map(Seconds),
-                peck,
-                ijk,
-                incremental: incremental == Some(true),
-                return_to_r,
-                first_of_block: turn == 0,
-                overrides: Overrides {
-                    feed: state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
-                    speed: state.spindle.overridable != Truth::False,
-                },
-                clearance,
-                above_r,
-                tap_out,
-                units,
-            };
+            let facts = Hole { plane, at: (Mm(at.0), Mm(at.1)), first_of_block: turn == 0, ..facts };
             result = self.hole(effect, &facts, plane, rules, state);
             if result.is_err() {
                 break;
@@ -384,6 +388,41 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.end_exact_path(state);
         }
         result
+    }
+
+    /// What the words of the series and the modes say of each hole, which is at zero here.
+    pub(super) fn facts_of_hole(&mut self, effect: Effect, state: &State<D>) -> Hole {
+        let incremental = state.is_incremental(self.model);
+        let rules = &self.model.semantics().cycles;
+        let words = *state.cycle();
+        let [i, j, k] = words.ijk;
+        let (r, bottom) = if incremental.is_none() { (f64::NAN, f64::NAN) } else { (words.r, words.z) };
+        let taps = matches!(effect, Effect::CycleTap | Effect::CycleLeftTap);
+        let dwell = if taps && rules.rise_to_r { words.last_dwell } else { words.word('P', words.p) };
+        let (clearance, above_r) = self.settings_of_pecks(effect, state);
+        let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
+        let (peck, ijk) = self.shift_of_bore(effect, words.word('Q', words.q).map(Mm), shift);
+        Hole {
+            plane: Plane::Xy,
+            at: (Mm::ZERO, Mm::ZERO),
+            initial: Mm(words.initial),
+            r: Mm(r),
+            bottom: Mm(bottom),
+            dwell: dwell.map(Seconds),
+            peck,
+            ijk,
+            incremental: incremental == Some(true),
+            return_to_r: state.effect(Role::ReturnLevel, self.model) == Some(Effect::ReturnToR),
+            first_of_block: true,
+            overrides: Overrides {
+                feed: state.feed.overridable != Truth::False || words.feed_override_on != Truth::False,
+                speed: state.spindle.overridable != Truth::False,
+            },
+            clearance,
+            above_r,
+            tap_out: if taps { self.tap_out(words.word('J', j)) } else { 1.0 },
+            units: state.units(self.model).unwrap_or(Units::Mm),
+        }
     }
 
     /// What settings say of pecks: how far they back off, where that is told, and how far above `R` they come out.

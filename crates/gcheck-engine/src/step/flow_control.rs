@@ -730,7 +730,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             OKeyword::Repeat => {
                 let Some(count) = first else { return Err(Fault::Malformed) };
                 let value = self.evaluate(place, table, table.expr(count), state)?;
-                let turns = D::known(&value).map(|n| n.round().max(0.0));
+                // A half goes to the even neighbour (observed).
+                let turns = D::known(&value).map(|n| n.round_ties_even().max(0.0));
                 let Some(end) = links.end else {
                     return if turns == Some(0.0) { Err(Fault::LoopMismatch) } else { Ok(Outcome::Next) };
                 };

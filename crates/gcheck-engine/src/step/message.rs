@@ -15,27 +15,28 @@ use crate::state::State;
 use crate::value::Domain;
 
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
-    /// `(MSG, …)`: the last comment of the block, where the control shows such comments.
-    pub(super) fn message_comment(&mut self, state: &mut State<D>) {
+    /// `(MSG, …)`: the last comment of the block, where the control shows such comments. True where it ends the program.
+    pub(super) fn message_comment(&mut self, state: &mut State<D>) -> bool {
         let shown = &self.model.semantics().message_comments;
         if shown.is_empty() {
-            return;
+            return false;
         }
         let Some(comment) = self.comment_in(|text| {
             let (_, last) = text.rsplit_once('(')?;
             Some(Rc::from(last.split(')').next()?))
         }) else {
-            return;
+            return false;
         };
-        let Some((word, text)) = comment.split_once(',') else { return };
+        let Some((word, text)) = comment.split_once(',') else { return false };
         let Some((_, kind)) = shown.iter().find(|(name, _)| word.trim().eq_ignore_ascii_case(name)) else {
-            return;
+            return false;
         };
         let text = match kind {
-            MessageComment::Text => Rc::from(text),
+            MessageComment::Text | MessageComment::Abort => Rc::from(text),
             MessageComment::Values => self.with_values(text, state),
         };
         self.emit(state, Event::Message(text));
+        *kind == MessageComment::Abort
     }
 
     /// The first comment of the block, which the control shows beside a stop; empty without one.

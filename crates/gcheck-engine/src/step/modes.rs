@@ -10,7 +10,7 @@ use super::{Count, Ending, Executor, Flow, Step};
 use crate::assumption::Assumption;
 use crate::event::{Coolant, Event, FeedMode, Override, PathMode, Smoothing, Spindle, Stop, Units};
 use crate::fault::{CompensationFault, Fault};
-use crate::lattice::Perhaps;
+use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Axis;
@@ -266,6 +266,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
             E::Stop => {
                 self.flush_compensation(state)?;
+                self.switch_off_at_stop(false, state)?;
                 self.emit(state, Event::Stop(Stop::Program));
             }
             E::OptionalStop => {
@@ -273,6 +274,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                     self.assumptions.insert(Assumption::OptionalStop);
                 }
                 self.flush_compensation(state)?;
+                self.switch_off_at_stop(true, state)?;
                 self.emit(state, Event::Stop(Stop::Optional));
             }
             E::PalletStop => {
@@ -314,7 +316,14 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             E::MistOn => self.coolant(Coolant::Mist, true, state),
             E::FloodOn => self.coolant(Coolant::Flood, true, state),
             E::ThroughCoolantOn => self.coolant(Coolant::Through, true, state),
-            E::ThroughCoolantOff => self.coolant(Coolant::Through, false, state),
+            E::ThroughCoolantOff => {
+                if self.model.semantics().through_off_stops_spindle
+                    && state.spindle() != Some(Spindle::Stopped)
+                {
+                    self.spindle(Spindle::Stopped, state)?;
+                }
+                self.coolant(Coolant::Through, false, state);
+            }
             E::CoolantOff => {
                 self.coolant(Coolant::Mist, false, state);
                 self.coolant(Coolant::Flood, false, state);
@@ -335,6 +344,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             }
             E::AnalogOutput | E::AnalogOutputWithMove => self.analog_output(effect, state)?,
             E::WaitForInput => self.wait_for_input(state)?,
+            E::AskOperator => self.ask_operator(state)?,
             E::ChuckClamp => self.chuck(true, state),
             E::ChuckUnclamp => self.chuck(false, state),
             // Modes that only later blocks read, and interpolation, which happens with the block's axis words.
@@ -431,13 +441,54 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     pub(super) fn coolant(&mut self, kind: Coolant, on: bool, state: &mut State<D>) {
+        let setting = self.model.semantics().coolant_setting.as_deref();
+        if setting.and_then(|number| self.machine.settings.get(number)).is_some_and(|value| value == "ignore")
+        {
+            return;
+        }
         let truth = if on { Truth::True } else { Truth::False };
         match kind {
             Coolant::Mist => state.coolant.mist = truth,
             Coolant::Flood => state.coolant.flood = truth,
-            Coolant::Through => {}
+            Coolant::Through => state.coolant.through = truth,
         }
         self.emit(state, Event::Coolant { kind, on });
+    }
+
+    /// Every coolant that may be on goes off.
+    pub(super) fn all_coolant_off(&mut self, state: &mut State<D>) {
+        let may_be_on = [
+            (Coolant::Mist, state.coolant.mist),
+            (Coolant::Flood, state.coolant.flood),
+            (Coolant::Through, state.coolant.through),
+        ];
+        for (kind, _) in may_be_on.into_iter().filter(|(_, on)| *on != Truth::False) {
+            self.coolant(kind, false, state);
+        }
+    }
+
+    /// What a stop of the program switches off. An optional one does so only if the operator's switch is on, which an analysis
+    /// of all paths leaves open.
+    fn switch_off_at_stop(&mut self, optional: bool, state: &mut State<D>) -> Step {
+        let semantics = self.model.semantics();
+        if !semantics.stop_switches_off {
+            return Ok(());
+        }
+        if optional && !self.options.optional_stop {
+            let lock = semantics.optional_stop_lock.as_deref();
+            let is_locked = lock
+                .and_then(|number| self.setting(number))
+                .is_some_and(|value| matches!(value, "on" | "true"));
+            if self.lenient && !is_locked && state.spindle() != Some(Spindle::Stopped) {
+                state.spindle.way = Flat::Unknown;
+            }
+            return Ok(());
+        }
+        if state.spindle() != Some(Spindle::Stopped) {
+            self.spindle(Spindle::Stopped, state)?;
+        }
+        self.all_coolant_off(state);
+        Ok(())
     }
 
     /// A frame whose geometry depends on the machine: positions are not known until they are given in it.

@@ -264,7 +264,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 if !self.words.has(Letter::of('F')) {
                     return Err(Fault::NoInverseTimeFeed);
                 }
-                if self.words.number(Letter::of('F')).is_some_and(|f| f <= 0.0) {
+                // A control with a slowest move makes that of a feed of zero.
+                let takes_zero = self.model.semantics().least_inverse_feed > 0.0;
+                let is_none = |f: f64| f < 0.0 || f == 0.0 && !takes_zero;
+                if self.words.number(Letter::of('F')).is_some_and(is_none) {
                     return Err(Fault::NoFeed);
                 }
             }
@@ -319,8 +322,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         let target = state.from_machine(&machine, self.model);
         let checked = self.held(if kind == TravelKind::Feed { self.check_feed(state) } else { Ok(()) })?;
-        // Axes that the block does not name stay where they are, known or not.
+        // Axes that the block does not name stay where they are, known or not; after compensation they go to their place.
         let mut to = *state.actual();
+        if !state.compensation.left.is_no() && self.refuses_incomplete() {
+            self.leave_compensation(false, state)?;
+            to = self.axes_of(state.position(), state);
+        }
         for axis in Axis::ALL {
             let rotated = matches!(axis, Axis::X | Axis::Y) && state.work_offset().rotation != 0.0;
             if named.contains(axis.letter()) || rotated {
@@ -366,7 +373,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
 
     /// Do the axes go where the program says, without compensation or mapping in between?
     pub(super) fn goes_direct(state: &State<D>) -> bool {
-        state.compensation.is_off() && state.transform.is_off()
+        state.compensation.is_off() && state.transform.is_off() && !state.tool_shift.is_on()
     }
 
     /// [`Self::travel`] where [`Self::goes_direct`] holds.
@@ -417,13 +424,6 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::SpindleStopped);
         }
         if effect == Effect::RigidTap {
-            if self.refuses_incomplete()
-                && [Axis::X, Axis::Y]
-                    .into_iter()
-                    .any(|a| target.raw(a).to_bits() != state.position().raw(a).to_bits())
-            {
-                return Err(Fault::Conflict);
-            }
             let scale = self.words.number(Letter::of('I')).unwrap_or(1.0);
             self.emit(state, Event::SpindleSync { lead: Some(Mm(lead)), velocity: false });
             self.emit(state, Event::RigidTap { from: *state.actual(), to: target, scale });
@@ -618,6 +618,9 @@ fn straight_length(from: &Position, to: &Position, unit: f64) -> f64 {
 /// A thread whose lead grows by `change` each turn takes as many turns as one of this lead. Leads count along the axis that
 /// goes farther; a thread whose lead would come to nothing keeps the one that it begins with.
 fn mean_lead(lead: f64, change: f64, from: &Position, to: &Position) -> f64 {
+    if change == 0.0 {
+        return lead;
+    }
     let way = [Axis::X, Axis::Z].map(|axis| (to.raw(axis) - from.raw(axis)).abs());
     let last = (lead * lead + 2.0 * change * way[0].max(way[1])).sqrt();
     if last.is_finite() { f64::midpoint(lead, last) } else { lead }

@@ -385,6 +385,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             2 | 20 if self.refuses_incomplete() => self.truncated(Letter::of('P'))?,
             _ => self.rounded(Letter::of('P'))?,
         };
+        self.check_named_axes()?;
         match kind {
             2 => self.write_work_offset(number, false, state),
             20 if self.refuses_incomplete() => self.write_work_offset(number, true, state),
@@ -416,6 +417,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let (l, p) = (Letter::of('L'), Letter::of('P'));
         let Some(Count::Known(kind)) = self.count(l)? else { return Ok(()) };
         let of_work = matches!(kind, 2 | 20);
+        // The interpreter refuses decimals below a half only (observed).
+        let decimals = self.words.number(p).map_or(0.0, f64::fract);
+        if kind != 0 && decimals > 1e-4 && decimals < 0.5 {
+            return Err(Fault::WordRange(p));
+        }
         let number = match kind {
             0 => return Ok(()),
             2 | 20 => self.truncated(p)?,
@@ -428,6 +434,16 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 Err(Fault::WordRange(p))
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Axes that the machine does not have.
+    fn check_named_axes(&self) -> Step {
+        let Some(own) = &self.machine.axes else { return Ok(()) };
+        let mut absent = self.model.axes.iter().filter(|axis| !own.contains(axis)).map(|axis| axis.letter());
+        match absent.find(|letter| self.words.has(*letter)) {
+            Some(letter) => Err(Fault::NoSuchAxis(letter)),
+            None => Ok(()),
         }
     }
 

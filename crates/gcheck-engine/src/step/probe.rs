@@ -33,7 +33,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             .map(|axis| target.raw(axis) - state.position().raw(axis))
             .fold(0.0_f64, |sum, d| sum + d * d)
             .sqrt();
-        if distance < self.least_probe_distance(state) {
+        // A move of other axes alone has no shortest length.
+        let turns_alone = distance == 0.0
+            && Axis::ALL
+                .into_iter()
+                .filter(|axis| ![Axis::X, Axis::Y, Axis::Z].contains(axis))
+                .any(|axis| target.raw(axis).to_bits() != state.position().raw(axis).to_bits());
+        if !turns_alone && distance < self.least_probe_distance(state) {
             return Err(Fault::Probe);
         }
         let toward = matches!(effect, Effect::ProbeToward | Effect::ProbeTowardOptional);
@@ -94,7 +100,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         Ok(())
     }
 
-    fn has_code(&self, effect: Effect) -> bool {
+    pub(super) fn has_code(&self, effect: Effect) -> bool {
         self.words.codes().iter().any(|code| self.model.effect(*code) == effect)
     }
 

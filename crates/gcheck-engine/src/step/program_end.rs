@@ -77,6 +77,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 self.emit(state, Event::Spindle(Spindle::Stopped));
             }
             Effect::ConstantSpeed => self.emit(state, Event::SpindleMode(None)),
+            Effect::ThroughCoolantOff if state.coolant.through != Truth::False => {
+                self.coolant(Coolant::Through, false, state);
+            }
             Effect::CoolantOff => {
                 if state.coolant.mist != Truth::False {
                     self.coolant(Coolant::Mist, false, state);

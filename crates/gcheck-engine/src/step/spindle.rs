@@ -6,14 +6,14 @@ use gcheck_controls::{DwellWord, Effect, Letter};
 use gcheck_geometry::Seconds;
 
 use super::{Count, Executor, Step};
-use crate::event::{Event, FeedMode, Spindle};
+use crate::event::{Coolant, Event, FeedMode, Spindle};
 use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
 use crate::position::Position;
 use crate::state::{Loaded, State, ToolData};
-use crate::value::Domain;
+use crate::value::{Domain, Truth};
 
 #[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
@@ -105,6 +105,10 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `M19`.
     pub(super) fn orient(&mut self, state: &mut State<D>) -> Step {
         let to_p = self.model.semantics().orients_to_p;
+        if self.refuses_incomplete() && !self.words.has(Letter::of('R')) {
+            // Without an angle the interpreter does nothing (observed).
+            return Ok(());
+        }
         let angle = self.words.number(Letter::of('R'));
         let angle = angle.or_else(|| if to_p { self.raw('P', state) } else { None }).unwrap_or(0.0);
         let way = match self.count(Letter::of('P'))? {
@@ -209,12 +213,20 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.change_stops_spindle {
             self.spindle(Spindle::Stopped, state)?;
         }
+        let mist = state.coolant.mist;
+        if rules.change_stops_coolant {
+            self.all_coolant_off(state);
+        }
         #[expect(
             clippy::cast_sign_loss,
             reason = "a tool number is a count: negative ones were refused at `T`"
         )]
         let number = D::known(state.selected()).map(|t| t.max(0.0) as u32);
         self.put_tool(number, state);
+        if rules.change_stops_coolant && mist != Truth::False {
+            self.coolant(Coolant::Mist, true, state);
+            state.coolant.mist = mist;
+        }
         if rules.change_cancels_length {
             self.cancel_length(state);
         }
@@ -271,6 +283,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let index = self.index(Letter::of('P'))?;
         let on = matches!(effect, Effect::OutputOn | Effect::OutputOnWithMove);
         let with_move = matches!(effect, Effect::OutputOnWithMove | Effect::OutputOffWithMove);
+        if let Some(first) = self.model.semantics().output_variables {
+            state.variables.set(first.saturating_add(index), D::number(f64::from(u8::from(on))));
+        }
         self.emit(state, Event::Output { index, value: f64::from(u8::from(on)), analog: false, with_move });
         Ok(())
     }
@@ -292,6 +307,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let index = self.index(Letter::of(if analog { 'E' } else { 'P' }))?;
         let what = match self.count(Letter::of('L'))? {
             Some(Count::Known(what @ 0..=4)) => what as u8,
+            // The interpreter passes over a way to wait that it does not have (observed).
+            Some(Count::Known(_)) if self.refuses_incomplete() => return Ok(()),
             Some(Count::Known(_)) => return Err(Fault::WordRange(Letter::of('L'))),
             _ => 0,
         };
@@ -303,6 +320,26 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::WordRange(Letter::of('Q')));
         }
         self.emit(state, Event::WaitInput { index, analog, what, timeout: Seconds(timeout) });
+        Ok(())
+    }
+
+    /// `M109`: what the operator answers is not known.
+    pub(super) fn ask_operator(&mut self, state: &mut State<D>) -> Step {
+        let number = match self.count(Letter::of('P'))? {
+            Some(Count::Known(number)) => number,
+            Some(Count::Unknown) => {
+                state.variables.forget();
+                return Ok(());
+            }
+            None => return Ok(()),
+        };
+        state.variables.set(number, D::unknown());
+        if let Some([first, last, by]) = self.model.semantics().twin_variables {
+            let twin = if (first..=last).contains(&number) { number + by } else { number.saturating_sub(by) };
+            if (first..=last).contains(&number) || (first..=last).contains(&twin) {
+                state.variables.set(twin, D::unknown());
+            }
+        }
         Ok(())
     }
 

@@ -194,6 +194,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(Some(code)) => {
                 let number: CodeNumber = code.number();
                 let value = f64::from(number.tenths());
+                // The interpreter drops the decimal of `G41.1` and `G42.1` (observed).
+                let value =
+                    if role == Some(Role::Compensation) { (value / 10.0).floor() * 10.0 } else { value };
                 D::number(if tenths { value } else { value / 10.0 })
             }
             // No motion mode is what the code says that ends them.

@@ -173,7 +173,8 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         shift
     }
 
-    fn along_tool(&self, length: f64, target: &Position) -> [f64; 3] {
+    /// A length along the tool, as far as it goes in each axis. Unknown on a machine that does not tilt the tool in both axes.
+    pub(super) fn along_tool(&self, length: f64, target: &Position) -> [f64; 3] {
         let kinematics = self.machine.kinematics.unwrap_or(HEAD);
         if kinematics.arrangement != Arrangement::HeadHead {
             // The code is for machines that tilt the tool in both axes.

@@ -93,7 +93,10 @@ impl Series {
     pub(crate) fn block(&mut self, cx: &PathCx<'_>) -> Option<CodeIx> {
         let named = cx.codes().iter().copied().find(|ix| is_cycle(cx.model.effect(*ix)));
         let active = cx.state().active_cycle(cx.model);
-        let begins = named.filter(|_| active == Some(CodeIx::NONE));
+        // Where cycles are motion modes, another one takes no words over.
+        let replaces =
+            |code: CodeIx| active.is_some_and(|active| active != code) && cx.model.cycles_are_motion;
+        let begins = named.filter(|code| active == Some(CodeIx::NONE) || replaces(*code));
         if begins.is_some() {
             self.end(cx.origin().at);
         }

@@ -65,6 +65,7 @@ pub(crate) mod cycles {
     pub(crate) mod pocket_outline_unfit;
     pub(crate) mod pocket_start_outside;
     pub(crate) mod pocket_without_compensation;
+    pub(crate) mod tap_moves_sideways;
     pub(crate) mod tapped_hole_not_drilled;
     pub(crate) mod tapping_feed_off_pitch;
     pub(crate) mod thread_numbers_contradict;
@@ -79,6 +80,8 @@ pub(crate) mod five_axis {
     pub(crate) mod cutter_vector_not_unit;
     pub(crate) mod cutter_vector_without_axis;
     pub(crate) mod cutter_vector_without_size;
+    pub(crate) mod dynamic_offset_approach_in_one_block;
+    pub(crate) mod dynamic_offset_without_position;
     pub(crate) mod five_axis_axis_left_out;
     pub(crate) mod five_axis_feed_per_minute;
     pub(crate) mod five_axis_length_in_incremental;
@@ -87,7 +90,11 @@ pub(crate) mod five_axis {
     pub(crate) mod five_axis_zero_not_upright;
     pub(crate) mod maybe_five_axis_length_in_incremental;
     pub(crate) mod maybe_refused_in_five_axis_mode;
+    pub(crate) mod reference_return_under_tilt;
     pub(crate) mod refused_in_five_axis_mode;
+    pub(crate) mod rotary_motion_under_dynamic_offset;
+    pub(crate) mod tilt_modes_conflict;
+    pub(crate) mod tool_direction_unknown;
 }
 
 pub(crate) mod flow {
@@ -107,6 +114,7 @@ pub(crate) mod flow {
 
 pub(crate) mod machine {
     pub(crate) mod axis_not_on_machine;
+    pub(crate) mod coolant_locked;
     pub(crate) mod cylinder_axis_not_on_machine;
     pub(crate) mod cylinder_without_diameter;
     pub(crate) mod data_starved;
@@ -166,6 +174,7 @@ pub(crate) mod modal {
     pub(crate) mod code_must_stand_alone;
     pub(crate) mod codes_conflict;
     pub(crate) mod distance_mode_not_stated;
+    pub(crate) mod feed_before_units;
     pub(crate) mod incremental_into_subprogram;
     pub(crate) mod incremental_left_on;
     pub(crate) mod maybe_incremental_left_on;
@@ -199,6 +208,7 @@ pub(crate) mod motion {
     pub(crate) mod maybe_feed_missing;
     pub(crate) mod maybe_feed_of_another_mode;
     pub(crate) mod motion_without_axis_words;
+    pub(crate) mod output_without_move;
     pub(crate) mod plunge_goes_nowhere;
     pub(crate) mod probe_move_refused;
     pub(crate) mod probe_without_feed;
@@ -266,6 +276,7 @@ pub(crate) mod program {
 pub(crate) mod spindle {
     pub(crate) mod maybe_spindle_stopped_while_cutting;
     pub(crate) mod speed_missing;
+    pub(crate) mod spindle_left_on;
     pub(crate) mod spindle_stopped_while_cutting;
     pub(crate) mod surface_speed_without_limit;
     pub(crate) mod tap_in_wrong_direction;
@@ -338,6 +349,7 @@ pub(crate) mod tool {
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
+    pub(crate) mod offset_words_beside_motion;
     pub(crate) mod tool_call_in_comment;
     pub(crate) mod tool_called_not_changed;
     pub(crate) mod tool_change_at_part;
@@ -367,8 +379,10 @@ pub(crate) mod words {
     pub(crate) mod sign_not_accepted;
     pub(crate) mod too_many_digits;
     pub(crate) mod undeclared_m_code;
+    pub(crate) mod undefined_code;
     pub(crate) mod unknown_address;
     pub(crate) mod unknown_code;
+    pub(crate) mod unwanted_word;
     pub(crate) mod word_choice_missing;
     pub(crate) mod word_forbidden;
     pub(crate) mod word_given_twice;
@@ -436,6 +450,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::pocket_outline_unfit::RULE,
     &cycles::pocket_start_outside::RULE,
     &cycles::pocket_without_compensation::RULE,
+    &cycles::tap_moves_sideways::RULE,
     &cycles::tapped_hole_not_drilled::RULE,
     &cycles::tapping_feed_off_pitch::RULE,
     &cycles::thread_numbers_contradict::RULE,
@@ -447,6 +462,8 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::cutter_vector_not_unit::RULE,
     &five_axis::cutter_vector_without_axis::RULE,
     &five_axis::cutter_vector_without_size::RULE,
+    &five_axis::dynamic_offset_approach_in_one_block::RULE,
+    &five_axis::dynamic_offset_without_position::RULE,
     &five_axis::five_axis_axis_left_out::RULE,
     &five_axis::five_axis_feed_per_minute::RULE,
     &five_axis::five_axis_length_in_incremental::RULE,
@@ -455,7 +472,11 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &five_axis::five_axis_zero_not_upright::RULE,
     &five_axis::maybe_five_axis_length_in_incremental::RULE,
     &five_axis::maybe_refused_in_five_axis_mode::RULE,
+    &five_axis::reference_return_under_tilt::RULE,
     &five_axis::refused_in_five_axis_mode::RULE,
+    &five_axis::rotary_motion_under_dynamic_offset::RULE,
+    &five_axis::tilt_modes_conflict::RULE,
+    &five_axis::tool_direction_unknown::RULE,
     &flow::alarm_reached::RULE,
     &flow::analysis_incomplete::RULE,
     &flow::calls_nested_too_deep::RULE,
@@ -469,6 +490,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &flow::subprogram_without_return::RULE,
     &flow::unreachable_block::RULE,
     &machine::axis_not_on_machine::RULE,
+    &machine::coolant_locked::RULE,
     &machine::cylinder_axis_not_on_machine::RULE,
     &machine::cylinder_without_diameter::RULE,
     &machine::data_starved::RULE,
@@ -519,6 +541,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &modal::code_must_stand_alone::RULE,
     &modal::codes_conflict::RULE,
     &modal::distance_mode_not_stated::RULE,
+    &modal::feed_before_units::RULE,
     &modal::incremental_into_subprogram::RULE,
     &modal::incremental_left_on::RULE,
     &modal::maybe_incremental_left_on::RULE,
@@ -549,6 +572,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::maybe_feed_missing::RULE,
     &motion::maybe_feed_of_another_mode::RULE,
     &motion::motion_without_axis_words::RULE,
+    &motion::output_without_move::RULE,
     &motion::plunge_goes_nowhere::RULE,
     &motion::probe_move_refused::RULE,
     &motion::probe_without_feed::RULE,
@@ -604,6 +628,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &program::wrong_control_suspicion::RULE,
     &spindle::maybe_spindle_stopped_while_cutting::RULE,
     &spindle::speed_missing::RULE,
+    &spindle::spindle_left_on::RULE,
     &spindle::spindle_stopped_while_cutting::RULE,
     &spindle::surface_speed_without_limit::RULE,
     &spindle::tap_in_wrong_direction::RULE,
@@ -664,6 +689,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,
+    &tool::offset_words_beside_motion::RULE,
     &tool::tool_call_in_comment::RULE,
     &tool::tool_called_not_changed::RULE,
     &tool::tool_change_at_part::RULE,
@@ -690,8 +716,10 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &words::sign_not_accepted::RULE,
     &words::too_many_digits::RULE,
     &words::undeclared_m_code::RULE,
+    &words::undefined_code::RULE,
     &words::unknown_address::RULE,
     &words::unknown_code::RULE,
+    &words::unwanted_word::RULE,
     &words::word_choice_missing::RULE,
     &words::word_forbidden::RULE,
     &words::word_given_twice::RULE,

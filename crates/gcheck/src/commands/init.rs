@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::args::Global;
 use crate::config::{Configs, FILE_NAMES, validate_control};
-use crate::{Problem, discovery, output, reading};
+use crate::{Problem, control_choice, discovery, output, reading};
 
 /// Programs that are looked at to find the control of the folder, at most.
 const LOOKED_AT: usize = 200;

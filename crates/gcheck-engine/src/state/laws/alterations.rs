@@ -122,6 +122,7 @@ fn tool_feed_and_spindle() -> Vec<(&'static str, Alter)> {
         ("speed override", |s| s.spindle.overridable = Truth::False),
         ("mist", |s| s.coolant.mist = Truth::True),
         ("flood", |s| s.coolant.flood = Truth::True),
+        ("through", |s| s.coolant.through = Truth::True),
     ]
 }
 

@@ -63,7 +63,8 @@ impl PathRule for CompensationOffsetMissing {
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
-        if !std::mem::take(&mut self.has_begun) || Abstract::known(cx.state().d()) != Some(0.0) {
+        let is_loaded = cx.model.semantics().tools.zero_is_loaded;
+        if !std::mem::take(&mut self.has_begun) || is_loaded || Abstract::known(cx.state().d()) != Some(0.0) {
             return;
         }
         let Some(code) = cx.state().mode(Role::Compensation).only() else { return };

@@ -107,7 +107,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         });
     }
 
-    fn finish(&mut self, _: &FinishCx<'_>, report: &mut Report<'_>) {
+    fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
         for (finding, scheme) in self.pairs.take_odd('D', false) {
             let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
             report.add(
@@ -117,6 +117,15 @@ impl PathRule for DiameterOffsetOfAnotherTool {
                     .help(format!("use `D{}`, or say why not in a suppression", scheme.expected)),
             );
         }
+        if cx.model.semantics().tools.offsets_of_tools && cx.model.semantics().tools.radius_from_tool {
+            for (finding, tool) in self.pairs.take_strangers() {
+                report.add(
+                    finding
+                        .label("that is the number of another tool")
+                        .help(format!("use `D{tool}`, or leave `D` out for the tool in the spindle")),
+                );
+            }
+        }
         // If lengths follow the tools' numbers, sizes are assumed to do so too.
         if self.lengths.len() < 2 || self.lengths.iter().any(|(tool, length)| tool != length) {
             return;
@@ -125,7 +134,7 @@ impl PathRule for DiameterOffsetOfAnotherTool {
         for (finding, tool, owner) in self.pairs.take_named_after('D', &tools) {
             report.add(
                 finding
-                    .label(format!("that is that is the number of tool {owner}"))
+                    .label(format!("that is the number of tool {owner}"))
                     .note("the tools of the program have the length offset of their own number (H = T)")
                     .help(format!("use `D{tool}`, or say why not in a suppression")),
             );

@@ -1,5 +1,6 @@
 //! A program that always ends with an alarm of its own.
 
+use gcheck_controls::MessageComment;
 use gcheck_engine::{Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
@@ -85,13 +86,23 @@ impl PathRule for AlarmReached {
         if cx.survey.is_called_from_elsewhere() && !in_macro {
             return;
         }
-        let message = "the program always ends with its own alarm (`#3000`)";
+        let text = text_of(cx);
+        let abort = text.as_deref().and_then(|text| abort_of(cx, text));
+        let (message, label) = match (abort, text) {
+            (Some((word, text)), _) => {
+                (format!("the program always stops at its own `({word}, …)`"), format!("stops with: {text}"))
+            }
+            (None, text) => (
+                "the program always ends with its own alarm (`#3000`)".to_owned(),
+                match text {
+                    Some(text) => format!("raises alarm {number}: {text}"),
+                    None => format!("raises alarm {number}"),
+                },
+            ),
+        };
         let mut finding = cx
             .finding(&META, cx.range(), message)
-            .label(match text_of(cx) {
-                Some(text) => format!("raises alarm {number}: {text}"),
-                None => format!("raises alarm {number}"),
-            })
+            .label(label)
             .note("with the values that the program sets, every path comes here")
             .help("give the macro the arguments that it needs, or correct the condition of the alarm");
         if reads_start_state(cx.program, cx.model, cx.environment) {
@@ -101,6 +112,15 @@ impl PathRule for AlarmReached {
         }
         report.add(finding);
     }
+}
+
+/// The word and the text of a comment that stops the program.
+fn abort_of(cx: &PathCx<'_>, comment: &str) -> Option<(String, String)> {
+    let (word, text) = comment.split_once(',')?;
+    let mut comments = cx.model.semantics().message_comments.iter();
+    let (name, _) = comments
+        .find(|(name, kind)| **kind == MessageComment::Abort && word.trim().eq_ignore_ascii_case(name))?;
+    Some((name.clone(), text.trim().to_owned()))
 }
 
 /// The comment of the block, which the control shows with the alarm.

@@ -95,6 +95,7 @@ fn waits_for_somebody(cx: &PathCx<'_>, head: At, turn: At) -> bool {
                 | Effect::PalletStop
                 | Effect::BarFeed
                 | Effect::WaitForInput
+                | Effect::AskOperator
                 | Effect::ProbeToward
                 | Effect::ProbeTowardOptional
                 | Effect::ProbeAway

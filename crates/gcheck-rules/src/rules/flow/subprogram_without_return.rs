@@ -69,8 +69,22 @@ impl PathRule for SubprogramWithoutReturn {
 fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
     let Some(frame) = cx.state().frames().last() else { return };
     if frame.entry.file != 0
-        || !matches!(frame.kind, FrameKind::Subprogram | FrameKind::Local | FrameKind::Macro)
+        || !matches!(
+            frame.kind,
+            FrameKind::Subprogram | FrameKind::Local | FrameKind::Macro | FrameKind::OWord
+        )
     {
+        return;
+    }
+    if frame.kind == FrameKind::OWord {
+        // Its text has an end of its own, which a condition may leave to another way.
+        if !at_end_of_text && cx.is_on_every_path() {
+            let finding = cx
+                .finding(&META, cx.range(), "called subroutine ends the whole job")
+                .label("ends here, and does not return to its caller")
+                .help("end the program after the call, or return before this block");
+            report.add(finding);
+        }
         return;
     }
     let Some(entry) = cx.range_of(frame.entry) else { return };

@@ -6,7 +6,7 @@ use gcheck_engine::takes_arguments;
 use gcheck_program::{BlockFlags, Function, Op};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// An expression calls a function that is not among those of the control, or gives it another number of arguments.
@@ -35,7 +35,7 @@ declare_rule! {
     /// ```
     rule "function-unknown" in "macros" {
         summary: "function that the control does not have in this form",
-        severity: Warning,
+        severity: Error,
         tier: Block,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
@@ -82,10 +82,13 @@ fn other_count(cx: &BlockCx<'_>, within: Range<u32>, function: Function, count: 
     } else {
         "give the function the arguments that it takes"
     };
+    let semantics = cx.control().semantics();
+    let sure = if semantics.strict { limit(semantics.confidence) } else { Severity::Warning };
     Finding::new(&META, cx.in_file(place), format!("function `{name}` with {count} {arguments}"))
         .label("the control refuses this number of arguments")
         .note("the number of arguments of a function differs from control to control")
         .help(help)
+        .at_most(sure)
 }
 
 fn finding(cx: &BlockCx<'_>, within: Range<u32>, function: Function) -> Finding {
@@ -96,6 +99,7 @@ fn finding(cx: &BlockCx<'_>, within: Range<u32>, function: Function) -> Finding 
         .label("no such function")
         .note(format!("known functions: {}", known.join(", ")))
         .help("compute the value with the functions that this control has")
+        .at_most(Severity::Warning)
 }
 
 #[cfg(test)]

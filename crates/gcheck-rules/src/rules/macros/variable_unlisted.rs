@@ -6,7 +6,7 @@ use gcheck_controls::{Confidence, Control, Variable, VariableEntry};
 use gcheck_program::{BlockFlags, Function, Op, StatementKind, Target};
 
 use crate::declare::declare_rule;
-use crate::{BlockCx, Finding, Report, Run};
+use crate::{BlockCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A variable is between or above the ranges that the control is known to have.
@@ -30,7 +30,7 @@ declare_rule! {
     /// ```
     rule "variable-unlisted" in "macros" {
         summary: "variable that the control does not have",
-        severity: Warning,
+        severity: Error,
         tier: Block,
         since: "0.1.0",
         run: Run::Block { trigger: BlockFlags::STATEMENT.union(BlockFlags::EXPRESSION), check },
@@ -105,6 +105,11 @@ fn finding(
         Finding::new(&META, cx.in_file(place), format!("variable `{name}` does not exist on this control"))
             .label("no such variable")
             .help("use a variable of another range");
+    // A control with a last number refuses every variable beyond it, and the variable of number zero.
+    let semantics = cx.control().semantics();
+    let is_beyond = |last: u32| number == 0 || number > last;
+    let is_refused = semantics.strict && semantics.refusals.last_variable.is_some_and(is_beyond);
+    finding = finding.at_most(if is_refused { limit(semantics.confidence) } else { Severity::Warning });
     for note in below.into_iter().chain(above).filter_map(describe) {
         finding = finding.note(note);
     }
@@ -141,9 +146,9 @@ mod tests {
             "#5602=1\n#0=2\n",
             &expect![[r#"
                 1 | #5602=1
-                  | ^^^^^ warning[variable-unlisted] variable `#5602` does not exist on this control
+                  | ^^^^^ error[variable-unlisted] variable `#5602` does not exist on this control
                 2 | #0=2
-                  | ^^ warning[variable-unlisted] variable `#0` does not exist on this control
+                  | ^^ error[variable-unlisted] variable `#0` does not exist on this control
             "#]],
         );
         check_rule(&RULE, "fanuc-mill", "#98000=1\n", &expect![[""]]);

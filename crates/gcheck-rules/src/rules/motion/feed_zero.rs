@@ -2,11 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use gcheck_engine::{At, Fault};
+use gcheck_engine::{At, Event, Fault, FeedMode};
 
 use crate::declare::declare_rule;
 use crate::facts::feed::zero_feed_given;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -38,7 +38,7 @@ declare_rule! {
         severity: Error,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::FAULTS, make: || Box::new(FeedZero::default()) },
+        run: Run::Path { watch: Watch::FAULTS.union(Watch::CUTS), make: || Box::new(FeedZero::default()) },
     }
 }
 
@@ -53,6 +53,23 @@ remembers!(FeedZero: told);
 impl PathRule for FeedZero {
     fn memory(&mut self) -> Remembers<'_> {
         Remembers::All(self)
+    }
+
+    fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
+        // A control with a slowest move of inverse time makes that of a feed of zero.
+        let takes_zero = cx.model.semantics().least_inverse_feed > 0.0
+            && cx.state().feed_mode(cx.model) == Some(FeedMode::InverseTime);
+        if !takes_zero || cx.known_number('F') != Some(0.0) {
+            return;
+        }
+        if self.told.insert(cx.origin().at) {
+            report.add(
+                cx.finding(&META, cx.letter_range('F'), "inverse time feed of zero (`F`)")
+                    .label("the control takes its slowest feed: the move lasts minutes")
+                    .help("give a feed above zero")
+                    .at_most(Severity::Warning),
+            );
+        }
     }
 
     fn fault(&mut self, cx: &PathCx<'_>, fault: &Fault, report: &mut Report<'_>) {
@@ -94,6 +111,19 @@ mod tests {
                   |        ^^^ error[feed-zero] cut at a feed of zero (`F`)
                 7 | G1 X5.
                   | ^^^^^^ error[feed-zero] cut at a feed of zero (`F`)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_slowest_move_of_inverse_time() {
+        check_rule(
+            &RULE,
+            "linuxcnc",
+            "G21 G90 G93\nG1 X1 F0\nG1 X2 F2\nM2\n",
+            &expect![[r#"
+                2 | G1 X1 F0
+                  |       ^^ warning[feed-zero] inverse time feed of zero (`F`)
             "#]],
         );
     }

@@ -1,15 +1,16 @@
 //! A job with tools and lengths, and without a work offset.
 
+use gcheck_controls::Effect;
 use gcheck_engine::Event;
 
 use crate::declare::declare_rule;
-use crate::facts::work_offset::{never_chooses_work_offset, unchosen_work_offset};
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::facts::work_offset::{chooses_work_offset, never_chooses_work_offset, unchosen_work_offset};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 use crate::{Remembers, remembers};
 
 declare_rule! {
     /// After a tool change a tool cuts with its length offset, and the program never chooses a work offset (`G54` and
-    /// the like).
+    /// the like). Before tool centre point control (`G234`) or a dynamic work offset (`G254`) that is a warning: they need one.
     ///
     /// `work-offset-not-chosen` covers programs without tables of offsets, such as those of one tool that is zeroed by
     /// hand, and controls on which each end of program is known to restore the first work offset.
@@ -38,10 +39,10 @@ declare_rule! {
     /// ```
     rule "work-offset-never-chosen" in "offsets" {
         summary: "no work offset in a job with tools and lengths",
-        severity: Info,
+        severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::CUTS, make: || Box::new(WorkOffsetNeverChosen { is_done: false }) },
+        run: Run::Path { watch: Watch::CUTS.union(Watch::BLOCKS), make: || Box::new(WorkOffsetNeverChosen { is_done: false }) },
     }
 }
 
@@ -58,6 +59,27 @@ impl PathRule for WorkOffsetNeverChosen {
         Remembers::All(self)
     }
 
+    fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        let needs_offset =
+            |effect: Effect| matches!(effect, Effect::ToolCentrePoint | Effect::DynamicOffsetOn);
+        if self.is_done || !cx.has_effect(needs_offset) || cx.is_called_only() {
+            return;
+        }
+        let Some(name) = unchosen_work_offset(cx).filter(|_| !cx.file_uses(chooses_work_offset)) else {
+            return;
+        };
+        self.is_done = true;
+        report.add(
+            cx.finding(
+                &META,
+                cx.effect_range(needs_offset),
+                format!("the program does not choose a work offset (`{name}`)"),
+            )
+            .label("needs a work offset in effect")
+            .help(format!("choose the work offset at the head of the program: `{name}`")),
+        );
+    }
+
     fn cut(&mut self, cx: &PathCx<'_>, _: &Event, report: &mut Report<'_>) {
         if std::mem::replace(&mut self.is_done, true) || cx.is_called_only() {
             return;
@@ -66,7 +88,8 @@ impl PathRule for WorkOffsetNeverChosen {
         report.add(
             cx.finding(&META, cx.range(), format!("the program does not choose a work offset (`{name}`)"))
                 .label("the first cut: the last program or the operator decides where the part is")
-                .help(format!("choose the work offset at the head of the program: `{name}`")),
+                .help(format!("choose the work offset at the head of the program: `{name}`"))
+                .at_most(Severity::Info),
         );
     }
 }

@@ -8,7 +8,7 @@ use crate::facts::cutting::{is_cut, starts_spindle};
 use crate::facts::cycles::cycle_code;
 use crate::facts::feed::goes_by_feed;
 use crate::facts::probing::is_near;
-use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch};
+use crate::{Finding, PathCx, PathRule, Report, Run, Severity, Watch, limit};
 use crate::{Remembers, remembers};
 
 declare_rule! {
@@ -61,7 +61,7 @@ declare_rule! {
     /// ```
     rule "spindle-stopped-while-cutting" in "spindle" {
         summary: "cut while the spindle is stopped",
-        severity: Warning,
+        severity: Error,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -112,7 +112,7 @@ impl PathRule for SpindleStoppedWhileCutting {
             .label("the control refuses the cycle")
             .note(format!("`{name}` ({}) needs a spindle that turns  [{}]", entry.title, entry.source))
             .help("start the spindle with `S` and `M3` or `M4` before this block");
-        report.add(since(cx, finding, stopped_by));
+        report.add(refused(cx, since(cx, finding, stopped_by)));
     }
 
     fn changed(&mut self, cx: &PathCx<'_>, event: &Event, _: &mut Report<'_>) {
@@ -136,18 +136,16 @@ impl PathRule for SpindleStoppedWhileCutting {
         // A strict control refuses the block, which is reported as a fault.
         let is_refused =
             by_turns && cx.model.semantics().strict && Abstract::known(cx.state().speed()) == Some(0.0);
-        if !stands
-            || is_refused
-            || self.is_oriented
-            || !needs_turns && !is_cut(cx, event)
-            || cx.is_called_only()
-        {
+        if !stands || is_refused || !needs_turns && !is_cut(cx, event) || cx.is_called_only() {
             return;
         }
         let stopped_by = cx.trace().set_by(Fact::Spindle);
         let is_ever_started = cx.file_uses(starts_spindle);
-        // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen.
-        if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() {
+        // Neither start nor speed anywhere: a spindle that is switched by hand, or no spindle: a laser, a knife, a pen. The
+        // length of a tool is that of a mill; the strict controls are those of machines that people build themselves, with
+        // a switch for the spindle.
+        let has_length = !cx.model.semantics().strict && cx.file_uses(|effect| effect == Effect::LengthPlus);
+        if !is_ever_started && !needs_turns && cx.trace().set_by(Fact::Speed).is_none() && !has_length {
             return;
         }
         if self.told.contains(&stopped_by) || !is_ever_started && !self.told.is_empty() {
@@ -164,6 +162,9 @@ impl PathRule for SpindleStoppedWhileCutting {
             return;
         }
         let message = match (stopped_by, needs_turns) {
+            (Some(at), false) if self.is_oriented => {
+                format!("cut with the spindle held at an angle (`{}`)", stop_code(cx, at))
+            }
             (Some(at), false) => format!("cut after the spindle was stopped (`{}`)", stop_code(cx, at)),
             (None, false) => "cut, and the spindle was not started (no `M3`)".to_owned(),
             (Some(at), true) => {
@@ -180,10 +181,12 @@ impl PathRule for SpindleStoppedWhileCutting {
             })
             .help(
                 "start the spindle with `S` and `M3` or `M4`; probing, engraving and drag knives are exceptions to suppress",
-            );
+            )
+            .at_most(Severity::Warning);
         // `S` may be a laser's power if no tool is changed.
-        let is_mill = is_ever_started || cx.file_uses(|effect| effect == Effect::ToolChange);
-        if !is_mill || cx.file_uses(probes) {
+        let is_mill = is_ever_started || has_length || cx.file_uses(|effect| effect == Effect::ToolChange);
+        // Held at an angle, a tool may broach.
+        if !is_mill || self.is_oriented || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
@@ -201,8 +204,14 @@ impl PathRule for SpindleStoppedWhileCutting {
             .label("waits for the spindle, which does not turn")
             .note("this control refuses the block")
             .help("start the spindle with `S` and `M3` or `M4` before this block");
-        report.add(since(cx, finding, cx.trace().set_by(Fact::Spindle)));
+        report.add(refused(cx, since(cx, finding, cx.trace().set_by(Fact::Spindle))));
     }
+}
+
+/// The control refuses the block: an error where the program itself stopped the spindle, on every path.
+fn refused(cx: &PathCx<'_>, finding: Finding) -> Finding {
+    let is_sure = cx.trace().set_by(Fact::Spindle).is_some() && cx.is_on_every_path();
+    finding.at_most(if is_sure { limit(cx.model.semantics().confidence) } else { Severity::Warning })
 }
 
 /// Adds the place where the spindle was stopped.
@@ -218,7 +227,16 @@ fn since(cx: &PathCx<'_>, finding: Finding, stopped_by: Option<At>) -> Finding {
 }
 
 fn stops(effect: Effect) -> bool {
-    matches!(effect, Effect::SpindleStop | Effect::ToolChange | Effect::SpindleOrient | Effect::BarFeed)
+    matches!(
+        effect,
+        Effect::SpindleStop
+            | Effect::ToolChange
+            | Effect::SpindleOrient
+            | Effect::BarFeed
+            | Effect::Stop
+            | Effect::OptionalStop
+            | Effect::ThroughCoolantOff
+    )
 }
 
 /// The code that stopped the spindle, as programs write it.
@@ -363,8 +381,16 @@ mod tests {
     }
 
     #[test]
-    fn a_spindle_that_stands_at_an_angle_is_meant_to() {
-        check_rule(&RULE, "haas-mill", "S100 M3\nG1 X1. F5.\nM19\nG1 X2.\nM30\n", &expect![[""]]);
+    fn a_spindle_that_is_held_at_an_angle_may_broach() {
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "S100 M3\nG1 X1. F5.\nM19\nG1 X2.\nM30\n",
+            &expect![[r#"
+                4 | G1 X2.
+                  | ^^^^^^ info[spindle-stopped-while-cutting] cut with the spindle held at an angle (`M19`)
+            "#]],
+        );
     }
 
     #[test]

@@ -98,7 +98,7 @@ mod tests {
             1 | (T2 (LONG) 8.5 MM) G0 X1.
               |     ^^^^^^ error[nested-comment] parenthesis inside a comment
             2 | (A (B)
-              |    ^^^ warning[nested-comment] parenthesis inside a comment
+              |    ^^^ info[nested-comment] parenthesis inside a comment
         "#]],
         );
     }

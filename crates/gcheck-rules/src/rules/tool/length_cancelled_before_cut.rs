@@ -41,13 +41,25 @@ declare_rule! {
     /// G1 Z-0.1
     /// M30
     /// ```
+    /// A rapid move to a height of the part takes the spindle nose there as well.
+    /// ```nc,reported,linuxcnc
+    /// G21 G90 G54
+    /// T1 M6
+    /// S1000 M3
+    /// G0 X0 Y0
+    /// G43 H1 Z5
+    /// G1 Z-5 F100
+    /// G49
+    /// G0 Z5
+    /// M2
+    /// ```
     rule "length-cancelled-before-cut" in "tool" {
         summary: "tool cuts after its length was cancelled",
         severity: Warning,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS,
+            watch: Watch::CUTS.union(Watch::RAPIDS),
             make: || Box::new(LengthCancelledBeforeCut { worked: None, told: None }),
         },
     }
@@ -70,6 +82,41 @@ impl PathRule for LengthCancelledBeforeCut {
 
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(|effect| matches!(effect, Effect::LengthPlus | Effect::LengthMinus))
+    }
+
+    fn rapid(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        let (fact, changed) = (Fact::Mode(Role::Length), cx.trace().set_by(Fact::Tool));
+        let is_off = cx.state().effect(Role::Length, cx.model) == Some(Effect::LengthOff);
+        if cx.model.semantics().tools.offset_in_t || !is_off || changed.is_none() || self.worked != changed {
+            return;
+        }
+        let (Event::Travel(travel), Some(cancelled)) = (event, cx.trace().set_by(fact)) else { return };
+        let goes_elsewhere = cx.has_effect(|effect| {
+            matches!(
+                effect,
+                Effect::MachineCoordinates | Effect::ReturnReference(_) | Effect::ReturnFromReference
+            )
+        });
+        let is_absolute = cx.state().is_incremental(cx.model) == Some(false);
+        let is_near = travel.to.raw(Axis::Z) < NEAR_THE_PART;
+        if goes_elsewhere || !is_absolute || !is_near || self.told == Some(cancelled) {
+            return;
+        }
+        if !cx.origin().letters.contains(Letter::of('Z')) {
+            return;
+        }
+        self.told = Some(cancelled);
+        let off = cx.code_name(Role::Length).unwrap_or_default();
+        let machine = cx.name_of_effect(Effect::MachineCoordinates).unwrap_or_default();
+        let finding = cx
+            .finding(
+                &META,
+                cx.letter_range('Z'),
+                format!("the tool goes to a height of the part after its length was cancelled (`{off}`)"),
+            )
+            .label("moves the spindle nose to this Z: the tool is deeper by its length")
+            .help(format!("go up before `{off}`, or in machine coordinates (`{machine}`)"));
+        report.add(cx.resting_on(finding, fact, &format!("`{off}`")));
     }
 
     fn cut(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
@@ -109,6 +156,9 @@ impl PathRule for LengthCancelledBeforeCut {
         }
     }
 }
+
+/// Above the zero of the part, in millimetres: less than a tool is long with its holder.
+const NEAR_THE_PART: f64 = 50.0;
 
 /// A feed move to below the zero of the part: after a cancelled length the tool's start is unknown.
 fn goes_into_the_part(event: &Event) -> bool {

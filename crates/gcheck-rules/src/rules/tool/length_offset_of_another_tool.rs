@@ -48,14 +48,21 @@ declare_rule! {
     /// G1 Z-1.
     /// M30
     /// ```
+    /// With one tool, the number of another one is reported where the control's manual asks for the tool's own.
+    /// ```nc,reported,linuxcnc
+    /// T1 M6
+    /// G43 H2
+    /// G1 Z0 F50
+    /// M2
+    /// ```
     rule "length-offset-of-another-tool" in "tool" {
         summary: "length offset of another tool",
-        severity: Warning,
+        severity: Error,
         tier: Path,
         fixable: OnRequest,
         since: "0.1.0",
         run: Run::Path {
-            watch: Watch::CUTS.union(Watch::FINISH),
+            watch: Watch::CUTS.union(Watch::CHANGES).union(Watch::FINISH),
             make: || Box::new(LengthOffsetOfAnotherTool { pairs: Pairs::new() }),
         },
     }
@@ -114,10 +121,16 @@ impl PathRule for LengthOffsetOfAnotherTool {
         });
     }
 
+    fn changed(&mut self, cx: &PathCx<'_>, event: &Event, report: &mut Report<'_>) {
+        if matches!(event, Event::LengthOffset(_)) {
+            tell_disagreement(cx, report);
+        }
+    }
+
     fn finish(&mut self, cx: &FinishCx<'_>, report: &mut Report<'_>) {
         let by_t = cx.model.semantics().tools.offset_in_t;
         for (finding, scheme) in self.pairs.take_odd('H', !by_t) {
-            let finding = if scheme.is_unsure { finding.at_most(Severity::Info) } else { finding };
+            let finding = finding.at_most(if scheme.is_unsure { Severity::Info } else { Severity::Warning });
             report.add(
                 finding
                     .label(scheme.label("length offset"))
@@ -125,16 +138,49 @@ impl PathRule for LengthOffsetOfAnotherTool {
                     .help(format!("use offset {}, or say why not in a suppression", scheme.expected)),
             );
         }
-        let strangers = if by_t { self.pairs.take_strangers() } else { Vec::new() };
+        let of_tools = cx.model.semantics().tools.offsets_of_tools;
+        let strangers = if by_t || of_tools { self.pairs.take_strangers() } else { Vec::new() };
         for (finding, tool) in strangers {
+            let (owner, most) = if by_t { ("station", Severity::Info) } else { ("tool", Severity::Warning) };
             report.add(
                 finding
-                    .label("that is that is the number of another station")
+                    .label(format!("that is the number of another {owner}"))
                     .help(format!("use offset {tool}, or say why not in a suppression"))
-                    .at_most(Severity::Info),
+                    .at_most(most),
             );
         }
     }
+}
+
+/// A setting may demand that the length is that of the tool in the spindle.
+fn tell_disagreement(cx: &PathCx<'_>, report: &mut Report<'_>) {
+    let Some(agreement) = &cx.model.semantics().length_agreement else { return };
+    let is_on = cx.environment.setting(&agreement.setting).is_some_and(|(value, _)| is_on(value));
+    let (tool, offset) = (Abstract::known(cx.state().tool()), Abstract::known(cx.state().h()));
+    let (Some(tool), Some(offset)) = (tool.and_then(whole), offset.and_then(whole)) else { return };
+    if !is_on || offset == 0 || offset == tool || !cx.is_on_every_path() {
+        return;
+    }
+    let message = format!("tool {tool} takes length offset {offset} (`H{offset}`, `T{tool}`)");
+    let range = cx.word_range(|word| word.letter.ascii() == b'H');
+    let most = if cx.environment.control_is_guessed { Severity::Warning } else { Severity::Error };
+    report.add(
+        cx.finding(&META, range, message)
+            .alarm(Some(agreement.alarm.clone()))
+            .label("the control stops here")
+            .note(format!(
+                "with setting {} on, `H` must be the number of the tool in the spindle, or 0  [{}]",
+                agreement.setting,
+                cx.model.semantics().source
+            ))
+            .help(format!("use `H{tool}`"))
+            .at_most(most),
+    );
+}
+
+/// Is the value of a switch the one that turns it on?
+fn is_on(value: &str) -> bool {
+    matches!(value, "on" | "true")
 }
 
 #[cfg(test)]

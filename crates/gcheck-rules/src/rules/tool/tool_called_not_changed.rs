@@ -89,6 +89,10 @@ impl PathRule for ToolCalledNotChanged {
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
+        if cx.has_effect(|effect| effect == Effect::TurnCarousel) {
+            // `T` names a place in the changer.
+            self.called = None;
+        }
         if boundary(cx) == Some(Boundary::ProgramEnd) {
             self.end(cx, report);
         }
@@ -110,7 +114,8 @@ impl PathRule for ToolCalledNotChanged {
                     report.add(finding.also(cx.letter_range('T'), format!("tool {tool} is called here")));
                 }
                 self.called = None;
-                let is_changed_here = cx.has_effect(|effect| effect == Effect::ToolChange);
+                let is_changed_here =
+                    cx.has_effect(|effect| matches!(effect, Effect::ToolChange | Effect::TurnCarousel));
                 if *tool > 0 && !is_changed_here && cx.is_on_every_path() {
                     let range = cx.letter_range('T');
                     let finding = cx

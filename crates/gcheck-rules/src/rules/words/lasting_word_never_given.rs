@@ -1,18 +1,18 @@
 //! A code that relies on a word that no earlier block gives.
 
-use gcheck_controls::{Code, Letter};
+use gcheck_controls::{Code, LastingEnd, Letter};
 use gcheck_program::NeverGiven;
 
 use crate::declare::declare_rule;
 use crate::facts::usage::may_be_called;
-use crate::{FileCx, Finding, Report, Run};
+use crate::{FileCx, Finding, Report, Run, Severity, limit};
 
 declare_rule! {
     /// A code needs a word that may be in an earlier block, and no earlier block has the word.
     ///
     /// ## Why it matters
     /// The control uses whatever the last program left: another tool's length, another hole's peck. After power-on it
-    /// stops with an alarm.
+    /// stops with an alarm. A control that forgets the word at the end of a program always stops (error).
     ///
     /// ## Reported
     /// ```nc,reported,haas-mill
@@ -37,7 +37,7 @@ declare_rule! {
     /// ```
     rule "lasting-word-never-given" in "words" {
         summary: "code relies on a word that no earlier block gives",
-        severity: Warning,
+        severity: Error,
         tier: Program,
         since: "0.1.0",
         run: Run::Program { check },
@@ -69,14 +69,24 @@ fn finding(cx: &FileCx<'_>, missing: &NeverGiven, code: Code<'_>) -> Finding {
     let word = entry.words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
     let is = word.map_or("", |word| word.is.as_str());
     let written = cx.slice(missing.range.clone());
-    Finding::new(
+    // Where the end of every program forgets the word, nothing from before this one can give it.
+    let row = cx.control().lasting_in(letter, &entry.group);
+    let is_refused =
+        cx.control().semantics().strict && row.is_some_and(|row| row.until.contains(&LastingEnd::ProgramEnd));
+    let finding = Finding::new(
         &META,
         missing.range.clone(),
         format!("`{written}` without `{letter}`, which no earlier block gives"),
     )
-    .label(format!("takes {is} from before the program"))
+    .label(if is_refused { format!("needs {is}") } else { format!("takes {is} from before the program") })
     .note(format!("`{}` ({}) uses the last `{letter}`  [{}]", entry.code, entry.title, entry.source))
-    .help(format!("add `{letter}` to the block"))
+    .help(format!("add `{letter}` to the block"));
+    if is_refused {
+        let confidence = word.and_then(|word| word.confidence).unwrap_or(entry.confidence);
+        finding.at_most(limit(confidence))
+    } else {
+        finding.at_most(Severity::Warning)
+    }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A word that a block needs, and that neither the block nor an earlier one gives.
 
 use gcheck_controls::{Code, Letter, LetterSet, Need, WordKind};
-use gcheck_engine::{Fault, FrameKind};
+use gcheck_engine::{Fault, FrameKind, Role};
 
 use crate::declare::declare_rule;
 use crate::facts::word_sets::letters_of;
@@ -49,19 +49,17 @@ impl PathRule for NeededWordMissing {
             return;
         }
         let codes = cx.codes();
-        let Some(code) = codes
-            .iter()
-            .filter_map(|ix| cx.control().code_at(*ix))
-            .find(|code| code.reads().contains(letter))
-        else {
-            return;
-        };
+        let own = codes.iter().filter_map(|ix| cx.control().code_at(*ix));
+        // A block without a code goes on with the motion in effect.
+        let active = cx.state().mode(Role::Motion).only().filter(|_| codes.is_empty());
+        let mut candidates = own.chain(active.and_then(|ix| cx.control().code_at(ix)));
+        let Some(code) = candidates.find(|code| code.reads().contains(letter)) else { return };
         if is_told_by_text(code, letter, cx.origin().letters) {
             return;
         }
         let entry = code.entry();
         let word = entry.words.iter().find(|word| Letter::parse(&word.letter) == Some(letter));
-        let Some(word) = word else { return };
+        let Some(word) = word.filter(|word| !codes.is_empty() || word.need != Need::Optional) else { return };
         if word.kind == WordKind::Program && has_comment(cx) {
             return;
         }

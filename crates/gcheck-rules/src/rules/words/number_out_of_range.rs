@@ -1,6 +1,6 @@
 //! A value outside the range of its word.
 
-use gcheck_controls::{Code, WordEntry, WordKind};
+use gcheck_controls::{Code, Letter, WordEntry, WordKind};
 use gcheck_program::{BlockFlags, Word};
 
 use crate::declare::declare_rule;
@@ -36,10 +36,16 @@ declare_rule! {
 }
 
 fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
-    let is_bound =
-        |w: &WordEntry| w.min.is_some() || w.max.is_some() || w.above.is_some() || is_count(w.kind);
+    let is_bound = |w: &WordEntry| {
+        w.min.is_some() || w.max.is_some() || w.above.is_some() || !w.gaps.is_empty() || is_count(w.kind)
+    };
     let has_bounds = |code: Code<'_>| code.entry().words.iter().any(is_bound);
-    if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE) && !cx.codes().any(|(_, code)| has_bounds(code)) {
+    let has_gap = |word: &Word| cx.control().letter(word.letter).is_some_and(|entry| !entry.gaps.is_empty());
+    let may_be_in_gap = cx.words().iter().any(|word| has_gap(word) || word.letter == Letter::DOLLAR);
+    if !cx.block().flags.contains(BlockFlags::OUT_OF_RANGE)
+        && !may_be_in_gap
+        && !cx.codes().any(|(_, code)| has_bounds(code))
+    {
         return;
     }
     // Where a block has a point on a whole number, another rule reports every such word.
@@ -57,9 +63,13 @@ fn check(cx: &BlockCx<'_>, report: &mut Report<'_>) {
         let is_sign = word.shape.minus && !facts.negative;
         if (low || high) && !is_sign && facts.kind != WordKind::Flag && cx.words_are_plain() {
             report.add(finding(cx, word, &facts, high));
+        } else if is_no_spindle(cx, word.letter, value) && cx.words_are_plain() {
+            report.add(no_spindle(cx, word, &facts));
+        } else if is_in_gap(value, &facts) && !is_sign && cx.words_are_plain() {
+            report.add(in_gap(cx, word, &facts));
         } else if is_count(facts.kind) && value.fract() != 0.0 {
             if !told && cx.words_are_plain() && has_meaning(cx, word, &facts) {
-                report.add(fraction(cx, word, &facts));
+                report.add(fraction(cx, word, &facts, value));
             }
         } else if !facts.values.is_empty() && !is_among(value, &facts) && !is_sign && cx.words_are_plain() {
             report.add(unlisted(cx, word, &facts));
@@ -77,7 +87,10 @@ fn is_count(kind: WordKind) -> bool {
     matches!(kind, WordKind::Integer | WordKind::Program | WordKind::Label)
 }
 
-fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+/// Decimals that controls leave away where a number counts.
+const NEARLY_WHOLE: f64 = 1e-4;
+
+fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>, value: f64) -> Finding {
     let text = cx.text(word);
     let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
     let finding = Finding::new(&META, cx.range(word), format!("value is not a whole number{of}: `{text}`"))
@@ -86,7 +99,41 @@ fn fraction(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
         .help("correct the value")
         .at_most(limit(facts.confidence));
     // A control may round a count; the number of a program it cannot.
-    if facts.kind == WordKind::Program { finding } else { finding.at_most(Severity::Warning) }
+    let is_refused = facts.whole && (value - value.round()).abs() > NEARLY_WHOLE;
+    if facts.kind == WordKind::Program || is_refused { finding } else { finding.at_most(Severity::Warning) }
+}
+
+/// Does the word name a spindle that a machine has only when its configuration says so?
+fn is_no_spindle(cx: &BlockCx<'_>, letter: Letter, value: f64) -> bool {
+    let spindles = cx.control().semantics().refusals.spindles;
+    letter == Letter::DOLLAR && spindles.is_some_and(|spindles| value >= f64::from(spindles))
+}
+
+fn no_spindle(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    let text = cx.text(word);
+    Finding::new(&META, cx.range(word), format!("the machine has no such spindle: `{text}`"))
+        .label(facts.is)
+        .note(format!(
+            "without a configuration that gives it more, a machine has spindle 0 alone  [{}]",
+            facts.source
+        ))
+        .help("give the number of a spindle that the machine has")
+        .at_most(Severity::Warning)
+}
+
+/// Is it between the bounds, where the word has no meaning?
+fn is_in_gap(value: f64, facts: &WordFacts<'_>) -> bool {
+    facts.gaps.iter().any(|[first, last]| (*first..=*last).contains(&value))
+}
+
+fn in_gap(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
+    let of = facts.code.map(|code| format!(" for `{}`", cx.written(code))).unwrap_or_default();
+    let gaps: Vec<String> = facts.gaps.iter().map(|[first, last]| format!("{first} to {last}")).collect();
+    Finding::new(&META, cx.range(word), format!("value names nothing{of}: `{}`", cx.text(word)))
+        .label(facts.is)
+        .note(format!("`{}`{of} cannot be {}  [{}]", word.letter, gaps.join(", "), facts.source))
+        .help("correct the value")
+        .at_most(limit(facts.range_confidence))
 }
 
 fn unlisted(cx: &BlockCx<'_>, word: &Word, facts: &WordFacts<'_>) -> Finding {
@@ -154,7 +201,7 @@ mod tests {
             "G43 H7.5\nG43 H7.0\nG10 L2 P#1 X1.\n",
             &expect![[r#"
                 1 | G43 H7.5
-                  |     ^^^^ warning[number-out-of-range] value is not a whole number for `G43`: `H7.5`
+                  |     ^^^^ error[number-out-of-range] value is not a whole number for `G43`: `H7.5`
             "#]],
         );
         check_rule(

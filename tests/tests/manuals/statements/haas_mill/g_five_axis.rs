@@ -56,30 +56,30 @@ pub(crate) const CHAPTER: Chapter = Chapter {
     key: "FIV",
     file: "haas_mill/g_five_axis.rs",
     statements: &[
-        gap(
+        held(
             "p. 326",
             "G161 feeds from the start position by E along the tilted tool, and comes back.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G161 E.52 F7.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G161 E.52 F7.",
                 events: &["feed X8.3597 Y-8.2 Z13.9701 F7", "rapid X8.5629 Y-8.3793 Z14.4139"],
             }],
         ),
-        gap(
+        held(
             "p. 327",
             "G162 pauses P at the bottom.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G162 E.52 P2. F7.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G162 E.52 P2. F7.",
                 events: &["feed X8.3597 Y-8.2 Z13.9701", "dwell T2", "rapid X8.5629 Y-8.3793 Z14.4139"],
             }],
         ),
-        gap(
+        held(
             "p. 328",
             "G163 drills in pecks of Q along the tool, or with I, J, K as G83 does, and pauses P after the last one.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word; pecks as in G83 along the tool",
+            "effect `cycle-along-tool`",
             &[
                 Run {
                     program: along_tool!("G163 E.6 Q.2 F12.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
@@ -100,10 +100,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 329",
             "Setting 52 takes G163 above its start position to clear chips.",
-            "Setting 52 is read: chips are cleared that far above the start, along the tool",
+            "effect `cycle-along-tool`, Setting 52",
             &[Run {
                 program: along_tool!("G163 E.6 Q.3 F12.\nG80\n").with(&[
                     TOOL,
@@ -114,10 +114,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 prints: &["feed 8.4457 -8.2759", "rapid 8.9537 -8.7241", "feed 8.3285 -8.1724"],
             }],
         ),
-        gap(
+        held(
             "p. 322",
             "G153 drills in pecks and backs off by Setting 22 only.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word; chips are broken as in G73",
+            "effect `cycle-along-tool`",
             &[Run {
                 program: along_tool!("G153 E.6 Q.3 F12.\nG80\n").with(&[
                     TOOL,
@@ -133,10 +133,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 330",
             "G164 taps right-hand threads with a floating holder; the control starts the spindle.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word; the spindle turns as in G84",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G164 E1. F38.46\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G164 E1. F38.46",
@@ -149,10 +149,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 325",
             "G155 taps left-hand threads with a floating holder; the control starts the spindle.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word; the spindle turns as in G74",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G155 E1. F38.46\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G155 E1. F38.46",
@@ -165,20 +165,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 331",
             "G165 feeds in and feeds out.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G165 E1. F12.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G165 E1. F12.",
                 events: &["feed X8.1722 Y-8.0345 Z13.5604 F12", "feed X8.5629 Y-8.3793 Z14.4139 F12"],
             }],
         ),
-        gap(
+        held(
             "p. 332",
             "G166 stops the spindle at the bottom before it comes out.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G166 E1. F12.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G166 E1. F12.",
@@ -190,10 +190,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             }],
         ),
-        gap(
+        held(
             "p. 333",
             "G169 feeds in, pauses P and feeds out.",
-            "the stroke goes from the start point by E along the tool (with the length of G143 counted), and back to the start point; at present nothing moves, without a word",
+            "effect `cycle-along-tool`",
             &[Makes {
                 program: along_tool!("G169 E1. P.5 F12.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
                 block: "G169 E1. P.5 F12.",
@@ -264,10 +264,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 322 to 333",
             "A feed is programmed for them.",
-            "without any feed `feed-missing` must speak (error): silent so far",
+            "rule `feed-missing`",
             &[Rule {
                 finding: "error[feed-missing]",
                 violates: mill(
@@ -278,10 +278,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             }],
         ),
-        gap(
+        held(
             "p. 322 to 333",
             "A position in X, Y, Z, A and B is programmed before the cycle.",
-            "a cycle along the tool before a position of all five axes: its direction is unknown: warning",
+            "rule `tool-direction-unknown`",
             &[Rule {
                 finding: "warning[tool-direction-unknown]",
                 violates: mill(
@@ -292,10 +292,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             }],
         ),
-        gap(
+        held(
             "p. 326",
             "After M05 G161 runs without spindle.",
-            "`spindle-stopped-while-cutting` (warning) is silent about these cycles",
+            "rule `spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: along_tool!("M5\nG161 E.52 F7.\nG80\n").with(&[TOOL, G54_AT_HOME, TILTING_HEAD]),
@@ -397,18 +397,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 338",
             "G234 and G254 do not go together.",
-            "`forbids` of G234 and G254 is not judged: one while the other is on: error",
+            "rule `tilt-modes-conflict`",
             &[
                 Rule {
-                    finding: "error[codes-conflict]",
+                    finding: "error[tilt-modes-conflict]",
                     violates: tilted_table!("G254\nG234 H1 Z1.09\nG1 X-.5 F40.\nG49\nG255\n"),
                     conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\n"),
                 },
                 Rule {
-                    finding: "error[codes-conflict]",
+                    finding: "error[tilt-modes-conflict]",
                     violates: tilted_table!("G234 H1 Z1.09\nG254\nG1 X-.5 F40.\nG255\nG49\n"),
                     conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\n"),
                 },
@@ -430,20 +430,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MZ-1",
             }],
         ),
-        gap(
+        held(
             "p. 338",
             "A tool change ignores G234, so that it is ended before.",
-            "`tool-tilt-left-on` speaks at M06 (held); G28 and G29 with G234 on are not judged: info",
+            "rules `tool-tilt-left-on`, `reference-return-under-tilt`",
             &[Rule {
                 finding: "info[reference-return-under-tilt]",
                 violates: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG28 G91 Z0.\nG90 G49\n"),
                 conforms: tilted_table!("G234 H1 Z1.09\nG1 X-.5 F40.\nG49\nG28 G91 Z0.\nG90\n"),
             }],
         ),
-        gap(
+        held(
             "p. 338",
             "G234 needs a work offset in effect.",
-            "G234 in a program that never chose one: warning as `work-offset-never-chosen`, by name",
+            "rule `work-offset-never-chosen`",
             &[Rule {
                 finding: "warning[work-offset-never-chosen]",
                 violates: mill(
@@ -475,40 +475,40 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 339",
             "After G254 X, Y and Z are programmed before a cut, even where the tool stands already.",
-            "a cut after G254 without a position of X, Y and Z: warning",
+            "rule `dynamic-offset-without-position`",
             &[Rule {
                 finding: "warning[dynamic-offset-without-position]",
                 violates: turned_table!("G254\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339",
             "X and Y stand in one block, Z in the next.",
-            "the three in one block after G254: info",
+            "rule `dynamic-offset-approach-in-one-block`",
             &[Rule {
                 finding: "info[dynamic-offset-approach-in-one-block]",
                 violates: turned_table!("G254\nX1. Y0. Z2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339, p. 342",
             "G255 comes before any rotary motion.",
-            "A, B or C turned while G254 is on: warning",
+            "rule `rotary-motion-under-dynamic-offset`",
             &[Rule {
                 finding: "warning[rotary-motion-under-dynamic-offset]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nB0. C0.\nG255\n"),
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\nG53 Z0.\nB0. C0.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 339, p. 342",
             "G254 is not for cutting with rotary axes.",
-            "a feed that turns a rotary axis under G254: warning",
+            "rule `rotary-motion-under-dynamic-offset`",
             &[Rule {
                 finding: "warning[rotary-motion-under-dynamic-offset]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. B85. F20.\nG0 Z2.\nG255\n"),
@@ -527,10 +527,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                     .with(&["offsets.G54={X=0.0,Y=0.0,Z=0.0,B=0.0,C=0.0}"]),
             }],
         ),
-        gap(
+        held(
             "p. 342",
             "A work offset is in effect before G254.",
-            "G254 in a program that never chose one: warning",
+            "rule `work-offset-never-chosen`",
             &[Rule {
                 finding: "warning[work-offset-never-chosen]",
                 violates: mill(
@@ -539,10 +539,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: turned_table!("G254\nX1. Y0.\nZ2.\nG1 Z0. F20.\nG0 Z2.\nG255\n"),
             }],
         ),
-        gap(
+        held(
             "p. 342",
             "G28 and G29 are not to be used while G254 is on.",
-            "info at G28 or G29 under G254",
+            "rule `reference-return-under-tilt`",
             &[Rule {
                 finding: "info[reference-return-under-tilt]",
                 violates: turned_table!("G254\nX1. Y0.\nZ2.\nG28 G91 Z0.\nG90 G255\n"),
@@ -563,7 +563,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "p. 342",
             "M00 and M01 do not end G254, M02 and M30 do.",
             "`at-end`",
-            &[Legal { program: turned_table!("G254\nX1. Y0.\nZ2.\nM1\nG1 Z0. F20.\nG0 Z2.\n") }],
+            &[Legal { program: turned_table!("G254\nX1. Y0.\nZ2.\nM1\nS1000 M3\nG1 Z0. F20.\nG0 Z2.\n") }],
         ),
         held(
             "p. 342",

@@ -83,14 +83,18 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "M00 stops the program; it goes on with the next block.",
             "effect `stop`",
             &[
-                Makes { program: cut!("M0\nG1 X1. F10.\n"), block: "M0", events: &["stop program"] },
+                Makes {
+                    program: cut!("M0\nG1 X1. F10.\n"),
+                    block: "M0",
+                    events: &["spindle stop", "coolant flood-off", "stop program"],
+                },
                 Legal { program: first_tool!("M0\nS1000 M3\nM8\nG1 Z-1. F10.\n") },
             ],
         ),
-        gap(
+        held(
             "p. 348",
             "M00 stops the spindle and the coolant.",
-            "a cut after M00 without a new M03 or M04: `spindle-stopped-while-cutting` (warning); the run shows the spindle stop and the coolant off",
+            "rule `spindle-stopped-while-cutting`",
             &[
                 Rule {
                     finding: "warning[spindle-stopped-while-cutting]",
@@ -110,10 +114,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effect `optional-stop`",
             &[Legal { program: first_tool!("M1\nS1000 M3\nM8\nG1 Z-1. F10.\n") }],
         ),
-        gap(
+        held(
             "p. 348",
             "So with M01 in that case.",
-            "a cut after M01 without a new M03: `maybe` with the condition that optional stop is on: warning",
+            "rule `maybe-spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[maybe-spindle-stopped-while-cutting]",
                 violates: first_tool!("M1\nG1 Z-1. F10.\n"),
@@ -160,10 +164,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 348",
             "A spindle that no code starts does not turn.",
-            "a cut in a program that never starts the spindle (no M03, M04, no cycle that starts it): warning; silent so far",
+            "rule `spindle-stopped-while-cutting`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: mill(
@@ -216,20 +220,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: first_tool!("T2 M6\nG43 H2 Z.1\nS500 M3\nG1 Z-1. F10.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 349",
             "M06 stops the coolant, through the spindle too.",
-            "the run shows the coolant off at M06, and a tool that cuts without a new M08 is dry (`tool-cuts-dry`)",
+            "`change-stops-coolant`",
             &[Makes {
                 program: first_tool!("T2 M6\nG43 H2 Z.1\nS500 M3\nG1 Z-1. F10.\n"),
                 block: "T2 M6",
                 events: &["spindle stop", "coolant flood-off", "tool 2"],
             }],
         ),
-        gap(
+        held(
             "p. 349",
             "Shower coolant (M07) starts again after a tool change.",
-            "with M07 on, M06 switches it off and on again",
+            "`change-stops-coolant`",
             &[Makes {
                 program: first_tool!("M7\nT2 M6\nG43 H2 Z.1\n"),
                 block: "T2 M6",
@@ -349,12 +353,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 350",
             "M19 leaves the spindle standing.",
-            "a cut after M19 without a new M03 or M04: warning, as after M05; silent so far",
+            "rule `spindle-stopped-while-cutting`: an info, as a tool that is held may broach",
             &[Rule {
-                finding: "warning[spindle-stopped-while-cutting]",
+                finding: "info[spindle-stopped-while-cutting]",
                 violates: cut!("M19\nG1 X1. F10.\n"),
                 conforms: cut!("M19\nM3\nG1 X1. F10.\n"),
             }],
@@ -399,10 +403,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 352",
             "M30 turns off coolant through the spindle as well.",
-            "the run shows it at M30",
+            "codes that the end brings back",
             &[Makes {
                 program: short!("M88\nS100 M3\nM30\n"),
                 block: "M30",
@@ -432,10 +436,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "no effect of `M39`",
             &[Makes { program: cut!("T3\nM39\n"), block: "M39", events: &[] }],
         ),
-        gap(
+        held(
             "p. 354",
             "The T of M39 is a pocket, not a tool that is called.",
-            "`tool-called-not-changed` (info) is untrue for T before or with M39",
+            "effect `turn-carousel`",
             &[Silent { rule: "tool-called-not-changed", program: cut!("M39 T3\n") }],
         ),
         held(
@@ -516,13 +520,17 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effects `through-coolant-on`, `through-coolant-off`",
             &[
                 Makes { program: cut!("M88\nM3\nM89\n"), block: "M88", events: &["coolant through-on"] },
-                Makes { program: cut!("M88\nM3\nM89\n"), block: "M89", events: &["coolant through-off"] },
+                Makes {
+                    program: cut!("M88\nM3\nM89\n"),
+                    block: "M89",
+                    events: &["spindle stop", "coolant through-off"],
+                },
             ],
         ),
-        gap(
+        held(
             "p. 356",
             "M89 stops the spindle and does not start it again.",
-            "a cut after M89 without a new M03: `spindle-stopped-while-cutting` (warning); silent so far",
+            "`through-off-stops-spindle`",
             &[Rule {
                 finding: "warning[spindle-stopped-while-cutting]",
                 violates: cut!("M88\nS1000 M3\nG1 X1. F10.\nM89\nX2.\n"),
@@ -707,12 +715,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Run { program: short!("M98 (USB0/O00001.nc)\nX1.\nM30\n"), prints: &["rapid 1.0000", "end"] },
             ],
         ),
-        gap(
+        held(
             "p. 359",
             "M98 needs P or a path.",
-            "M98 alone: error; silent so far",
+            "rule `needed-word-missing`",
             &[Rule {
-                finding: "error[required-word-missing]",
+                finding: "error[needed-word-missing]",
                 violates: short!("M98\nM30\n"),
                 conforms: short!("M98 P777\nM30\nO777\nM99\n"),
             }],
@@ -767,10 +775,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 361",
             "Numbers between the two ranges are no variables of M109.",
-            "P550 to P10499 are refused: error",
+            "`gaps` of `P`",
             &[
                 Rule {
                     finding: "error[number-out-of-range]",
@@ -784,10 +792,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 361",
             "The operator's answer comes into the variable while the program waits in a loop.",
-            "M109 makes its variable (500 and 10500 are one) unknown: a loop that waits for it is no `endless-loop`, and what follows is reached",
+            "effect `ask-operator`",
             &[
                 Silent {
                     rule: "endless-loop",

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked. Left out: lights and sounds
 //! of the probes, batteries and wiring, templates of the visual programming system, the remote jog handle (pages 170–175).
 
-use super::mill::{gap, held, legal, not_modelled, reports, rule, run, variables};
+use super::mill::{held, legal, not_modelled, reports, rule, run, variables};
 use crate::proof::Proof;
 use crate::statements::statement::{Chapter, prove};
 
@@ -37,10 +37,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 legal("O1\n#12002=1\n#12003=1\n#10003=#12003\nM30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 168",
             "M59 sets the variable of its output to 1, M69 to 0.",
-            "#12000 + P is 1 after M59 P and 0 after M69 P, so that a run goes on where a condition reads it",
+            "`output-variables`",
             &[Proof::Moves {
                 program: super::mill::mill(
                     "O1\nG20 G54 G0 G90\nM59 P3\n#10003=#12003\nX#10003\nM69 P3\nX[2.+#12003]\nM30\n",

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked. Left out: how tools are
 //! loaded, moved and recovered (pages 101–105, 107), and saving tables: work at the machine, which no program sees.
 
-use super::mill::{explains, gap, held, legal, moves, not_modelled, reports, rule, run, variables};
+use super::mill::{explains, held, legal, moves, not_modelled, reports, rule, run, variables};
 use crate::statements::statement::{Chapter, prove};
 
 pub(crate) const CHAPTER: Chapter = Chapter {
@@ -22,10 +22,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 run("O1\nT2000 M6\nM30\n", &["2 tool 5.000 T2000"]),
             ],
         ),
-        gap(
+        held(
             "p. 97",
             "A group has a number from 1000 to 2999; a tool has one from 1 to 200.",
-            "error[number-out-of-range] for T, H and D from 201 to 999 and above 2999: neither a tool nor a group",
+            "`gaps` of `T`",
             &[
                 rule("error[number-out-of-range]", "O1\nT201 M6\nM30\n", "O1\nT200 M6\nM30\n"),
                 rule("error[number-out-of-range]", "O1\nT999 M6\nM30\n", "O1\nT1000 M6\nM30\n"),

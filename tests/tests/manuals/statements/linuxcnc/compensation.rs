@@ -63,10 +63,10 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_FEED(10.0000, -6.3500"],
         )],
     ),
-    gap(
+    held(
         "#gcode:g41-g42",
         "D of another tool in a program of one tool cuts with the wrong radius",
-        "`diameter-offset-of-another-tool` (warning) speaks also in a program of one tool",
+        "rule `diameter-offset-of-another-tool`",
         &[rule(
             "warning[diameter-offset-of-another-tool]",
             "G17 G21 G90 G54\nT1 M6 G43\nS100 M3\nF100\nG0 X0 Y0\nZ5\nG1 Z-1\nG41 D2\nG1 X20\nX40\nG40\nG1 X60 Y9\nG0 Z5\nM2\n",
@@ -83,10 +83,10 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90 G54\nT1 M6 G43\nS100 M3\nF100\nG0 X0 Y0\nZ5\nG1 Z-1\nG41 D1\nG1 X20\nX40\nG40\nG1 X60 Y9\nG0 Z5\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g41-g42",
         "G41 D0 takes the tool in the spindle (nonrandom changer)",
-        "`run` takes the radius of the tool in the spindle for `D0` (it takes 0 today), and `check` does not say that D0 is no offset on this control: data fact that D0 means the tool in the spindle",
+        "`zero-is-loaded`",
         &[
             runs(
                 "G17 G21 G90\nT1 M6\nF100\nG0 X0 Y0\nG41 D0\nG1 X10\nX20\nG40\nG1 X60 Y9\nM2\n",
@@ -117,12 +117,12 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90\nG41 D1\nG40\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g41-g42",
         "D must be whole",
-        "`check` reports a D that is not whole (error), as `run` refuses it",
+        "`whole` of `D`",
         &[refused(
-            "error[decimal-point-on-integer]",
+            "error[number-out-of-range]",
             "G17 G21 G90\nG41 D1.5\nM2\n",
             "G17 G21 G90\nG41 D1\nG40\nM2\n",
         )],

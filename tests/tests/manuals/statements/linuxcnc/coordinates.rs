@@ -73,10 +73,10 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90\nT1 M6\nF100\nG0 X0 Y0\nG41\nG1 X10\nG40\nG0 X30\nG53 G0 X0\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g53",
         "The move right after G40 may be one in machine coordinates: the other axes go to their programmed places (interpreter 2.9)",
-        "`run` ends compensation in a G53 move as in any other: an axis that is not named goes to its programmed place, not to the compensated one",
+        "effect of `G53`",
         &[runs(
             "G17 G21 G90\nT1 M6\nF100\nG0 X0 Y0\nG41\nG1 X10\nG40\nG53 G0 X30\nM2\n",
             &["STRAIGHT_TRAVERSE(30.0000, 0.0000"],

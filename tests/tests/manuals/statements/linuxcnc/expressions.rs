@@ -112,10 +112,10 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_TRAVERSE(90.0000, -135.0000, 135.0000"],
         )],
     ),
-    gap(
+    held(
         "#gcode:functions",
         "ATAN takes two arguments with a slash between them; with one it is refused (interpreter 2.9)",
-        "`check` reports it (error), as `run` refuses it",
+        "rule `function-unknown`",
         &[refused("error[function-unknown]", "G0 XATAN[1]\nM2\n", "G0 XATAN[1]/[1]\nM2\n")],
     ),
     held(

@@ -173,10 +173,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#ocode:repeat",
         "A number of turns that is not whole is rounded, a half to the even neighbour (interpreter 2.9)",
-        "`run` and `check` round a half to even for `repeat` (2.5 turns are 2; they make 3)",
+        "statement `repeat`",
         &[
             runs("G91\nO103 REPEAT [2.5]\nG0 X1\nO103 ENDREPEAT\nM2\n", &["STRAIGHT_TRAVERSE(2.0000"]),
             runs("G91\nO103 REPEAT [3.5]\nG0 X1\nO103 ENDREPEAT\nM2\n", &["STRAIGHT_TRAVERSE(4.0000"]),

@@ -173,23 +173,23 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90\nG0 X1 Y0\nG91 G0 @1^45\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:polar-coordinates",
         "@ alone at the origin is refused (interpreter 2.9)",
-        "`check` reports it where the position is known (error), as `run` refuses it",
+        "rule `needed-word-missing`",
         &[refused(
-            "error[polar-without-angle]",
+            "error[needed-word-missing]",
             "G17 G21 G90\nG0 X0 Y0\nG0 @1\nM2\n",
             "G17 G21 G90\nG0 X1 Y0\nG0 @2\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:polar-coordinates",
         "Polar words and X or Y in one block are refused",
-        "`check` reports them (error), as `run` refuses them",
+        "rule `polar-word-refused`",
         &[
-            refused("error[words-exclude-each-other]", "G0 @1^5 X1\nM2\n", "G0 @1^5 Z1\nM2\n"),
-            refused("error[words-exclude-each-other]", "G0 @1^5 Y1\nM2\n", "G0 @1^5 Z1\nM2\n"),
+            refused("error[polar-word-refused]", "G0 @1^5 X1\nM2\n", "G0 @1^5 Z1\nM2\n"),
+            refused("error[polar-word-refused]", "G0 @1^5 Y1\nM2\n", "G0 @1^5 Z1\nM2\n"),
         ],
     ),
     gap(
@@ -290,10 +290,10 @@ const STATEMENTS: &[Statement] = &[
             "G17 G21 G90 G54\nT1 M6 G43\nS100 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F10\nX9\nG0 Z5 M5\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:order-of-execution",
         "F acts before the units of its block change: `G20 F10` after millimetres is 10 mm a minute",
-        "`check` warns of F in a block that changes the units: the feed is 25.4 times another than it seems",
+        "rule `feed-before-units`",
         &[
             rule(
                 "warning[feed-before-units]",
@@ -303,7 +303,7 @@ const STATEMENTS: &[Statement] = &[
             Proof::Says {
                 program: ngc("G17 G20 G90\nF10\nG1 X1\nG21 G1 X2 F100\nM2\n"),
                 finding: "warning[feed-before-units]",
-                words: "G20",
+                words: "G21",
             },
         ],
     ),

@@ -5,7 +5,7 @@
 //! Left out: the table of codes (each code has its own rows), the figures on the velocity of rapid moves.
 
 use super::super::statement::{Chapter, Statement, prove};
-use super::row::{gap, held, legal, ngc, refused, rule, runs, unmodelled};
+use super::row::{held, legal, ngc, refused, rule, runs, unmodelled};
 use crate::proof::Proof;
 
 pub(super) const CHAPTER: Chapter = Chapter {
@@ -111,12 +111,12 @@ const STATEMENTS: &[Statement] = &[
         "rule `address-without-value`",
         &[refused("error[address-without-value]", "G0 X\nM2\n", "G0 X1\nM2\n")],
     ),
-    gap(
+    held(
         "#gcode:g0",
         "An axis letter that is not configured is refused",
-        "`check` speaks of an axis word that `[machine] axes` does not have, as `run` does (error when axes are told, warning when the words come from the control's usual axes alone)",
+        "rule `axis-not-on-machine`",
         &[Proof::Rule {
-            finding: "error[unknown-address]",
+            finding: "error[axis-not-on-machine]",
             violates: ngc("G21 G90 G0 X1 A90\nM2\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\"]"]),
             conforms: ngc("G21 G90 G0 X1 A90\nM2\n").with(&["machine.axes=[\"X\", \"Y\", \"Z\", \"A\"]"]),
         }],

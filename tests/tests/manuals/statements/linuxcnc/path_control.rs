@@ -111,11 +111,11 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g61",
         "G61 reads no P (interpreter 2.9)",
-        "`check` reports a P that no code of the block reads (error), as `run` refuses it",
-        &[refused("error[word-not-read]", "G61 P0.1\nM2\n", "G61\nM2\n")],
+        "rule `word-passed-over`",
+        &[refused("error[word-passed-over]", "G61 P0.1\nM2\n", "G61\nM2\n")],
     ),
     held(
         "#gcode:g64",
@@ -210,10 +210,10 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_TRAVERSE(1.0000", "SET_FEED_RATE(2.0000", "STRAIGHT_FEED(2.0000"],
         )],
     ),
-    gap(
+    held(
         "#gcode:g93-g94-g95",
         "F0 under G93: the interpreter (2.9) takes 0.1",
-        "`run` moves as the interpreter does (1/0.1 minutes); `check` reports it (warning): a move of ten minutes was hardly meant",
+        "rule `feed-zero`, effect of `G93`",
         &[
             runs("G93\nG1 X1 F0\nM2\n", &["SET_FEED_RATE(0.1000", "STRAIGHT_FEED(1.0000"]),
             rule("warning[feed-zero]", "G93\nG1 X1 F0\nM2\n", "G93\nG1 X1 F2\nM2\n"),

@@ -148,10 +148,10 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_PROBE(0.0000, 0.0000, -10.0000", "STRAIGHT_PROBE(5.0000, 0.0000, 0.0000"],
         )],
     ),
-    gap(
+    held(
         "#gcode:g38",
         "A probing move of rotary axes alone runs (interpreter 2.9)",
-        "`run` makes the move; it refuses it today (\"the probing move cannot start\")",
+        "effect of `G38.2`",
         &[runs("F100\nG38.2 A-10\nM2\n", &["STRAIGHT_PROBE(0.0000, 0.0000, 0.0000, -10.0000"])],
     ),
     held(

@@ -122,14 +122,14 @@ const STATEMENTS: &[Statement] = &[
             conforms: with_table("G10 L1 P1 Z1\nM2\n"),
         }],
     ),
-    gap(
+    held(
         "#gcode:g10-l1",
         "P must be whole; the interpreter (2.9) refuses a fraction below a half and rounds one above",
-        "`run` refuses P1.4 as the interpreter does; `check` reports every P that is not whole (error below a half, else warning: which tool is meant is unsure)",
+        "effect of `G10`, rule `number-out-of-range`",
         &[
             stops("G10 L1 P1.4 Z1\nM2\n"),
             runs("G10 L1 P1.5 Z1\nM2\n", &["SET_TOOL_TABLE_ENTRY(2"]),
-            rule("warning[decimal-point-on-integer]", "G10 L1 P1.5 Z1\nM2\n", "G10 L1 P1 Z1\nM2\n"),
+            rule("warning[number-out-of-range]", "G10 L1 P1.5 Z1\nM2\n", "G10 L1 P1 Z1\nM2\n"),
         ],
     ),
     gap(
@@ -238,12 +238,12 @@ const STATEMENTS: &[Statement] = &[
             },
         ],
     ),
-    gap(
+    held(
         "#gcode:g10-l2",
         "P must be whole and from 0 to 9; the interpreter (2.9) refuses a fraction below a half only",
-        "`check` reports P10 and above for `L2` (error), as `run` refuses it; `run` refuses P1.2, and `check` reports each P that is not whole",
+        "effect of `G10`, `beside` of `P`",
         &[
-            refused("error[number-out-of-range]", "G10 L2 P10 X1\nM2\n", "G10 L2 P9 X1\nM2\n"),
+            refused("error[word-unfit-for-another]", "G10 L2 P10 X1\nM2\n", "G10 L2 P9 X1\nM2\n"),
             refused("error[number-out-of-range]", "G10 L2 P-1 X1\nM2\n", "G10 L2 P0 X1\nM2\n"),
             runs("G10 L2 P1.5 X1\nM2\n", &["SET_G5X_OFFSET(1, 1.0000"]),
             stops("G10 L2 P1.2 X1\nM2\n"),
@@ -337,19 +337,19 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g10-l20",
         "P must be whole and from 0 to 9; R is refused (interpreter 2.9)",
-        "`check` reports P10 and R for `L20` (errors), as `run` refuses them",
+        "`beside` of `P` and `R`",
         &[
-            refused("error[number-out-of-range]", "G10 L20 P10 X1\nM2\n", "G10 L20 P9 X1\nM2\n"),
-            refused("error[word-forbidden]", "G10 L20 P1 R45\nM2\n", "G10 L20 P1 X4\nM2\n"),
+            refused("error[word-unfit-for-another]", "G10 L20 P10 X1\nM2\n", "G10 L20 P9 X1\nM2\n"),
+            refused("error[word-unfit-for-another]", "G10 L20 P1 R45\nM2\n", "G10 L20 P1 X4\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#gcode:g10-l0 to #gcode:g10-l20",
         "L of G10 is 0, 1, 2, 10, 11 or 20, each with a section of its own; another is refused (interpreter 2.9)",
-        "`check` reports another L of `G10`, also one that is not whole (error), as `run` refuses it",
+        "`values` and `whole` of `L`",
         &[
             refused("error[number-out-of-range]", "G10 L3 P1 X1\nM2\n", "G10 L2 P1 X1\nM2\n"),
             refused("error[number-out-of-range]", "G10 L2.5 P1 X1\nM2\n", "G10 L2 P1 X1\nM2\n"),
@@ -584,10 +584,10 @@ const STATEMENTS: &[Statement] = &[
         "text of `G10`",
         &[explains("G10", "L1")],
     ),
-    gap(
+    held(
         "#gcode:g10-l2",
         "An axis that is not configured is refused",
-        "`run` refuses an axis that `[machine] axes` does not have in `G10` too, as it does in moves; `check` says so",
+        "effect of `G10`",
         &[
             stops("G10 L2 P1 U5\nM2\n"),
             Proof::Stops {

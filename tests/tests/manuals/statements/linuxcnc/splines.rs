@@ -32,18 +32,18 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g5",
         "I and J are given both or not at all",
-        "`check` reports one without the other (error), as `run` refuses it",
+        "rule `needed-word-missing`",
         &[
             refused(
-                "error[required-word-missing]",
+                "error[needed-word-missing]",
                 "G17 G90\nG0 X0 Y0\nF100 G5 I0 P0 Q-3 X1 Y1\nM2\n",
                 "G17 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1\nM2\n",
             ),
             refused(
-                "error[required-word-missing]",
+                "error[needed-word-missing]",
                 "G17 G90\nG0 X0 Y0\nF100 G5 J3 P0 Q-3 X1 Y1\nM2\n",
                 "G17 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1\nM2\n",
             ),
@@ -80,12 +80,12 @@ const STATEMENTS: &[Statement] = &[
             "G17 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g5",
         "G5 outside G17 is refused",
-        "`check` reports the plane (error), as `run` refuses it",
+        "rule `refused-in-plane`",
         &[refused(
-            "error[codes-conflict]",
+            "error[refused-in-plane]",
             "G18 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1\nM2\n",
             "G17 G90\nG0 X0 Y0\nF100 G5 I0 J3 P0 Q-3 X1 Y1\nM2\n",
         )],
@@ -136,10 +136,10 @@ const STATEMENTS: &[Statement] = &[
         "effect `spline-quadratic`",
         &[runs("G17 G90\nG0 X-2 Y4\nF100 G5.1 X2 I0 J0\nM2\n", &["NURBS_FEED("])],
     ),
-    gap(
+    held(
         "#gcode:g5.1",
         "No axis but X and Y may be in a G5.1 block, and the plane is G17",
-        "`check` reports both (errors), as `run` refuses them",
+        "rules `word-forbidden`, `refused-in-plane`",
         &[
             refused(
                 "error[word-forbidden]",
@@ -147,7 +147,7 @@ const STATEMENTS: &[Statement] = &[
                 "G17 G90\nG0 X-2 Y4\nF100 G5.1 X2 I2 J-8\nM2\n",
             ),
             refused(
-                "error[codes-conflict]",
+                "error[refused-in-plane]",
                 "G18 G90\nG0 X-2 Y4\nF100 G5.1 X2 I2 J-8\nM2\n",
                 "G17 G90\nG0 X-2 Y4\nF100 G5.1 X2 I2 J-8\nM2\n",
             ),
@@ -194,12 +194,12 @@ const STATEMENTS: &[Statement] = &[
             runs("G0 X0 Y0\nF10\nG5.2 P1 L4\nX0 Y1 P1\nX2 Y2 P1\nX2 Y0 P1\nG5.3\nM2\n", &["NURBS_FEED("]),
         ],
     ),
-    gap(
+    held(
         "#gcode:g5.2-g5.3",
         "G5.3 without G5.2 is refused (interpreter 2.9)",
-        "`check` reports it (error), as `run` refuses it",
+        "rule `curve-not-complete`",
         &[refused(
-            "error[codes-conflict]",
+            "error[curve-not-complete]",
             "F10\nG5.3\nM2\n",
             "F10\nG5.2 P1\nX0 Y1 P1\nX2 Y2 P1\nG5.3\nM2\n",
         )],

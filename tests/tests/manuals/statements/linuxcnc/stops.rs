@@ -153,10 +153,10 @@ const STATEMENTS: &[Statement] = &[
             },
         ],
     ),
-    gap(
+    held(
         "#gcode:file-requirements",
         "An end by `%` leaves spindle, coolant and modes as they are",
-        "`check` warns that the spindle turns, or coolant runs, on when the program ends by `%` instead of M2",
+        "rule `spindle-left-on`",
         &[
             runs(
                 "%\nS100 M3\nM8\nG0 X1\n%\n",
@@ -169,10 +169,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#ocode:fanuc-style-programs",
         "M2 in a subroutine ends the program",
-        "`check` warns of an end in a subprogram that is called: what follows the call never runs (it reports neither the end nor the blocks today)",
+        "rule `subprogram-without-return`",
         &[
             runs("O100 SUB\nM2\nO100 ENDSUB\nO100 CALL\nG0 X1\nM2\n", &["PROGRAM_END"]),
             rule(

@@ -107,12 +107,12 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_TRAVERSE(4.0000, 5.0000"],
         )],
     ),
-    gap(
+    held(
         "#ocode:subroutines",
         "A subroutine may not be defined in another",
-        "`check` reports the inner sub (error), as `run` refuses it",
+        "rule `subroutine-inside-subroutine`",
         &[refused(
-            "error[o-word-unmatched]",
+            "error[subroutine-inside-subroutine]",
             "O100 SUB\nO101 SUB\nG0 X1\nO101 ENDSUB\nO100 ENDSUB\nO100 CALL\nM2\n",
             "O100 SUB\nO101 CALL\nO100 ENDSUB\nO101 SUB\nG0 X1\nO101 ENDSUB\nO100 CALL\nM2\n",
         )],
@@ -203,23 +203,23 @@ const STATEMENTS: &[Statement] = &[
             &["STRAIGHT_TRAVERSE(1.0000"],
         )],
     ),
-    gap(
+    held(
         "#ocode:comments",
         "Other words in the block of an O-word are undefined; the interpreter (2.9) refuses them",
-        "`check` reports words behind an O-word, and an O-word behind words (errors), as `run` refuses them",
+        "rule `words-beside-o-word`",
         &[
             refused(
-                "error[text-after-o-word]",
+                "error[words-beside-o-word]",
                 "#5=1\nO100 IF [#5] G0 X1\nO100 ENDIF\nM2\n",
                 "#5=1\nO100 IF [#5]\nG0 X1\nO100 ENDIF\nM2\n",
             ),
             refused(
-                "error[text-after-o-word]",
+                "error[words-beside-o-word]",
                 "O100 SUB\nO100 ENDSUB\nO100 CALL G0 X1\nM2\n",
                 "O100 SUB\nO100 ENDSUB\nO100 CALL\nG0 X1\nM2\n",
             ),
             refused(
-                "error[text-after-o-word]",
+                "error[words-beside-o-word]",
                 "O100 SUB\nO100 ENDSUB\nG0 X1 O100 CALL\nM2\n",
                 "O100 SUB\nO100 ENDSUB\nG0 X1\nO100 CALL\nM2\n",
             ),
@@ -271,18 +271,14 @@ const STATEMENTS: &[Statement] = &[
             refused("error[sign-not-accepted]", "M98 P100 L-1\nM2\nO100\nM99\n", "M98 P100\nM2\nO100\nM99\n"),
         ],
     ),
-    gap(
+    held(
         "#ocode:fanuc-style-programs",
         "P and L of M98 must be whole",
-        "`check` reports them (errors), as `run` refuses them",
+        "`whole` of `P` and `L`",
         &[
+            refused("error[number-out-of-range]", "M98 P100.5\nM2\nO100\nM99\n", "M98 P100\nM2\nO100\nM99\n"),
             refused(
-                "error[decimal-point-on-integer]",
-                "M98 P100.5\nM2\nO100\nM99\n",
-                "M98 P100\nM2\nO100\nM99\n",
-            ),
-            refused(
-                "error[decimal-point-on-integer]",
+                "error[number-out-of-range]",
                 "M98 P100 L1.5\nM2\nO100\nM99\n",
                 "M98 P100 L1\nM2\nO100\nM99\n",
             ),

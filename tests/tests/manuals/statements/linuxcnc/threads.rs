@@ -45,10 +45,10 @@ const STATEMENTS: &[Statement] = &[
             &["START_SPEED_FEED_SYNC(0.125000, 0)", "STRAIGHT_FEED(1.0000, 0.0000, -2.0000"],
         )],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "A negative K: the interpreter (2.9) hands it on as it is",
-        "`run` prints the negative feed a turn as the interpreter does; `check` reports a lead of zero or less (warning): the thread has no pitch",
+        "effect of `G33`, range of `K`",
         &[
             runs("S100 M3\nG33 Z-2 K-0.125\nM2\n", &["START_SPEED_FEED_SYNC(-0.125000, 0)"]),
             rule(
@@ -73,10 +73,10 @@ const STATEMENTS: &[Statement] = &[
             stops("S100 M3\nG33 Z-2 K1 $1\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "A spindle that the machine does not have is refused (interpreter 2.9)",
-        "`check` reports a `$` beyond the spindles of setting `SPINDLES` (error when the setting is told, warning when it is the default), as `run` refuses it",
+        "rule `number-out-of-range`",
         &[refused(
             "warning[number-out-of-range]",
             "S100 M3\nG33 Z-2 K1 $1\nM2\n",
@@ -112,10 +112,10 @@ const STATEMENTS: &[Statement] = &[
             "S100 M3\nF10\nG33 Z-2 K1\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g33",
         "G33 while the spindle does not turn is refused",
-        "`check` reports it as an error where the spindle's state is known from the program (`M5`, or never started after `M2`'s state), and keeps the warning elsewhere",
+        "rule `spindle-stopped-while-cutting`",
         &[refused(
             "error[spindle-stopped-while-cutting]",
             "S100 M3\nM5\nG33 Z-2 K0.125\nM2\n",
@@ -169,10 +169,10 @@ const STATEMENTS: &[Statement] = &[
             runs("S100 M3\nG33.1 Z-0.75 K1 I0.5\nM2\n", &["RIGID_TAP("]),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33.1",
         "With X or Y of another place the tap goes there while it turns: a slanted, synchronized move, which the manual warns of",
-        "`run` makes the move (it refuses it today: \"two codes of this block cannot be together\"); `check` warns of X or Y that differ from the present place",
+        "effect of `G33.1`, rule `tap-moves-sideways`",
         &[
             runs("S100 M3\nG0 X0 Y0 Z5\nG33.1 X10 Z-10 K1\nM2\n", &["RIGID_TAP(10.0000, 0.0000, -10.0000)"]),
             runs(
@@ -204,10 +204,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g33.1",
         "G33.1 while the spindle does not turn is refused",
-        "an error in `check` where the program itself stopped the spindle",
+        "rule `spindle-stopped-while-cutting`",
         &[refused(
             "error[spindle-stopped-while-cutting]",
             "S100 M3\nM5\nG33.1 Z-2 K0.125\nM2\n",
@@ -429,12 +429,12 @@ const STATEMENTS: &[Statement] = &[
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1\nM2\n",
         )],
     ),
-    gap(
+    held(
         "#gcode:g76",
         "H must be whole (interpreter 2.9)",
-        "`check` reports an H or L that is not whole (error), as `run` refuses it",
+        "`whole` of `H` and `L`",
         &[refused(
-            "error[decimal-point-on-integer]",
+            "error[number-out-of-range]",
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 H1.5\nM2\n",
             "G18\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K1 H1\nM2\n",
         )],
@@ -563,10 +563,10 @@ const STATEMENTS: &[Statement] = &[
             prints: &["no tool 0:04.2 0:04.1 0:00.0 11 10 0.1/rev 100 m/min"],
         }],
     ),
-    gap(
+    held(
         "#gcode:g96-g97",
         "$ names the spindle",
-        "`check` reports a spindle that the machine does not have (warning by default), as `run` refuses it",
+        "rule `number-out-of-range`",
         &[
             runs("G96 S100 $0\nG97 S100 $0\nM2\n", &["SET_SPINDLE_SPEED(0, 100.0000)"]),
             refused("warning[number-out-of-range]", "G96 S100 $1\nM2\n", "G96 S100 $0\nM2\n"),
@@ -577,12 +577,12 @@ const STATEMENTS: &[Statement] = &[
         "Surface speed follows changes of the tool's X offset",
         "where the work offset and the tool's X offset are told, X of `stats` has them; the spindle's rise in speed along a facing cut is averaged",
     ),
-    gap(
+    held(
         "#gcode:g76",
         "X and Y do not belong to G76",
-        "`check` reports them (warning): the interpreter goes there at rapid from the end of the thread, through the work",
+        "rule `unwanted-word`",
         &[rule(
-            "warning[thread-cycle-leaves-its-line]",
+            "warning[unwanted-word]",
             "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 X5 Z-10 I-2 J0.3 K0.6\nM2\n",
             "G18 G21\nS100 M3\nG0 X20 Z1\nG76 P1.5 Z-10 I-2 J0.3 K0.6\nM2\n",
         )],

@@ -55,10 +55,10 @@ const STATEMENTS: &[Statement] = &[
         "words of `G43`",
         &[runs("T1 M6\nG43 H2\nG0 Z1\nM2\n", &["USE_TOOL_LENGTH_OFFSET(0.0000, 0.0000, 38.1000"])],
     ),
-    gap(
+    held(
         "#gcode:g43",
         "G43 with the number of another tool works with a wrong length",
-        "`check` warns of the length of another tool right where the first cut is made with it, also in a program of one tool",
+        "rule `length-offset-of-another-tool`",
         &[rule(
             "warning[length-offset-of-another-tool]",
             "G17 G21 G90 G54\nT1 M6\nG43 H2\nS100 M3\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nG0 Z5\nM2\n",
@@ -105,11 +105,11 @@ const STATEMENTS: &[Statement] = &[
             },
         ],
     ),
-    gap(
+    held(
         "#gcode:g43",
         "H must be whole",
-        "`check` reports an H that is not whole (error), as `run` refuses it",
-        &[refused("error[decimal-point-on-integer]", "G43 H1.5\nM2\n", "G43 H1\nM2\n")],
+        "`whole` of `H`",
+        &[refused("error[number-out-of-range]", "G43 H1.5\nM2\n", "G43 H1\nM2\n")],
     ),
     held(
         "#cha:rs274ngc-programs",
@@ -144,12 +144,12 @@ const STATEMENTS: &[Statement] = &[
         "effect `length-from-block`",
         &[runs("G43.1 Z0.25 G0 X1\nM2\n", &["USE_TOOL_LENGTH_OFFSET(1.0000, 0.0000, 0.2500"])],
     ),
-    gap(
+    held(
         "#gcode:g43.1",
         "An axis word beside G43.1 that was meant as a move changes the tool's offset along that axis",
-        "`check` reports a motion code, or an axis other than those of the tool, in the block of G43.1 (warning: the documentation refuses it)",
+        "rule `offset-words-beside-motion`",
         &[rule(
-            "warning[codes-conflict]",
+            "warning[offset-words-beside-motion]",
             "G21 G90\nG43.1 Z0.25 G0 X1\nM2\n",
             "G21 G90\nG43.1 Z0.25\nG0 X1\nM2\n",
         )],
@@ -244,10 +244,10 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g49",
         "After G49 a Z of work coordinates takes the spindle nose where the tip was meant: the tool runs into the part by its length",
-        "`check` warns of Z moved in work coordinates after `G49` cancelled the length of a tool that worked, in the same block or a later one (`length-cancelled-before-cut` is silent when no cut follows)",
+        "rule `length-cancelled-before-cut`",
         &[
             rule(
                 "warning[length-cancelled-before-cut]",

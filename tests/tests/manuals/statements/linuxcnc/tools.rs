@@ -99,11 +99,11 @@ const STATEMENTS: &[Statement] = &[
             conforms: with_table("T1 M6\nM2\n"),
         }],
     ),
-    gap(
+    held(
         "#sec:select-tool",
         "T must be whole (interpreter 2.9)",
-        "`check` reports a T that is not whole (error), as `run` refuses it",
-        &[refused("error[decimal-point-on-integer]", "T1.5\nM2\n", "T1\nM2\n")],
+        "`whole` of `T`",
+        &[refused("error[number-out-of-range]", "T1.5\nM2\n", "T1\nM2\n")],
     ),
     held(
         "#mcode:m6",
@@ -243,10 +243,10 @@ const STATEMENTS: &[Statement] = &[
             runs("M62 P-1\nG0 X1\nM2\n", &["SET_MOTION_OUTPUT_BIT(-1)"]),
         ],
     ),
-    gap(
+    held(
         "#mcode:m62-m65",
         "Without a move after it, what M62, M63 and M67 queued never happens",
-        "`check` warns of M62, M63 or M67 that no move follows before the end",
+        "rule `output-without-move`",
         &[
             rule(
                 "warning[output-without-move]",
@@ -293,25 +293,25 @@ const STATEMENTS: &[Statement] = &[
         "words of `M66`",
         &[runs("M66 P0\nM66 E0\nM66 P0 L0 Q0\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000"])],
     ),
-    gap(
+    held(
         "#mcode:m66",
         "A wait without Q, or with Q0, is refused",
-        "`check` reports L of 1 to 4 without a Q above zero (error), as `run` refuses it",
+        "`beside` of `Q`",
         &[
             refused("error[required-word-missing]", "M66 P0 L3\nM2\n", "M66 P0 L3 Q1\nM2\n"),
-            refused("error[number-out-of-range]", "M66 P0 L3 Q0\nM2\n", "M66 P0 L3 Q1\nM2\n"),
+            refused("error[word-unfit-for-another]", "M66 P0 L3 Q0\nM2\n", "M66 P0 L3 Q1\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#mcode:m66",
         "An analog input can only be read",
-        "`check` reports E with L of 1 to 4 (error), as `run` refuses it",
-        &[refused("error[words-exclude-each-other]", "M66 E0 L3 Q1\nM2\n", "M66 E0 L0\nM2\n")],
+        "`beside` of `E`",
+        &[refused("error[word-unfit-for-another]", "M66 E0 L3 Q1\nM2\n", "M66 E0 L0\nM2\n")],
     ),
-    gap(
+    held(
         "#mcode:m66",
         "L is 0 to 4; the interpreter (2.9) passes over a block with a larger one",
-        "`run` runs L5 as the interpreter does (it waits for nothing), `check` keeps its warning; a negative P is reported (error), as `run` refuses it",
+        "effect of `M66`, words of `M66`",
         &[
             runs("M66 P0 L5 Q1\nG0 X1\nM2\n", &["STRAIGHT_TRAVERSE(1.0000"]),
             refused("error[number-out-of-range]", "M66 P-1 L0\nM2\n", "M66 P1 L0\nM2\n"),
@@ -345,10 +345,10 @@ const STATEMENTS: &[Statement] = &[
             refused("error[required-word-missing]", "M68 Q1\nM2\n", "M68 E1 Q1\nM2\n"),
         ],
     ),
-    gap(
+    held(
         "#mcode:m67",
         "Q is required; without it the interpreter (2.9) sends -1",
-        "`check` warns of M67 and M68 without Q: the output goes to -1",
+        "words of `M67` and `M68`",
         &[
             runs(
                 "M67 E0\nG0 X1\nM68 E1\nM2\n",

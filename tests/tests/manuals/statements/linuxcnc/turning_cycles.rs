@@ -223,23 +223,23 @@ const STATEMENTS: &[Statement] = &[
             ),
         ],
     ),
-    gap(
+    held(
         "#gcode:g71-g72",
         "A subroutine that does not exist is refused",
-        "`check` reports a Q of G70 to G72 whose subroutine is neither in the file nor beside it (warning, as for a call; error where the search path is told), and one that is not whole",
+        "rule `turning-profile-not-usable`, `whole` of `Q`",
         &[
             refused(
-                "warning[o-word-subroutine-missing]",
+                "warning[turning-profile-not-usable]",
                 "G18\nF100\nG0 X15 Z2\nG71 Q100 I1\nM2\n",
                 "G18\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG71 Q100 I1\nM2\n",
             ),
             refused(
-                "warning[o-word-subroutine-missing]",
+                "warning[turning-profile-not-usable]",
                 "G18\nF100\nG0 X15 Z2\nG70 Q100\nM2\n",
                 "G18\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG70 Q100\nM2\n",
             ),
             refused(
-                "error[decimal-point-on-integer]",
+                "error[number-out-of-range]",
                 "G18\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG71 Q100.5 I1\nM2\n",
                 "G18\nO100 SUB\nG0 X4 Z0\nG1 Z-5\nO100 ENDSUB\nF100\nG0 X5\nG71 Q100 I1\nM2\n",
             ),
