@@ -331,6 +331,20 @@ pub struct Semantics {
     /// The letters of a macro call's arguments, by local variable: `{ A = 1, B = 2, … }`.
     #[serde(default)]
     pub argument_letters: BTreeMap<String, u8>,
+    /// Letters whose argument of a macro call counts as it is written where it has no decimal point: `"DEF"`. The others
+    /// then count least increments of length. Without this every letter counts as it does elsewhere.
+    #[serde(default)]
+    pub whole_arguments: Option<String>,
+    /// An `M` after a macro call in its block is an argument, and the control does not execute it as a code.
+    #[serde(default)]
+    pub m_is_argument: bool,
+    /// Variables that have a second number each.
+    #[serde(default)]
+    pub mirrored_variables: Vec<MirroredVariables>,
+    /// Words act before a condition or a jump that is after them in the block; an unconditional jump acts last of all. Else
+    /// the control does not read words beside a jump.
+    #[serde(default)]
+    pub words_before_conditions: bool,
     /// Local variables: first and last number; empty range when none.
     pub locals: [u32; 2],
     /// A call of a numbered subprogram (`M98`) gets its own local variables.
@@ -387,9 +401,15 @@ pub struct Semantics {
     pub local_shift: LocalShift,
     /// A reference return (`G28`) without axis words returns all axes.
     pub reference_without_axes: bool,
+    /// The first reference position is the machine's zero, from which `G53` counts.
+    #[serde(default)]
+    pub reference_at_zero: bool,
     /// A reference return cancels tool length compensation.
     #[serde(default)]
     pub reference_cancels_length: bool,
+    /// `H0` ends length compensation also in a block without a code for it.
+    #[serde(default)]
+    pub zero_length_number_cancels: bool,
     /// `G53` moves in rapid whatever motion is in effect; else as `G0` or `G1` in effect says, and not under another one.
     pub machine_coordinates_rapid: bool,
     /// Dwell words: letter to kind.
@@ -415,6 +435,17 @@ pub struct Semantics {
     pub confidence: Confidence,
 }
 
+impl Semantics {
+    /// The number under which a variable is kept: the first of those that name it.
+    pub fn kept_as(&self, number: u32) -> u32 {
+        let of = |row: &MirroredVariables| {
+            let place = number.checked_sub(row.at).filter(|place| *place < row.count);
+            place.map(|place| row.first + place)
+        };
+        self.mirrored_variables.iter().find_map(of).unwrap_or(number)
+    }
+}
+
 /// The fastest feed of a probing move, in the units of the program a minute.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -423,6 +454,18 @@ pub struct ProbeFeed {
     pub inch: f64,
     /// Millimetres a minute, in a metric program.
     pub mm: f64,
+}
+
+/// Variables that have a second number each: both name one value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct MirroredVariables {
+    /// First number.
+    pub first: u32,
+    /// How many.
+    pub count: u32,
+    /// The second number of the first of them.
+    pub at: u32,
 }
 
 /// What a strict control refuses beside what its codes, addresses and block rules say, and when.
@@ -554,6 +597,9 @@ pub enum HelixFeed {
 pub struct CycleRules {
     /// The letter that repeats a cycle: `L`, `K`.
     pub repeat: char,
+    /// With no repeats (`L0`) the tool goes to the place of the hole at rapid, without the hole; else it stays where it is.
+    #[serde(default)]
+    pub zero_repeats_move: bool,
     /// Peck drilling goes back to this far above the last depth.
     pub peck_clearance: f64,
     /// Chip breaking backs off by this much.
@@ -668,6 +714,9 @@ pub struct ToolRules {
     /// A tool change cancels tool length compensation.
     #[serde(default)]
     pub change_cancels_length: bool,
+    /// The axis that a tool change takes to the machine's zero.
+    #[serde(default)]
+    pub change_at_zero: Option<char>,
     /// The axes stay where they are at a tool change: the next tool swings in at the place where the last one was. Else
     /// the change takes them to a place of its own, or the builder decides.
     #[serde(default)]
@@ -760,6 +809,8 @@ pub enum SystemValue {
     WorkRotation,
     /// `G52`/`G92` shift.
     Shift,
+    /// The shift of `G52`, where it is apart from that of `G92`.
+    LocalShift,
     ShiftActive,
     WorkOffsetNumber,
     Reference1,
@@ -774,6 +825,10 @@ pub enum SystemValue {
     ToolDiameter,
     /// As the diameter.
     ToolRadius,
+    /// The wear of the length, which counts with it; by tool, the first that of `of`.
+    ToolLengthWear,
+    /// The wear of the diameter, which counts with it; by tool, the first that of `of`.
+    ToolDiameterWear,
     /// The number of the active code of the modal group `of`; ten times it in a named parameter (`170` for `G17`).
     ModalCode,
     /// The last value of the address `of`.

@@ -29,7 +29,7 @@ pub(crate) fn start_state<D: Domain>(
     if machine.start.is_none() {
         assumptions.insert(Assumption::StartPosition);
     }
-    let tables = Tables::of(machine);
+    let tables = Tables::of(machine, model.semantics().reference_at_zero);
     let mut state = State {
         points: Points::at(machine.start.unwrap_or(Position::UNKNOWN)),
         variables: variables(model, machine),
@@ -89,7 +89,8 @@ fn unset<D: Domain>(model: &Model<'_>) -> D::Value {
 
 fn variables<D: Domain>(model: &Model<'_>, machine: &Machine) -> Variables<D> {
     let unwritten = if machine.fresh { unset::<D>(model) } else { D::unknown() };
-    Variables::new(unwritten, machine.variables.iter().map(|(number, value)| (*number, *value)))
+    let kept = |(number, value): (&u32, &f64)| (model.semantics().kept_as(*number), *value);
+    Variables::new(unwritten, machine.variables.iter().map(kept))
 }
 
 fn locals<D: Domain>(model: &Model<'_>, machine: &Machine) -> Locals<D> {

@@ -137,6 +137,18 @@ impl Transform {
         self.rotation.is_no() && self.scaling.is_no() && self.mirrors.iter().all(Perhaps::is_no)
     }
 
+    /// Does a circle in the plane stay one?
+    pub(crate) fn keeps_circles(&self, plane: Plane) -> bool {
+        match self.scaling {
+            Perhaps::No => true,
+            Perhaps::Yes(Scaling { factors, .. }) => {
+                let [first, second, _] = plane.to_local(factors.map(Mm));
+                first.0.abs().to_bits() == second.0.abs().to_bits()
+            }
+            Perhaps::Unknown => false,
+        }
+    }
+
     /// What it does to points.
     pub(crate) fn frame(&self) -> Perhaps<Frame> {
         if self.is_off() {

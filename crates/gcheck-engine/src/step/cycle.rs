@@ -261,7 +261,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     }
 
     fn holes(&mut self, effect: Effect, plane: Plane, repeats: u32, state: &mut State<D>) -> Step {
-        let ([first, second, _], _) = plane_axes(plane);
+        let ([first, second, depth], _) = plane_axes(plane);
         let incremental = state.is_incremental(self.model);
         let target = self.target(state)?;
         let present = self.words.present();
@@ -275,6 +275,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 _ => (here, 0.0),
             }
         };
+        if repeats == 0 && self.model.semantics().cycles.zero_repeats_move {
+            return self.pass_hole(target, depth, state);
+        }
         let ((first_start, along), (second_start, across)) = (way(first), way(second));
         let start = (first_start, second_start);
         let most = repeats.min(crate::cycles::MAX_STROKES);
@@ -309,6 +312,15 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.drill(effect, plane, std::iter::once(at), state)?;
         }
         Ok(())
+    }
+
+    /// `L0`: to the place of a hole that is not made.
+    fn pass_hole(&mut self, target: Position, depth: Axis, state: &mut State<D>) -> Step {
+        let mut to = target;
+        to.set(depth, state.position().raw(depth));
+        let moves =
+            Axis::ALL.into_iter().any(|axis| to.raw(axis).to_bits() != state.position().raw(axis).to_bits());
+        if moves { self.travel(TravelKind::Rapid, to, true, state) } else { Ok(()) }
     }
 
     /// Holes at increments of a polar angle: each is turned about the origin as the first one is from where the tool stands.

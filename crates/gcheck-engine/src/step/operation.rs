@@ -225,7 +225,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         }
         #[expect(clippy::cast_sign_loss, reason = "an offset number is a count")]
         let number = number as u32;
-        let radius = state.tables().tool(number).map_or(f64::NAN, |tool| tool.diameter.0 / 2.0);
+        let radius = state.tables().tool(number).map_or(f64::NAN, |tool| tool.size().0 / 2.0);
         if radius.is_nan() {
             self.assumptions.insert(Assumption::ToolRadius(number));
         }

@@ -11,7 +11,7 @@ use crate::fault::Fault;
 use crate::lattice::{Flat, Perhaps};
 use crate::model::Role;
 use crate::observer::Observer;
-use crate::position::Position;
+use crate::position::{Axis, Position};
 use crate::state::{Loaded, State, ToolData};
 use crate::value::Domain;
 
@@ -206,6 +206,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             return Err(Fault::NoToolSelected);
         }
         self.emit(state, Event::StartChange);
+        self.go_to_change(state);
         if rules.change_stops_spindle {
             self.spindle(Spindle::Stopped, state)?;
         }
@@ -219,6 +220,21 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             self.cancel_length(state);
         }
         Ok(())
+    }
+
+    /// The axis that a change takes to the machine's zero is there from now on.
+    fn go_to_change(&self, state: &mut State<D>) {
+        let Some(axis) =
+            self.model.semantics().tools.change_at_zero.and_then(|letter| Axis::of(Letter::of(letter)))
+        else {
+            return;
+        };
+        let mut machine = state.machine(self.model);
+        machine.set(axis, 0.0);
+        let at = state.from_machine(&machine, self.model).raw(axis);
+        state.points.actual.set(axis, at);
+        let programmed = self.programmed_of(state.actual(), state);
+        state.points.position.set(axis, programmed.raw(axis));
     }
 
     fn put_tool(&mut self, number: Option<u32>, state: &mut State<D>) {

@@ -8,7 +8,7 @@ use gcheck_geometry::{Mm, Plane};
 use super::arc::plane_axes;
 use super::tool_shift::shifted;
 use super::{Executor, Step};
-use crate::lattice::Perhaps;
+use crate::lattice::{Lattice, Perhaps};
 use crate::observer::Observer;
 use crate::position::{Axis, Position};
 use crate::state::State;
@@ -64,6 +64,11 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
                 }
             }
             _ => {}
+        }
+        if state.compensation.is_followed() && !transform.same(&state.transform) {
+            // How the path beside the programmed one goes over to the turned or scaled one is in no page.
+            self.flush_compensation(state)?;
+            state.compensation.lose_path();
         }
         state.transform = transform;
         let programmed = self.programmed_of(state.actual(), state);

@@ -52,7 +52,7 @@ impl PathRule for PocketStepAboveTool {
         let number = number.and_then(whole);
         let Some(unit) = cx.state().units(cx.model).map(Units::in_mm) else { return };
         let tool = number.filter(|number| *number > 0).and_then(|number| cx.state().tables().tool(number));
-        let Some(diameter) = tool.map(|tool| tool.diameter.0).filter(|diameter| *diameter > 0.0) else {
+        let Some(diameter) = tool.map(|tool| tool.size().0).filter(|diameter| *diameter > 0.0) else {
             return;
         };
         for letter in ['I', 'J'] {

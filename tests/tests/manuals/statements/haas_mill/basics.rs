@@ -421,10 +421,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "no rule asks for a position before `M6`",
             &[legal("O1\nT1 M6\nG20 G54 G0 G90 X5. Y5.\nG43 H1 Z-1.\nT2 M6\nG43 H2 Z1.\nM30\n")],
         ),
-        gap(
+        held(
             "p. 134",
             "M6 brings Z to machine zero by itself; after the change Z is there.",
-            "after M6 machine Z is 0 on this control, so that the next move starts there: in work coordinates it is known as far as offset and length are",
+            "`change-at-zero`: machine Z is 0 after the change",
             &[Proof::Run {
                 program: super::mill::told("O1\nG20 G54 G0 G90 X0. Y0. Z1.\nT1 M6\nX1.\nM30\n"),
                 prints: &["2 rapid 0.0000 0.0000 1.0000", "3 tool", "4 rapid 1.0000 0.0000 8.0000"],

@@ -57,10 +57,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 137",
             "The offset in effect is the sum of geometry and wear.",
-            "G10 L12 and L13 (and #2401, #2601 on) in one program add up; where the wear of a told tool is not written it counts as zero, by a stated assumption",
+            "effect `write-offsets`; `tool-diameter-wear` of the system variables; a wear that nobody wrote counts as none",
             &[
                 moves_told(
                     "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG10 L12 P1 R.4\nG10 L13 P1 R.1\nG1 G41 D1 X1. F10.\nY1.\nG40 X-1.\nM30\n",
@@ -295,10 +295,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "feed X0. Y0. Z-1.", "feed X.75 Y0.", "feed X.75 Y1.", "feed X-1. Y1."],
             )],
         ),
-        gap(
+        held(
             "p. 140",
             "G40 in a block without X or Y changes nothing before the next move in X or Y.",
-            "a move in Z alone after G40 goes straight up, still offset; the next move in X or Y is the exit. Now the Z move goes sideways as well",
+            "effect `compensation-off`: the axes of the plane stand still until a move names one",
             &[moves_told(
                 "O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG1 G41 D1 X1. F10.\nY1.\nG40\nZ1.\nX-1.\nM30\n",
                 &["rapid", "feed X.75 Y0.", "feed X.75 Y1.", "feed X.75 Y1. Z1.", "feed X-1. Y1."],

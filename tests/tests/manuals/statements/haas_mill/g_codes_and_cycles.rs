@@ -194,10 +194,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 243, p. 247",
             "L0 beside X or Y makes the move at rapid without the cycle, so that the tool goes round an obstacle.",
-            "L0 skips the hole, not the move: `X5.5 L0` under a cycle is a rapid move to X5.5; the same for the cycle's own block with X or Y",
+            "`zero-repeats-move`",
             &[
                 Makes {
                     program: cut!("G81 G99 Z-.5 R.1 F6.5\nX4.\nX5.5 L0\nY-2.\n"),

@@ -190,10 +190,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 276",
             "H0 ends tool length compensation.",
-            "an `H0` by itself acts as G49; at present the length stays on",
+            "`zero-length-number-cancels`",
             &[Stands { program: cut!("H0\nZ1.\n").with(&[TOOL, G54]), after: "Z1.", at: "MZ-7" }],
         ),
         gap(

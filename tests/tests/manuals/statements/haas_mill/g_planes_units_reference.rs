@@ -141,10 +141,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 263, p. 281",
             "G28 ends at machine zero, which is where G53 counts from.",
-            "after G28 the machine position of the axes it names is 0 and, with offsets known, their work position follows",
+            "`reference-at-zero`",
             &[
                 Stands {
                     program: cut!("G28 G91 X0. Y0. Z0.\nG90\n").with(&[G54, "tools.1={length=4.0}"]),
@@ -164,7 +164,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "`reference-without-axes`",
             &[Run {
                 program: cut!("G28\n").with(&[G54, "tools.1={length=4.0}"]),
-                prints: &["7 rapid ? ? ?"],
+                prints: &["7 rapid 10.0000 5.0000 4.0000"],
             }],
         ),
         held(
@@ -173,7 +173,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "effect `return-reference`",
             &[Run {
                 program: cut!("G28 G91 Z0.\nG90\n").with(&[G54, "tools.1={length=4.0}"]),
-                prints: &["7 rapid 0.0000 0.0000 ?"],
+                prints: &["7 rapid 0.0000 0.0000 4.0000"],
             }],
         ),
         held(

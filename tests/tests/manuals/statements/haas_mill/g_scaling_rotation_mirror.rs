@@ -206,10 +206,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 at: "MZ-2",
             }],
         ),
-        gap(
+        held(
             "p. 280",
             "The size of the tool is not scaled by G51: compensation is by the true radius of the scaled path.",
-            "scaling and cutter compensation together: at present the compensated path is not scaled at all",
+            "compensation acts after scaling",
             &[Makes {
                 program: cut!("G51 X0. Y0. P2.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG50\n").with(&[TOOL]),
                 block: "G41 D1 G1 X1. F10.",
@@ -439,10 +439,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G68 X0. Y0. R90.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG69\n"),
             }],
         ),
-        gap(
+        held(
             "p. 285",
             "Compensation goes on after rotation and off before it: in between it acts on the turned path (the manual gives the order only).",
-            "rotation and cutter compensation together: at present the compensated path is not turned at all",
+            "compensation acts after rotation",
             &[
                 Makes {
                     program: cut!("G68 X0. Y0. R90.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG69\n").with(&[TOOL]),
@@ -535,10 +535,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 306",
             "Mirror image and cutter compensation together follow the mirrored path on its other side.",
-            "at present the compensated path is not mirrored at all",
+            "compensation acts after mirrors, on the other side",
             &[Makes {
                 program: cut!("G101 X0.\nG41 D1 G1 X1. F10.\nY1.\nG40 X2.\nG100 X0.\n").with(&[TOOL]),
                 block: "G41 D1 G1 X1. F10.",

@@ -259,10 +259,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X2.", "rapid X3.", "rapid X4."],
             )],
         ),
-        gap(
+        held(
             "p. 227",
             "A condition before M99 is for M99 alone: the moves of the block are made whether it holds or not.",
-            "the words in front of the condition are executed in both cases; now a condition that does not hold drops the whole block",
+            "`words-before-conditions`",
             &[moves(
                 "O1\nG20 G54 G0 G90 X9. Y9.\n#1=1\n#2=2\nG0 X0. Y0. [#1 EQ #2] M99 P5\nX1.\nG0 X5. Y5. [#1 NE #2] M99 P5\nX2.\nN5 X3.\nM30\n",
                 &["rapid X9. Y9.", "rapid X0. Y0.", "rapid X1.", "rapid X5. Y5.", "rapid X3."],
@@ -305,10 +305,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 rule("error[jump-target-missing]", "O1\nGOTO16\nN15 M30\n", "O1\nGOTO15\nN15 M30\n"),
             ],
         ),
-        gap(
+        held(
             "p. 226",
             "GOTO may stand in a block with other codes; it is executed after all of them, M codes too.",
-            "the words in front of GOTO are executed; now they are dropped without a finding: moves, coolant and spindle codes are lost",
+            "`words-before-conditions`",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90 X0.\nX1. GOTO15\nX2.\nN15 X3.\nM30\n",

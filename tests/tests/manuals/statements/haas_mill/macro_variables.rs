@@ -410,10 +410,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid", "rapid X1.", "rapid Z1.", "rapid X3."],
             )],
         ),
-        gap(
+        held(
             "p. 214",
             "#5083 includes the wear of the length.",
-            "length in effect = #2000 + H plus #2200 + H: a program that sets the wear moves deeper by it",
+            "`tool-length-wear` of the system variables",
             &[moves_told(
                 "O1\nG20 T1 M6\nG54 G0 G90 X0. Y0.\n#2201=.1\nG43 H1 Z1.\nX#5083\nM30\n",
                 &["rapid", "rapid Z1. MZ-3.9", "rapid X3.1"],
@@ -432,10 +432,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 variables([5321, 5326], "G59", "read-write"),
             ],
         ),
-        gap(
+        held(
             "p. 202, 214",
             "#5201 to #5206 are the shift of G52.",
-            "reading gives what G52 set, writing replaces it; now they are a second shift beside G52's",
+            "`local-shift` of the system variables",
             &[
                 moves_told("O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG52 X1.\nX#5201\nM30\n", &["rapid", "rapid MX-8."]),
                 moves_told("O1\nG20 G54 G0 G90 X0. Y0. Z0.\nG52 X1.\n#5201=2.\nX0.\nM30\n", &["rapid", "rapid MX-8."]),

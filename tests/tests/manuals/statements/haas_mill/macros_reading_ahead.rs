@@ -112,10 +112,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 "O1\nG20 G54 G0 G90 X0.\nG1 F5.\n/G1 X1.\nG1 X2.\nM30\n",
             )],
         ),
-        gap(
+        held(
             "p. 194, 199",
             "A variable of three digits and the one 10000 above are the same: #100 is #10100.",
-            "one store under both numbers, for #100 to #199, #500 to #699 and #800 to #999; now they are two variables",
+            "`mirrored-variables`",
             &[
                 moves(
                     "O1\nG20 G54 G0 G90\n#100=5.\nX#10100\n#10501=6.\nX#501\n#800=7.\nX#10800\nM30\n",
