@@ -262,6 +262,8 @@ pub enum Effect {
     SaveModesUntilReturn,
     /// A program outside the control's own (`M100` to `M199`).
     UserCommand,
+    /// Puts the operator's answer into the variable of `P` (`M109`).
+    AskOperator,
 
     // Spindle, tool, coolant, inputs and outputs.
     SpindleClockwise,
@@ -386,6 +388,9 @@ pub struct Semantics {
     pub cycles: CycleRules,
     /// Cutter compensation.
     pub compensation: CompensationRules,
+    /// The settings of scaling, rotation and mirrors.
+    #[serde(default)]
+    pub transform_settings: TransformSettings,
     /// How tools are called and measured.
     pub tools: ToolRules,
     /// Cylindrical mapping that wraps a linear axis, by the words of its code; where a word for the rotary axis holds the
@@ -659,6 +664,49 @@ pub struct CompensationRules {
     pub freezes_plane: bool,
     /// The setting that decides between radius and diameter, where one does.
     pub setting: Option<String>,
+    /// What the control refuses while it is on, where a manual says so.
+    #[serde(default)]
+    pub refuses: Option<CompensationRefusals>,
+}
+
+/// What a control refuses while cutter compensation is on.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct CompensationRefusals {
+    /// The end of the program and a stop (`M30`, `M2`, `M0`, `M1`).
+    #[serde(default)]
+    pub ends: bool,
+    /// Planes other than XY: compensation does not begin in them, and arcs are not in them.
+    #[serde(default)]
+    pub other_planes: bool,
+    /// Another offset number in the block of an arc.
+    #[serde(default)]
+    pub offset_on_arc: bool,
+    /// Codes that limit how far the control reads ahead: neither while it is on, nor on while they limit.
+    #[serde(default)]
+    pub read_ahead_limits: Vec<String>,
+    /// Its source.
+    pub source: String,
+    /// How sure it is.
+    pub confidence: Confidence,
+}
+
+/// Settings that scaling, rotation and mirrors rest on, by number.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct TransformSettings {
+    /// The factor of scaling without one in its block; 0 hands over to `by_axis`.
+    #[serde(default)]
+    pub factor: Option<String>,
+    /// The factors of X, Y and Z.
+    #[serde(default)]
+    pub by_axis: Vec<String>,
+    /// The angle of rotation without one in its block.
+    #[serde(default)]
+    pub angle: Option<String>,
+    /// The settings that mirror X, Y and Z while they are on.
+    #[serde(default)]
+    pub mirrors: Vec<String>,
 }
 
 /// Cylindrical mapping that wraps a linear axis around a rotary one.

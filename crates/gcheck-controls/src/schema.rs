@@ -99,6 +99,9 @@ pub struct SyntaxRules {
     pub logic_binds_last: bool,
     /// `**` is an operator.
     pub power_operator: bool,
+    /// Words may be after a condition without `THEN`: `IF [#1 EQ 2] G65 P3`.
+    #[serde(default)]
+    pub words_after_if: bool,
     /// A pair of `%` lines ends the program where no code does.
     #[serde(default)]
     pub tape_marks_end: bool,

@@ -948,9 +948,12 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
             return Ok(D::vacant());
         }
         let system = self.model.system_variable(number);
-        // A probing move writes its result over what the program wrote.
+        // A probing move writes its result over what the program wrote, and a clock goes on from it.
         let is_probed = system.is_some_and(|(variable, _, _)| {
-            matches!(variable.holds, SystemValue::ProbePosition | SystemValue::ProbeResult)
+            matches!(
+                variable.holds,
+                SystemValue::ProbePosition | SystemValue::ProbeResult | SystemValue::Unknown
+            )
         });
         let written = if is_probed { Truth::False } else { state.variables.written(number) };
         if written == Truth::True {

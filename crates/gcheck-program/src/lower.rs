@@ -332,6 +332,7 @@ pub fn profile(control: &Control) -> SyntaxProfile {
         bare_expressions: syntax.bare_expressions,
         logic_binds_last: syntax.logic_binds_last,
         power_operator: syntax.power_operator,
+        words_after_if: syntax.words_after_if,
         system_commands: syntax.system_commands,
     }
 }

@@ -59,6 +59,9 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         if rules.needs_axis && !has_words && !names_code {
             return if self.refuses_incomplete() { Err(Fault::NoAxisWords) } else { Ok(()) };
         }
+        if names_code && !has_point && rules.needs_axis && self.waits_for_point() {
+            return Ok(());
+        }
         let runs_here = names_code && self.runs_without_point();
         if !(rules.needs_axis || has_point || runs_here) {
             return Ok(());
@@ -73,6 +76,12 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             Some(_) => self.setting("28").is_none_or(|value| value == "on" || value == "true"),
             None => true,
         }
+    }
+
+    /// Is the setting told that a first block without a point makes no hole?
+    fn waits_for_point(&self) -> bool {
+        let told = self.machine.settings.get("28").filter(|_| self.model.control().setting("28").is_some());
+        told.is_some_and(|value| value == "off" || value == "false")
     }
 
     /// What cycles need of the state, on controls that refuse them without.
@@ -362,6 +371,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
         let tap_out = if taps { self.tap_out(words.word('J', j)) } else { 1.0 };
         let shift = [words.word('I', i), words.word('J', j), words.word('K', k)].map(|word| word.map(Mm));
         let (peck, ijk) = self.shift_of_bore(effect, words.word('Q', words.q).map(Mm), shift);
+        // Pecks and shifts keep their size under scaling, which comes over the strokes.
+        let unscaled = |length: Mm| Mm(length.0 / state.transform.common_factor());
+        let (peck, ijk) = if state.transform.is_off() {
+            (peck, ijk)
+        } else {
+            (peck.map(unscaled), ijk.map(|word| word.map(unscaled)))
+        };
         // Without a point the cycle is kept for a pattern that follows; the tool goes nowhere.
         let mut result = Ok(());
         for (turn, at) in points.enumerate() {

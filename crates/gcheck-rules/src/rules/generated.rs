@@ -59,6 +59,7 @@ pub(crate) mod cycles {
     pub(crate) mod cycle_word_not_positive;
     pub(crate) mod cycle_words_lost;
     pub(crate) mod maybe_cycle_left_on;
+    pub(crate) mod pattern_without_cycle;
     pub(crate) mod pocket_on_wrong_side;
     pub(crate) mod pocket_outline_open;
     pub(crate) mod pocket_outline_too_long;
@@ -218,7 +219,9 @@ pub(crate) mod offsets {
     pub(crate) mod plane_changed_under_rotation;
     pub(crate) mod polar_coordinates_left_on;
     pub(crate) mod rotation_left_on;
+    pub(crate) mod rotation_under_compensation;
     pub(crate) mod scaling_left_on;
+    pub(crate) mod scaling_under_rotation;
     pub(crate) mod shift_left_on;
     pub(crate) mod tool_tilt_left_on;
     pub(crate) mod work_offset_never_chosen;
@@ -335,6 +338,7 @@ pub(crate) mod syntax {
 pub(crate) mod tool {
     pub(crate) mod coolant_forgotten;
     pub(crate) mod length_cancelled_before_cut;
+    pub(crate) mod length_cancelled_before_move;
     pub(crate) mod length_offset_of_another_tool;
     pub(crate) mod length_offset_zero;
     pub(crate) mod length_subtracted;
@@ -430,6 +434,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &cycles::cycle_word_not_positive::RULE,
     &cycles::cycle_words_lost::RULE,
     &cycles::maybe_cycle_left_on::RULE,
+    &cycles::pattern_without_cycle::RULE,
     &cycles::pocket_on_wrong_side::RULE,
     &cycles::pocket_outline_open::RULE,
     &cycles::pocket_outline_too_long::RULE,
@@ -565,7 +570,9 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &offsets::plane_changed_under_rotation::RULE,
     &offsets::polar_coordinates_left_on::RULE,
     &offsets::rotation_left_on::RULE,
+    &offsets::rotation_under_compensation::RULE,
     &offsets::scaling_left_on::RULE,
+    &offsets::scaling_under_rotation::RULE,
     &offsets::shift_left_on::RULE,
     &offsets::tool_tilt_left_on::RULE,
     &offsets::work_offset_never_chosen::RULE,
@@ -661,6 +668,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &syntax::zero_for_letter_o::RULE,
     &tool::coolant_forgotten::RULE,
     &tool::length_cancelled_before_cut::RULE,
+    &tool::length_cancelled_before_move::RULE,
     &tool::length_offset_of_another_tool::RULE,
     &tool::length_offset_zero::RULE,
     &tool::length_subtracted::RULE,

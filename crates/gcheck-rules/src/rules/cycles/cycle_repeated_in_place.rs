@@ -1,10 +1,10 @@
 //! A canned cycle that is repeated at one place.
 
-use gcheck_controls::{Effect, Letter};
+use gcheck_controls::{CodeIx, Effect, Letter};
 use gcheck_engine::{Fact, Role};
 
 use crate::declare::declare_rule;
-use crate::facts::cycles::is_cycle;
+use crate::facts::cycles::{is_cycle, is_round_pocket};
 use crate::facts::offset_schemes::whole;
 use crate::{PathCx, PathRule, Report, Run, Severity, Uses, Watch};
 
@@ -42,7 +42,7 @@ struct CycleRepeatedInPlace;
 
 impl PathRule for CycleRepeatedInPlace {
     fn concerns(&self, program: &Uses<'_>) -> bool {
-        program.may(is_cycle)
+        program.may(|effect| is_cycle(effect) || is_round_pocket(effect))
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
@@ -50,9 +50,7 @@ impl PathRule for CycleRepeatedInPlace {
         if !cx.origin().letters.contains(Letter::of(letter)) {
             return;
         }
-        let Some(cycle) = cx.code_of_role(Role::Cycle).filter(|code| is_cycle(cx.model.effect(*code))) else {
-            return;
-        };
+        let Some(cycle) = repeated(cx) else { return };
         let is_absolute = match cx.code_of_role(Role::Distance) {
             Some(code) => cx.model.effect(code) == Effect::Absolute,
             None => cx.state().is_incremental(cx.model) == Some(false),
@@ -87,6 +85,23 @@ impl PathRule for CycleRepeatedInPlace {
             None => cx.resting_on(finding, Fact::Mode(Role::Distance), &format!("`{absolute}`")),
         });
     }
+}
+
+/// The cycle that the block runs: its own, or the one in effect in a block that only goes to a position.
+fn repeated(cx: &PathCx<'_>) -> Option<CodeIx> {
+    let pocket = cx.codes().iter().copied().find(|code| is_round_pocket(cx.model.effect(*code)));
+    let own = pocket.or_else(|| cx.code_of_role(Role::Cycle));
+    let cycle = match own {
+        Some(own) => own,
+        None if cx.names_axes()
+            && cx.codes().iter().all(|code| cx.model.role(*code) == Some(Role::Distance)) =>
+        {
+            cx.state().active_cycle(cx.model)?
+        }
+        None => return None,
+    };
+    let effect = cx.model.effect(cycle);
+    (is_cycle(effect) || is_round_pocket(effect)).then_some(cycle)
 }
 
 #[cfg(test)]

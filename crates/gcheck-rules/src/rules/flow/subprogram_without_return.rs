@@ -4,7 +4,7 @@ use gcheck_controls::Ends;
 use gcheck_engine::{At, Ending, Fault, FrameKind};
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Watch};
+use crate::{PathCx, PathRule, Report, Run, Severity, Watch};
 
 declare_rule! {
     /// A program that is called has no return (`M99`): it ends with `M30`, or runs to the end of the text.
@@ -40,7 +40,7 @@ declare_rule! {
     /// ```
     rule "subprogram-without-return" in "flow" {
         summary: "called program that does not return",
-        severity: Warning,
+        severity: Error,
         tier: Path,
         since: "0.1.0",
         run: Run::Path {
@@ -101,7 +101,10 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
         .label(label)
         .also(entry, "the called program begins here")
         .help("end the called program with `M99`");
-    report.add(finding);
+    // Where the control has an alarm for it, the text ends with that.
+    let alarm = cx.control().alarm_of(META.id, "end of text").filter(|_| at_end_of_text);
+    let number = alarm.map(|alarm| alarm.number.clone().unwrap_or_else(|| alarm.text.clone()));
+    report.add(if number.is_some() { finding.alarm(number) } else { finding.at_most(Severity::Warning) });
 }
 
 #[cfg(test)]

@@ -516,10 +516,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
         gap(
             "p. 135",
             "I belongs to X, J to Y, K to Z: an arc with only the centre word of the other plane has no centre.",
-            "error[arc-without-centre] where the only centre word is not of the active plane: the centre is the start, the arc has no radius",
+            "warning[arc-wrong-plane-word] where the only centre word is not of the active plane: the centre is the start, the arc has no radius",
             &[
                 rule(
-                    "error[arc-without-centre]",
+                    "warning[arc-wrong-plane-word]",
                     "O1\nG20 G54 G17 G0 G90 X4. Y2. Z0.\nG2 X5. Y3. K1. F20.\nM30\n",
                     "O1\nG20 G54 G17 G0 G90 X4. Y2. Z0.\nG2 X5. Y3. I1. F20.\nM30\n",
                 ),

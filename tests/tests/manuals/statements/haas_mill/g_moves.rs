@@ -275,12 +275,12 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "silent so far: `G17 G2 X Y K` and `G18 G2 X Z J` give no usable centre: error as for an arc without any",
             &[
                 Rule {
-                    finding: "error[arc-without-centre]",
+                    finding: "warning[arc-wrong-plane-word]",
                     violates: cut!("G2 X1. Y1. K1. F10.\n"),
                     conforms: cut!("G2 X1. Y1. I1. F10.\n"),
                 },
                 Rule {
-                    finding: "error[arc-without-centre]",
+                    finding: "warning[arc-wrong-plane-word]",
                     violates: cut!("G18 G2 X1. Z-.9 J1. F10.\nG17\n"),
                     conforms: cut!("G18 G2 X1. Z-.9 I1. F10.\nG17\n"),
                 },

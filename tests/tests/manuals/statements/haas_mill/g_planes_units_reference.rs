@@ -57,7 +57,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "With cutter compensation arcs are allowed in XY only.",
             "silent: G41 or G42 with G18 or G19 in effect offsets in the wrong plane (`G18 .. G41 D1 G1 X1.` shifts Z): a code outside its plane, error with the page",
             &[Rule {
-                finding: "error[compensation-outside-plane]",
+                finding: "error[refused-under-compensation]",
                 violates: cut!("G18\nG41 D1 G1 X1. F10.\nG3 X2. Z-.9 R1.\nG40 G1 X3.\nG17\n")
                     .with(&["tools.1={diameter=0.2}"]),
                 conforms: cut!("G41 D1 G1 X1. F10.\nG2 X2. Y-1. R1.\nG40 G1 X3.\n")

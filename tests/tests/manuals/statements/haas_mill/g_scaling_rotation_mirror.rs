@@ -424,7 +424,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             "The other order, and both in one block, are not to be written.",
             "G51 while G68 is on, G50 before G69, and both codes in a block: info with the page",
             &[Rule {
-                finding: "info[scaling-inside-rotation]",
+                finding: "warning[scaling-under-rotation]",
                 violates: cut!("G68 X0. Y0. R90.\nG51 X0. Y0. P2.\nG0 X1. Y0.\nG50\nG69\n"),
                 conforms: cut!("G51 X0. Y0. P2.\nG68 X0. Y0. R90.\nG0 X1. Y0.\nG69\nG50\n"),
             }],
