@@ -379,6 +379,15 @@ pub struct Semantics {
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
+    /// The setting that keeps what is in effect at the end of the program while it is off, where one does.
+    #[serde(default)]
+    pub at_end_setting: Option<String>,
+    /// The setting against which the codes of units are checked: a code of the other unit is an alarm.
+    #[serde(default)]
+    pub units_setting: Option<String>,
+    /// `ATAN` takes one number: a slash after it divides the angle.
+    #[serde(default)]
+    pub atan_takes_one: bool,
     /// Codes active at power-on beside the groups' defaults.
     #[serde(default)]
     pub at_start: Vec<String>,

@@ -554,6 +554,9 @@ pub struct WordEntry {
     /// For `need = "conditional"`: when, in words.
     #[serde(default)]
     pub when: Option<String>,
+    /// For `need = "conditional"`: it must be in the block unless a comment is, which may name a file.
+    #[serde(default)]
+    pub unless_comment: bool,
     /// For `need = "conditional"`: words beside which it must be in the block, with their values: `["L2", "L20"]`.
     #[serde(default)]
     pub required_with: Vec<String>,

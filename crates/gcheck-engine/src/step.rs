@@ -909,6 +909,13 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
                     D::binary(*op, &left, &right, semantics).map_err(Fault::Value)
                 }
                 Op::Call(Function::Exists, _) => Ok(self.stack.pop().unwrap_or_else(D::unknown)),
+                Op::Call(Function::Atan, 2) if semantics.atan_takes_one => {
+                    let divisor = self.stack.pop().unwrap_or_else(D::unknown);
+                    let number = self.stack.pop().unwrap_or_else(D::unknown);
+                    D::call(Function::Atan, std::slice::from_ref(&number), semantics)
+                        .and_then(|angle| D::binary(BinaryOp::Divide, &angle, &divisor, semantics))
+                        .map_err(Fault::Value)
+                }
                 Op::Call(function, count) => {
                     let from = self.stack.len().saturating_sub(usize::from(*count)).max(bottom);
                     let result = D::call(*function, self.stack.get(from..).unwrap_or_default(), semantics);

@@ -312,6 +312,13 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             None if state.tables().is_complete() => return Err(Fault::NoSuchTool(number)),
             None => self.unknown_length(state),
         };
+        // Of an entry of which nothing is known but its size, too: only along Z on mills.
+        let mut length = length;
+        for axis in Axis::ALL {
+            if length.raw(axis).is_nan() && !self.unknown_length(state).raw(axis).is_nan() {
+                length.set(axis, 0.0);
+            }
+        }
         if !length.is_known() {
             self.assumptions.insert(Assumption::ToolLength(number));
         }

@@ -118,6 +118,7 @@ pub(crate) mod machine {
     pub(crate) mod pocket_step_above_tool;
     pub(crate) mod speed_above_machine_limit;
     pub(crate) mod tool_not_in_table;
+    pub(crate) mod units_against_setting;
     pub(crate) mod work_offset_not_listed;
 }
 
@@ -209,6 +210,7 @@ pub(crate) mod motion {
     pub(crate) mod rapid_plunge;
     pub(crate) mod rapid_sideways_and_down;
     pub(crate) mod rapid_with_feed;
+    pub(crate) mod reference_point_never_set;
     pub(crate) mod reference_return_through_point;
     pub(crate) mod thread_without_lead;
     pub(crate) mod tool_down_at_end;
@@ -484,6 +486,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &machine::pocket_step_above_tool::RULE,
     &machine::speed_above_machine_limit::RULE,
     &machine::tool_not_in_table::RULE,
+    &machine::units_against_setting::RULE,
     &machine::work_offset_not_listed::RULE,
     &macros::assignment_to_read_only_variable::RULE,
     &macros::common_variable_never_set::RULE,
@@ -563,6 +566,7 @@ pub(crate) static ALL: &[&gcheck_lint::RuleEntry] = &[
     &motion::rapid_plunge::RULE,
     &motion::rapid_sideways_and_down::RULE,
     &motion::rapid_with_feed::RULE,
+    &motion::reference_point_never_set::RULE,
     &motion::reference_return_through_point::RULE,
     &motion::thread_without_lead::RULE,
     &motion::tool_down_at_end::RULE,

@@ -183,7 +183,7 @@ impl PathRule for SpindleStoppedWhileCutting {
             );
         // `S` may be a laser's power if no tool is changed.
         let is_mill = is_ever_started || cx.file_uses(|effect| effect == Effect::ToolChange);
-        if !is_mill || cx.file_uses(probes) {
+        if !is_mill && !needs_turns || cx.file_uses(probes) {
             finding = finding.at_most(Severity::Info);
         }
         if needs_turns && let Some(name) = cx.code_name(Role::FeedMode) {
