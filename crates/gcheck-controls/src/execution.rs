@@ -379,6 +379,9 @@ pub struct Semantics {
     /// Codes that `M2` and `M30` bring into effect.
     #[serde(default)]
     pub at_end: Vec<String>,
+    /// The alarm of a called program that runs to the end of the text without a return.
+    #[serde(default)]
+    pub missing_return_alarm: Option<String>,
     /// The setting that keeps what is in effect at the end of the program while it is off, where one does.
     #[serde(default)]
     pub at_end_setting: Option<String>,

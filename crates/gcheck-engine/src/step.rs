@@ -421,7 +421,10 @@ impl<'a, 'p, D: Domain, O: Observer<D>> Executor<'a, 'p, D, O> {
         self.read_words(place, table, words, state)?;
         let executed = self.execute(place, words, state);
         self.settle_tool_shift(state);
-        executed?;
+        if let Err(fault) = executed {
+            // The jump is what the block means all the same.
+            self.refuse(fault)?;
+        }
         // A call or an end in front of a jump: which of the two the control then follows is in no page.
         if self.flow.take().is_some() { Err(Fault::Undecidable) } else { Ok(()) }
     }

@@ -54,8 +54,11 @@ struct SubprogramWithoutReturn;
 
 impl PathRule for SubprogramWithoutReturn {
     fn ended(&mut self, cx: &PathCx<'_>, ending: Ending, report: &mut Report<'_>) {
-        if ending == Ending::Program {
-            check(cx, false, report);
+        match ending {
+            Ending::Program => check(cx, false, report),
+            // A `%` after the last line ends the text as well.
+            Ending::Tape => check(cx, true, report),
+            _ => {}
         }
     }
 
@@ -101,9 +104,8 @@ fn check(cx: &PathCx<'_>, at_end_of_text: bool, report: &mut Report<'_>) {
         .label(label)
         .also(entry, "the called program begins here")
         .help("end the called program with `M99`");
-    // Where the control has an alarm for it, the text ends with that.
-    let alarm = cx.control().alarm_of(META.id, "end of text").filter(|_| at_end_of_text);
-    let number = alarm.map(|alarm| alarm.number.clone().unwrap_or_else(|| alarm.text.clone()));
+    // Where the manual names the alarm, the end of the text is one.
+    let number = cx.model.semantics().missing_return_alarm.clone().filter(|_| at_end_of_text);
     report.add(if number.is_some() { finding.alarm(number) } else { finding.at_most(Severity::Warning) });
 }
 

@@ -3,10 +3,10 @@
 use gcheck_controls::Effect;
 
 use crate::declare::declare_rule;
-use crate::{PathCx, PathRule, Report, Run, Uses, Watch};
+use crate::{PathCx, PathRule, Remembers, Report, Run, Uses, Watch, remembers};
 
 declare_rule! {
-    /// The tool returns from the reference position (`G29`), and the program never goes to it (`G28`).
+    /// The tool returns from the reference position (`G29`), and the program has not gone to it before (`G28`).
     ///
     /// ## Why it matters
     /// The way leads through the point that the last `G28` passed. Without one in the program it is a point of some
@@ -30,24 +30,30 @@ declare_rule! {
         severity: Warning,
         tier: Path,
         since: "0.1.0",
-        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ReferencePointNeverSet) },
+        run: Run::Path { watch: Watch::BLOCKS, make: || Box::new(ReferencePointNeverSet { was_set: false }) },
     }
 }
 
-struct ReferencePointNeverSet;
+#[derive(Clone, PartialEq)]
+struct ReferencePointNeverSet {
+    /// Some block before went to the reference position.
+    was_set: bool,
+}
+
+remembers!(ReferencePointNeverSet);
 
 impl PathRule for ReferencePointNeverSet {
+    fn memory(&mut self) -> Remembers<'_> {
+        Remembers::All(self)
+    }
+
     fn concerns(&self, program: &Uses<'_>) -> bool {
         program.may(returns)
     }
 
     fn block(&mut self, cx: &PathCx<'_>, report: &mut Report<'_>) {
-        let goes = |effect| matches!(effect, Effect::ReturnReference(_));
-        if !cx.has_effect(returns)
-            || cx.file_may_use(goes)
-            || cx.is_called_only()
-            || cx.is_after_unknown_program()
-        {
+        self.was_set |= cx.has_effect(|effect| matches!(effect, Effect::ReturnReference(_)));
+        if !cx.has_effect(returns) || self.was_set || cx.is_called_only() || cx.is_after_unknown_program() {
             return;
         }
         let go = cx.name_of_effect(Effect::ReturnReference(1)).unwrap_or_default();
@@ -55,7 +61,7 @@ impl PathRule for ReferencePointNeverSet {
             cx.finding(
                 &META,
                 cx.effect_range(returns),
-                format!("the tool returns by a point that the program never set (no `{go}`)"),
+                format!("the tool returns by a point that the program did not set before (no `{go}`)"),
             )
             .label("goes through the point of some program before, at rapid")
             .help(format!("go to the reference position with `{go}` before this, or move there with `G0`")),

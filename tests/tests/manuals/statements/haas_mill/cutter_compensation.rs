@@ -84,10 +84,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G141", "All of X, Y and Z are shifted"),
             ],
         ),
-        gap(
+        held(
             "p. 137",
             "Under G41 and G42 arcs are in G17 only.",
-            "error where G41 or G42 begins, or an arc comes under it, in G18 or G19 (alarm 344): the data says `requires = [\"G17\"]`, no rule reads it",
+            "rule `refused-under-compensation`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",
@@ -149,10 +149,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("G40", "active at power-on"),
             ],
         ),
-        gap(
+        held(
             "p. 137, 140",
             "A program may not end by M30, M2, M0 or M1 with compensation on; one that is terminated so raises an alarm.",
-            "error[compensation-left-on] at M30, M2 and M0 (the alarm is 349 as far as other books tell; this manual gives no number), a warning at M1, which stops only with OPT STOP on; no note may say that the end switches it off",
+            "rule `compensation-left-on`",
             &[
                 rule_told(
                     "error[compensation-left-on]",
@@ -351,10 +351,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 prints: &["4 feed 2.0000", "6 feed 4.0000 0.5000", "7 feed 5.0000 0.0000"],
             }],
         ),
-        gap(
+        held(
             "p. 141",
             "D and the side cannot change on an arc.",
-            "error for a D word other than the one in effect in a block that cuts an arc under compensation; a change of side there is reported already",
+            "rules `refused-under-compensation`, `codes-conflict`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",
@@ -488,10 +488,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ),
             ],
         ),
-        gap(
+        held(
             "p. 192, 231",
             "G103 cannot be used while compensation is on.",
-            "error[refused-under-compensation] for G103 under G41 and G42, and for G41 after G103 P1 (alarm 387): the data forbids it",
+            "rule `refused-under-compensation`",
             &[
                 rule_told(
                     "error[refused-under-compensation]",

@@ -269,10 +269,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 251",
             "An arc with the centre word of another plane only has no centre.",
-            "silent so far: `G17 G2 X Y K` and `G18 G2 X Z J` give no usable centre: error as for an arc without any",
+            "rule `arc-wrong-plane-word`",
             &[
                 Rule {
                     finding: "warning[arc-wrong-plane-word]",

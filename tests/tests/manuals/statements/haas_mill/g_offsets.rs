@@ -153,37 +153,37 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 conforms: cut!("G10 L10 P200 R1.\n"),
             }],
         ),
-        gap(
+        held(
             "p. 259",
             "P is 0 to 6 with L2, 1 to 99 with L20, 1 to 200 with L10 to L13.",
-            "`G10` judges P against the table that L names: `L2 P7`, `L20 P0`, `L20 P100`, `L10 P0` are refused: error",
+            "word `P` of `G10` beside `L`; rule `word-unfit-for-another`",
             &[
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L2 P7 X1.\n"),
                     conforms: cut!("G10 L2 P6 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L20 P0 X1.\n"),
                     conforms: cut!("G10 L20 P1 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L20 P100 X1.\n"),
                     conforms: cut!("G10 L20 P99 X1.\n"),
                 },
                 Rule {
-                    finding: "error[number-out-of-range]",
+                    finding: "error[word-unfit-for-another]",
                     violates: cut!("G10 L10 P0 R1.\n"),
                     conforms: cut!("G10 L10 P1 R1.\n"),
                 },
             ],
         ),
-        gap(
+        held(
             "p. 259",
             "L is 1, 2, 10 to 13 or 20.",
-            "other values of L are refused: error",
+            "word `L` of `G10`",
             &[Rule {
                 finding: "error[number-out-of-range]",
                 violates: cut!("G10 L3 P1 R1.\n"),

@@ -3,7 +3,7 @@
 //! Knows: statements in our words, programs, expectations. Must not know: how they are checked.
 
 use super::blocks::cut;
-use super::mill::{gap, held, mill, not_modelled};
+use super::mill::{held, mill, not_modelled};
 use crate::proof::Proof::{Makes, Rule, Run, Stands};
 use crate::statements::statement::{Chapter, prove};
 
@@ -52,10 +52,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["feed Z-0.2", "arc X0.5 S180 I0.25 J0", "arc S360 I0 J0", "arc X0 S180 I0.25 J0"],
             }],
         ),
-        gap(
+        held(
             "p. 262",
             "With cutter compensation arcs are allowed in XY only.",
-            "silent: G41 or G42 with G18 or G19 in effect offsets in the wrong plane (`G18 .. G41 D1 G1 X1.` shifts Z): a code outside its plane, error with the page",
+            "rule `refused-under-compensation`",
             &[Rule {
                 finding: "error[refused-under-compensation]",
                 violates: cut!("G18\nG41 D1 G1 X1. F10.\nG3 X2. Z-.9 R1.\nG40 G1 X3.\nG17\n")
@@ -109,20 +109,20 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 263",
             "G20 alarms when Setting 9 is not inch.",
-            "silent with `settings.9 = \"mm\"` and with `machine.units = \"mm\"`: G20 (and G21 the other way round) against the setting that is configured is refused: error",
+            "rule `units-against-setting`",
             &[Rule {
                 finding: "error[units-against-setting]",
                 violates: cut!("G0 X1.\n").with(&["settings.9=\"mm\""]),
                 conforms: cut!("G0 X1.\n").with(&["settings.9=\"inch\""]),
             }],
         ),
-        gap(
+        held(
             "p. 263",
             "G20 and G21 are checked against one setting, so that one program cannot have both.",
-            "`units-changed` is an info: here the second code is an alarm whatever Setting 9 says: warning at least",
+            "rule `units-changed`",
             &[Rule {
                 finding: "warning[units-changed]",
                 violates: cut!("G20\nG0 X1.\nG21\nG0 X25.\n"),
@@ -196,10 +196,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 events: &["rapid X-1 Y-1", "rapid X2 Y3"],
             }],
         ),
-        gap(
+        held(
             "p. 263",
             "G29 needs the point of an earlier G28.",
-            "silent: G29 before any G28 of the program goes by a point that an earlier program left: warning",
+            "rule `reference-point-never-set`",
             &[Rule {
                 finding: "warning[reference-point-never-set]",
                 violates: cut!("G29 X1.\n"),

@@ -707,10 +707,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 Run { program: short!("M98 (USB0/O00001.nc)\nX1.\nM30\n"), prints: &["rapid 1.0000", "end"] },
             ],
         ),
-        gap(
+        held(
             "p. 359",
             "M98 needs P or a path.",
-            "M98 alone: error; silent so far",
+            "word `P` of `M98`; rule `required-word-missing`",
             &[Rule {
                 finding: "error[required-word-missing]",
                 violates: short!("M98\nM30\n"),
@@ -784,10 +784,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 },
             ],
         ),
-        gap(
+        held(
             "p. 361",
             "The operator's answer comes into the variable while the program waits in a loop.",
-            "M109 makes its variable (500 and 10500 are one) unknown: a loop that waits for it is no `endless-loop`, and what follows is reached",
+            "effect `ask-operator`",
             &[
                 Silent {
                     rule: "endless-loop",

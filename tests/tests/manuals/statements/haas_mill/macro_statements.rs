@@ -128,10 +128,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 ],
             )],
         ),
-        gap(
+        held(
             "p. 221",
             "ATAN takes one number, like the ATAN[ ]/[1] of other controls: a slash after it divides.",
-            "ATAN[1]/[-1] is 45 divided by -1, not the angle of a point; a warning may name what is probably meant. The text of the function says so already, the engine reads two arguments",
+            "`atan-takes-one`",
             &[moves(
                 "O1\nG20 G54 G0 G90\nX[ATAN[1]/[-1]]\nX[ATAN[1]/2]\nM30\n",
                 &["rapid X-45.", "rapid X22.5"],
@@ -386,10 +386,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 &["rapid X1."],
             )],
         ),
-        gap(
+        held(
             "p. 228",
             "Of a false IF the remainder of the block is passed over: calls and moves may be conditioned.",
-            "IF [..] G65 P.. without THEN is read as with it, as this control does in practice: no error[if-without-consequence], and the call is made where the condition holds",
+            "`words-after-if`",
             &[
                 reports("O1\nG65 P2 A1.\nM30\nO2\nIF [#1 EQ 1] G65 P3 A2.\nM99\nO3\n#100=#1\nM99\n", &[]),
                 moves(

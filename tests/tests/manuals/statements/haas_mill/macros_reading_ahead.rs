@@ -28,10 +28,10 @@ pub(crate) const CHAPTER: Chapter = Chapter {
                 explains("M109", "code of the key pressed arrives in `#P`"),
             ],
         ),
-        gap(
+        held(
             "p. 192, 361",
             "M109 puts the operator's answer into the variable of P.",
-            "the variable is unknown after M109: no endless-loop where the program waits for it, both ways after a condition, and a run stops at a condition on it",
+            "effect `ask-operator`",
             &[
                 reports(
                     "O1\n#501=0\nM109 P501 (GO ON)\nWHILE [#501 EQ 0] DO1\nEND1\nIF [#501 EQ 89] GOTO5\nG4 P1.\nN5 M30\n",
