@@ -85,7 +85,9 @@ impl PathRule for LoopConditionUnchanged {
         };
         let control = cx.environment.control();
         if control.codes().any(|code| code.effect() == Effect::AskOperator)
-            && blocks_with(cx.program, cx.environment, BlockFlags::CODE).into_iter().any(|(_, place)| asks(&place))
+            && blocks_with(cx.program, cx.environment, BlockFlags::CODE)
+                .into_iter()
+                .any(|(_, place)| asks(&place))
         {
             return;
         }

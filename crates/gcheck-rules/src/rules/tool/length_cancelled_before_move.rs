@@ -92,7 +92,8 @@ impl PathRule for LengthCancelledBeforeMove {
         }
         let Some(to) = travel.programmed.get(Axis::Z) else { return };
         let rises_by = to - before;
-        if rises_by >= SHORTEST_TOOL {
+        // Where lengths are measured from the machine's zero, `Z0.` without one is the way home.
+        if rises_by >= SHORTEST_TOOL || to == 0.0 {
             return;
         }
         let off = cx.name_of_effect(Effect::LengthOff).unwrap_or_default();
@@ -104,6 +105,7 @@ impl PathRule for LengthCancelledBeforeMove {
                 format!("the tool comes down: its length was cancelled before this move (`{off}`)"),
             )
             .label("moves the spindle nose to this Z: the tool goes deeper by its length")
+            .assuming("length offsets are the lengths of tools, not distances from the machine's zero")
             .help(format!(
                 "go up in machine coordinates (`{machine} {off} Z0.`), or keep the length for this move"
             ));
