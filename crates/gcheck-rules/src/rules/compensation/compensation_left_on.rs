@@ -188,8 +188,24 @@ mod tests {
 
     #[test]
     fn a_control_that_refuses_the_end_makes_it_an_error() {
-        check_rule(&RULE, "haas-mill", "G41 D1 G1 X1. F10.\nY2.\nM30\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "G41 D1 G1 X1. F10.\nY2.\nM1\nG40 X0.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G41 D1 G1 X1. F10.\nY2.\nM30\n",
+            &expect![[r#"
+            3 | M30
+              | ^^^ error[compensation-left-on] cutter compensation is still on at the end of the program (`G41`)
+        "#]],
+        );
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G41 D1 G1 X1. F10.\nY2.\nM1\nG40 X0.\nM30\n",
+            &expect![[r#"
+            3 | M1
+              | ^^ warning[compensation-left-on] cutter compensation is still on at a stop of the program (`G41`)
+        "#]],
+        );
     }
 
     #[test]

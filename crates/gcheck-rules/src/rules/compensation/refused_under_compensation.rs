@@ -218,7 +218,18 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G90 G17\nG41 D1 G1 X1. F10.\nG18 G2 X2. Z-1. R1.\nG17 G1 X3.\nG2 X4. Y-1. R1. D2\nG103 P1\nG40 G1 X5.\nG41 D1 X6.\nG40 X7.\nG103\nG19\nG41 D1 Y1.\nG40 Y2.\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                3 | G18 G2 X2. Z-1. R1.
+                  | ^^^^^^^^^^^^^^^^^^^ error[refused-under-compensation] an arc outside the XY plane under cutter compensation
+                5 | G2 X4. Y-1. R1. D2
+                  | ^^^^^^^^^^^^^^^^^^ error[refused-under-compensation] another offset on an arc under cutter compensation
+                6 | G103 P1
+                  | ^^^^^^^ error[refused-under-compensation] the control refuses a limit of reading ahead under cutter compensation
+                8 | G41 D1 X6.
+                  | ^^^^^^^^^^ error[refused-under-compensation] cutter compensation begins while reading ahead is limited
+                12 | G41 D1 Y1.
+                   | ^^^^^^^^^^ error[refused-under-compensation] cutter compensation does not work in this plane
+            "#]],
         );
     }
 

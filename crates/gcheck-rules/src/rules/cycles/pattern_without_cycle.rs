@@ -80,7 +80,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G90 G54 G0 X0. Y0. Z1.\nG81 G99 Z-.5 R.1 F6.5 L0\nG80\nG71 I5. K30. L3\nG81 G72 I5. L3 Z-.5 R.1\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G71 I5. K30. L3
+                  | ^^^ warning[pattern-without-cycle] a pattern of holes without a canned cycle
+            "#]],
         );
     }
 }

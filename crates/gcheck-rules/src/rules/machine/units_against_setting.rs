@@ -25,7 +25,7 @@ declare_rule! {
         severity: Error,
         tier: Block,
         since: "0.1.0",
-        run: Run::Block { trigger: BlockFlags::CODE, check },
+        run: Run::BlockAndValues { trigger: BlockFlags::CODE, check },
     }
 }
 
@@ -71,6 +71,15 @@ mod tests {
         check_rule(&RULE, "haas-mill", "G20\nG21\n", &expect![[""]]);
         let mut metric = World::default();
         metric.machine.settings.insert("9".to_owned(), "mm".to_owned());
-        check_rule_in(&RULE, "haas-mill", "G21\nG20 G0 X1.\n", &metric, &expect![[""]]);
+        check_rule_in(
+            &RULE,
+            "haas-mill",
+            "G21\nG20 G0 X1.\n",
+            &metric,
+            &expect![[r#"
+            2 | G20 G0 X1.
+              | ^^^ error[units-against-setting] the control is set to the other unit: `G20` is an alarm
+        "#]],
+        );
     }
 }

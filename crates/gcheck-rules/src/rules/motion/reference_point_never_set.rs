@@ -83,6 +83,14 @@ mod tests {
     #[test]
     fn a_program_that_is_called_may_rest_on_its_caller() {
         check_rule(&RULE, "haas-mill", "G29 X1.\nM99\n", &expect![[""]]);
-        check_rule(&RULE, "haas-mill", "G29 X1.\nM30\n", &expect![[""]]);
+        check_rule(
+            &RULE,
+            "haas-mill",
+            "G29 X1.\nM30\n",
+            &expect![[r#"
+            1 | G29 X1.
+              | ^^^ warning[reference-point-never-set] the tool returns by a point that the program did not set before (no `G28`)
+        "#]],
+        );
     }
 }

@@ -89,7 +89,10 @@ mod tests {
             &RULE,
             "fanuc-mill",
             "G17 G90 G54\nG68 X0. Y0. R30.\nG41 D1 G1 X10. F100.\nG69\nG40 X0.\nG69\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                4 | G69
+                  | ^^^ warning[rotation-under-compensation] a rotation ends under cutter compensation (`G69` under `G41`)
+            "#]],
         );
     }
 }

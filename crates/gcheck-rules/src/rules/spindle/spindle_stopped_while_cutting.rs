@@ -442,9 +442,9 @@ mod tests {
             "linuxcnc",
             "G21 G95 S900\nG1 X1 F0.1\nM2\n",
             &expect![[r#"
-            2 | G1 X1 F0.1
-              | ^^^^^^^^^^ info[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
-        "#]],
+                2 | G1 X1 F0.1
+                  | ^^^^^^^^^^ warning[spindle-stopped-while-cutting] feed per turn of a spindle that was not started (no `M3`)
+            "#]],
         );
     }
 

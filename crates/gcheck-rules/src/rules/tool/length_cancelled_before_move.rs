@@ -130,7 +130,10 @@ mod tests {
             &RULE,
             "haas-mill",
             "G20 G90 G54 G0 X0. Y0.\nG43 H1 Z.1\nG49\nX2.\nZ2.\nZ3.\nG43 H1 Z.1\nG49 Z10.\nG43 H1 Z.1\nG49\nG28 G91 Z0.\nG90\nM30\n",
-            &expect![[""]],
+            &expect![[r#"
+                5 | Z2.
+                  | ^^^ warning[length-cancelled-before-move] the tool comes down: its length was cancelled before this move (`G49`)
+            "#]],
         );
     }
 }

@@ -185,7 +185,7 @@ pub(crate) const CHAPTER: Chapter = Chapter {
             &[
                 reports("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", &[]),
                 reports("O1\n#3002=0\nWHILE [#3002 LT 1] DO1\nEND1\nG4 P1.\nM30\n", &[]),
-                stops("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", "depends on `#3001`"),
+                stops("O1\n#3001=0\nWH [#3001 LT 500] DO1\nEND1\nG4 P1.\nM30\n", "depends on an unknown value"),
             ],
         ),
         held(
