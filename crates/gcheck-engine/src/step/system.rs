@@ -275,24 +275,7 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             | SystemValue::ToolRadius
             | SystemValue::ToolLengthWear
             | SystemValue::ToolDiameterWear => {
-                let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
-                let tool = first.parse::<u32>().unwrap_or(1) + column;
-                let value = self.millimetres_of_table(Axis::Z, known.unwrap_or(f64::NAN), state);
-                let entry = state.offsets.tables_mut().tool_mut(tool);
-                match variable.holds {
-                    SystemValue::ToolLength => {
-                        entry.offset.set(Axis::Z, value);
-                        for axis in [Axis::X, Axis::Y] {
-                            if entry.offset.raw(axis).is_nan() {
-                                entry.offset.set(axis, 0.0);
-                            }
-                        }
-                    }
-                    SystemValue::ToolDiameter => entry.diameter = gcheck_geometry::Mm(value),
-                    SystemValue::ToolLengthWear => entry.wear[0] = value,
-                    SystemValue::ToolDiameterWear => entry.wear[1] = value,
-                    _ => entry.diameter = gcheck_geometry::Mm(value * 2.0),
-                }
+                self.write_tool_value(number, variable, column, known.unwrap_or(f64::NAN), state)?;
             }
             SystemValue::Shift => {
                 if let Some(axis) = axis {
@@ -309,6 +292,36 @@ impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
             _ => self.write_plain(number, value, state),
         }
         Ok(None)
+    }
+
+    /// Writes a tool's length or size, or the wear of one.
+    fn write_tool_value(
+        &mut self,
+        number: u32,
+        variable: &SystemVariable,
+        column: u32,
+        value: f64,
+        state: &mut State<D>,
+    ) -> Step {
+        let Some(first) = &variable.of else { return Err(Fault::ReadOnlyVariable(number)) };
+        let tool = first.parse::<u32>().unwrap_or(1) + column;
+        let value = self.millimetres_of_table(Axis::Z, value, state);
+        let entry = state.offsets.tables_mut().tool_mut(tool);
+        match variable.holds {
+            SystemValue::ToolLength => {
+                entry.offset.set(Axis::Z, value);
+                for axis in [Axis::X, Axis::Y] {
+                    if entry.offset.raw(axis).is_nan() {
+                        entry.offset.set(axis, 0.0);
+                    }
+                }
+            }
+            SystemValue::ToolDiameter => entry.diameter = gcheck_geometry::Mm(value),
+            SystemValue::ToolLengthWear => entry.wear[0] = value,
+            SystemValue::ToolDiameterWear => entry.wear[1] = value,
+            _ => entry.diameter = gcheck_geometry::Mm(value * 2.0),
+        }
+        Ok(())
     }
 
     pub(super) fn millimetres_of_table(&self, axis: Axis, value: f64, state: &State<D>) -> f64 {

@@ -183,8 +183,9 @@ fn refused_in_block(cx: &PathCx<'_>, refusals: &CompensationRefusals, begins: bo
             "select `G17` before compensation is switched on",
         ));
     }
-    let changes =
-        cx.known_number('D').is_some_and(|d| Abstract::known(cx.state().d()).is_some_and(|old| old != d));
+    let changes = cx
+        .known_number('D')
+        .is_some_and(|d| Abstract::known(cx.state().d()).is_some_and(|old| (old - d).abs() > 1e-9));
     (refusals.offset_on_arc && is_arc && !begins && changes).then_some((
         "another offset on an arc under cutter compensation",
         "the offset cannot change on an arc",

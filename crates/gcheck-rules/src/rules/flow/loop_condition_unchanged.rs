@@ -85,9 +85,7 @@ impl PathRule for LoopConditionUnchanged {
         };
         let control = cx.environment.control();
         if control.codes().any(|code| code.effect() == Effect::AskOperator)
-            && blocks_with(cx.program, cx.environment, BlockFlags::CODE)
-                .into_iter()
-                .any(|(_, place)| asks(&place))
+            && blocks_with(cx.program, cx.environment, BlockFlags::CODE).any(|(_, place)| asks(&place))
         {
             return;
         }
