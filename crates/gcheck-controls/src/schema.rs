@@ -540,6 +540,10 @@ pub struct CodeEntry {
 /// A word as one code reads it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent yes/no facts of a word, named one by one in data"
+)]
 pub struct WordEntry {
     /// The address, upper case; `,R` and `,C` for corner words.
     pub letter: String,

@@ -17,7 +17,6 @@ use crate::value::Domain;
 /// X, Y and Z, in the order of the arrays of [`Transform`].
 const XYZ: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 
-#[expect(clippy::unnecessary_wraps, reason = "handlers of effects share one signature")]
 #[expect(clippy::unused_self, reason = "the parts of a step read as its methods")]
 impl<D: Domain, O: Observer<D>> Executor<'_, '_, D, O> {
     /// `G50`, `G51`, `G68`, `G69`, mirrors.
